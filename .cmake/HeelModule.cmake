@@ -1,0 +1,35 @@
+# How a module of Heel is built, and with which flags.
+
+find_program(HEEL_CCACHE ccache)
+if(HEEL_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${HEEL_CCACHE}")
+endif()
+
+# Our own code's flags; private to the build tree, never exported.
+add_library(heel_flags INTERFACE)
+target_compile_options(heel_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Woverloaded-virtual
+  $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)
+if(PROJECT_IS_TOP_LEVEL)
+  target_compile_options(heel_flags INTERFACE -Werror)
+endif()
+if(HEEL_SANITIZE)
+  target_compile_options(heel_flags INTERFACE
+    -fsanitize=${HEEL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(heel_flags INTERFACE -fsanitize=${HEEL_SANITIZE})
+endif()
+
+# heel_module(NAME SOURCES ... HEADERS ... PUBLIC targets... PRIVATE targets...)
+# makes the library heel::NAME from the current folder.
+function(heel_module name)
+  cmake_parse_arguments(PARSE_ARGV 1 M "" "" "SOURCES;HEADERS;PUBLIC;PRIVATE")
+  add_library(heel_${name} ${M_SOURCES})
+  add_library(heel::${name} ALIAS heel_${name})
+  set_target_properties(heel_${name} PROPERTIES
+    EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON CXX_EXTENSIONS OFF)
+  target_sources(heel_${name} PUBLIC
+    FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${M_HEADERS})
+  target_compile_features(heel_${name} PUBLIC cxx_std_17)
+  target_link_libraries(heel_${name}
+    PUBLIC ${M_PUBLIC} PRIVATE ${M_PRIVATE} $<BUILD_INTERFACE:heel_flags>)
+endfunction()

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// A rectified pinhole camera.
+#pragma once
+
+namespace heel {
+
+/// Intrinsics of a rectified camera without distortion, in pixels.
+///
+/// Optical frame: Z forward, X right, Y down; u = fx X / Z + cx, v = fy Y / Z + cy.
+struct PinholeCamera {
+  int width = 0;
+  int height = 0;
+  double fx = 0.0;
+  double fy = 0.0;
+  double cx = 0.0;
+  double cy = 0.0;
+};
+
+/// A rectified stereo pair: the left camera, and what turns a disparity into a depth.
+///
+/// Z = fx * baseline_m / (disparity + disparity_offset), with disparity = u_left - u_right.
+struct StereoCamera {
+  PinholeCamera left;
+  double baseline_m = 0.0;        ///< Distance between the two centres, > 0.
+  double disparity_offset = 0.0;  ///< cx_right - cx_left [px] ("doffs"); 0 for parallel views.
+};
+
+}  // namespace heel
