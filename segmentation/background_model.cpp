@@ -39,7 +39,8 @@ inline float disparityOf(float depth_m) { return depth_m > 0.0F ? 1.0F / depth_m
 void extractRow(int width, float gain, const float* __restrict depth_m,
                 const std::uint8_t* __restrict gray, const float* __restrict disparity,
                 const float* __restrict disparity_tolerance, const float* __restrict intensity,
-                const float* __restrict intensity_tolerance, std::uint8_t* __restrict mask) {
+                const float* __restrict intensity_tolerance, std::uint8_t* __restrict changed,
+                std::uint8_t* __restrict mask) {
   for (int u = 0; u < width; ++u) {
     const float now = disparityOf(depth_m[u]);
     const int front = now - disparity[u] > disparity_tolerance[u];
@@ -47,6 +48,7 @@ void extractRow(int width, float gain, const float* __restrict depth_m,
     const int decided = static_cast<int>(now > 0.0F) & static_cast<int>(disparity[u] > 0.0F);
     const float change = static_cast<float>(gray[u]) - gain * intensity[u];
     const int differs = std::abs(change) > intensity_tolerance[u];
+    changed[u] = static_cast<std::uint8_t>(differs);
     const int shown = front | (differs & (1 - decided));
     mask[u] = static_cast<std::uint8_t>(shown * (front + 2 * differs));
   }
@@ -159,12 +161,14 @@ void BackgroundModel::extract(const cv::Mat& image_bgr, const cv::Mat& depth_m,
   checkFrame(image_bgr, depth_m, disparity_.size());
   cv::cvtColor(image_bgr, out.gray, cv::COLOR_BGR2GRAY);
   out.mask.create(image_bgr.size(), CV_8UC1);
+  out.changed.create(image_bgr.size(), CV_8UC1);
   estimateGain(depth_m, out);
   for (int v = 0; v < depth_m.rows; ++v) {
     extractRow(depth_m.cols, static_cast<float>(out.gain), depth_m.ptr<float>(v),
                out.gray.ptr<std::uint8_t>(v), disparity_.ptr<float>(v),
                disparity_tolerance_.ptr<float>(v), intensity_.ptr<float>(v),
-               intensity_tolerance_.ptr<float>(v), out.mask.ptr<std::uint8_t>(v));
+               intensity_tolerance_.ptr<float>(v), out.changed.ptr<std::uint8_t>(v),
+               out.mask.ptr<std::uint8_t>(v));
   }
   out.pixels = cv::countNonZero(out.mask);
 }

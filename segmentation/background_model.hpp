@@ -30,6 +30,7 @@ struct Foreground {
   static constexpr std::uint8_t kOtherIntensity = 2;  ///< Intensity differs.
 
   cv::Mat mask;       ///< CV_8UC1, the bits above.
+  cv::Mat changed;    ///< CV_8UC1, not 0 where the intensity differs, be it only a shadow.
   cv::Mat gray;       ///< CV_8UC1, the frame's intensity.
   double gain = 1.0;  ///< How much brighter than the background the camera exposed this frame.
   int pixels = 0;     ///< How many are foreground.

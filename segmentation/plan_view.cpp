@@ -25,19 +25,19 @@ int gridWidth(const PlanViewParams& params) {
 
 }  // namespace
 
-PlanView::PlanView(const PlanViewParams& params, const Viewpoint& viewpoint)
+PlanView::PlanView(const PlanViewParams& params, const PlanViewCamera& camera)
     : cell_size_m_(params.cell_size_m),
       cells_per_m_(static_cast<float>(1.0 / params.cell_size_m)),
       origin_m_(static_cast<float>(-params.max_range_m - params.cell_size_m)),
       limit_(static_cast<float>(gridWidth(params) - 1)),
       width_(gridWidth(params)),
-      camera_m_(viewpoint.position_m.cast<float>()),
+      camera_m_(camera.position_m.cast<float>()),
       area_per_square_m_(
-          static_cast<float>(1.0 / (viewpoint.focal_length_px * viewpoint.focal_length_px))),
+          static_cast<float>(1.0 / (camera.focal_length_px * camera.focal_length_px))),
       cells_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(width_)) {
-  if (!viewpoint.position_m.allFinite() || !(viewpoint.focal_length_px > 0.0) ||
-      !std::isfinite(viewpoint.focal_length_px)) {
-    throw std::invalid_argument("plan view: the viewpoint must be finite, its focal length > 0");
+  if (!camera.position_m.allFinite() || !(camera.focal_length_px > 0.0) ||
+      !std::isfinite(camera.focal_length_px)) {
+    throw std::invalid_argument("plan view: the camera must be finite, its focal length > 0");
   }
   occupied_.reserve(cells_.size() / 8);
 }

@@ -23,7 +23,7 @@ struct PlanViewParams {
 
 /// From where the points were seen. A pixel at distance d stands for a surface of (d / f)^2, so
 /// that a blob's area, unlike its points, does not depend on its range.
-struct Viewpoint {
+struct PlanViewCamera {
   Eigen::Vector3d position_m = {0.0, 0.0, 1.0};  ///< The camera, in the cloud's frame.
   double focal_length_px = 525.0;                ///< Of the image that the points come from.
 };
@@ -42,7 +42,7 @@ class PlanView {
  public:
   /// @throws std::invalid_argument  if a size is not positive and finite, or the grid has more than
   ///                                2^24 cells.
-  explicit PlanView(const PlanViewParams& params = {}, const Viewpoint& viewpoint = {});
+  explicit PlanView(const PlanViewParams& params = {}, const PlanViewCamera& camera = {});
 
   /// Projects the points named by `indices` onto the floor; z is their height.
   ///

@@ -37,11 +37,13 @@ WorldBlobFinder::WorldBlobFinder(const WorldBlobParams& params) : params_(params
   if (params.min_points < 1 || !(params.min_area_m2 >= 0.0)) {
     throw std::invalid_argument("world blobs: need min_points >= 1 and min_area_m2 >= 0");
   }
-  if (!(params.smoothing_m >= 0.0 && params.smoothing_m <= 1.0) ||
+  if (!(params.max_gap_m >= 0.0 && params.max_gap_m <= 1.0) ||
+      !(params.smoothing_m >= 0.0 && params.smoothing_m <= 1.0) ||
       !(params.min_separation_m >= 0.0) ||
       !(params.max_valley >= 0.0 && params.max_valley <= 1.0)) {
     throw std::invalid_argument(
-        "world blobs: need smoothing_m and max_valley in [0, 1] and min_separation_m >= 0");
+        "world blobs: need max_gap_m, smoothing_m and max_valley in [0, 1] and min_separation_m >= "
+        "0");
   }
 }
 
@@ -54,9 +56,10 @@ void WorldBlobFinder::find(const PlanView& view, std::vector<WorldBlob>& blobs) 
   } else {
     for (const int cell : touched_) labels_[static_cast<std::size_t>(cell)] = kNone;
   }
-  if (kernel_cell_size_m_ != view.cellSize()) {
-    kernel_cell_size_m_ = view.cellSize();
+  if (cell_size_m_ != view.cellSize()) {
+    cell_size_m_ = view.cellSize();
     min_separation_cells_ = params_.min_separation_m / view.cellSize();
+    reach_ = 1 + static_cast<int>(params_.max_gap_m / view.cellSize() + 1e-6);
     const double sigma = params_.smoothing_m / view.cellSize();
     kernel_.assign(static_cast<std::size_t>(std::ceil(2.0 * sigma)) + 1, 1.0F);
     for (std::size_t i = 1; i < kernel_.size(); ++i) {
@@ -97,8 +100,14 @@ WorldBlobFinder::Box WorldBlobFinder::collect(const PlanView& view, int seed) {
     box.last_row = std::max(box.last_row, cell / width);
     box.first_column = std::min(box.first_column, cell % width);
     box.last_column = std::max(box.last_column, cell % width);
-    for (int row = -width; row <= width; row += width) {
-      for (int neighbour = cell + row - 1; neighbour <= cell + row + 1; ++neighbour) {
+    // Rows and columns that exist; the view's outermost ring is always empty.
+    const int up = std::min(reach_, cell / width);
+    const int down = std::min(reach_, width - 1 - cell / width);
+    const int left = std::min(reach_, cell % width);
+    const int right = std::min(reach_, width - 1 - cell % width);
+    for (int row = -up; row <= down; ++row) {
+      for (int column = -left; column <= right; ++column) {
+        const int neighbour = cell + row * width + column;
         int& label = labels_[static_cast<std::size_t>(neighbour)];
         if (label != kPending) continue;
         label = kNone;

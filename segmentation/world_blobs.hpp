@@ -31,9 +31,10 @@ struct WorldBlob {
 /// The defaults let partial bodies through, as behind the colour filter. A component is split at
 /// the peaks of its surface map, smoothed to the size of a body, if there is a valley between them.
 struct WorldBlobParams {
-  int min_points = 10;             ///< Fewer are noise.
-  double min_area_m2 = 0.01;       ///< Less is noise (a hand has about 0.015).
-  bool split = true;               ///< Off: the paper's plain connected components.
+  int min_points = 10;        ///< Fewer are noise.
+  double min_area_m2 = 0.01;  ///< Less is noise (a hand has about 0.015).
+  double max_gap_m = 0.05;    ///< Cells that far apart, edge to edge, are still one; 0: they touch.
+  bool split = true;          ///< Off: the paper's plain connected components.
   double smoothing_m = 0.075;      ///< Standard deviation of the Gaussian on the surface map.
   double min_separation_m = 0.35;  ///< Two people's centres are not closer.
   double max_valley = 0.9;         ///< Lowest value between two peaks, over the lower peak's.
@@ -64,8 +65,7 @@ class WorldBlobFinder {
   /// @throws std::invalid_argument  if a parameter is out of its range.
   explicit WorldBlobFinder(const WorldBlobParams& params = {});
 
-  /// The blobs of a plan view (cells that touch at an edge or a corner are one), highest score
-  /// first. `blobs` is overwritten.
+  /// The blobs of a plan view, highest score first. `blobs` is overwritten.
   void find(const PlanView& view, std::vector<WorldBlob>& blobs);
 
   /// The blob (index into the last `blobs`) that owns a cell of the last plan view, or -1.
@@ -90,9 +90,10 @@ class WorldBlobFinder {
   void sortByScore(std::vector<WorldBlob>& blobs);
 
   WorldBlobParams params_;
+  double cell_size_m_ = 0.0;  // of the last view; the next three follow from it
+  int reach_ = 1;             // cells this near are one component
   double min_separation_cells_ = 0.0;
-  double kernel_cell_size_m_ = 0.0;  // for which cell size the kernel was made
-  std::vector<float> kernel_;        // half of the Gaussian: [0] is the centre
+  std::vector<float> kernel_;  // half of the Gaussian: [0] is the centre
 
   std::vector<int> labels_;               // per cell: blob, or one of the marks in the source
   std::vector<int> touched_;              // cells whose label has been set
