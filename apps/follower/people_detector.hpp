@@ -42,6 +42,11 @@ class PeopleDetector {
   /// @throws std::invalid_argument  if a parameter is out of its range.
   PeopleDetector(const PinholeCamera& camera, const Eigen::Isometry3d& T_base_camera,
                  const PeopleDetectorParams& params = {});
+  // A copy would share the view's cloud.
+  PeopleDetector(const PeopleDetector&) = delete;
+  PeopleDetector& operator=(const PeopleDetector&) = delete;
+  PeopleDetector(PeopleDetector&&) = default;
+  PeopleDetector& operator=(PeopleDetector&&) = default;
 
   /// @return  Valid until the next call.
   /// @throws std::invalid_argument  if the images do not fit the background.
