@@ -74,7 +74,7 @@ struct Scene {
 };
 
 const Scene& peopled() {
-  static const Scene scene({{2.6, -0.9}, {3.0, 0.1}, {3.8, 0.9}});
+  static const Scene scene({{2.6, -0.9}, {3.8, 0.9}});
   return scene;
 }
 
