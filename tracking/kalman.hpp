@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// Constant-velocity Kalman filter on the floor, as pure functions.
+/// Kalman filter of a person walking on the floor, as pure functions.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,11 +18,14 @@ struct MotionState {
   Eigen::Vector2d velocity_mps() const { return mean.tail<2>(); }
 };
 
-/// How far people depart from constant velocity.
+/// How people walk: they hold their velocity, forget it over time, and change it at random.
 struct MotionParams {
   /// Power spectral density of the white acceleration, per axis [m^2/s^3]: in a second the
-  /// velocity's standard deviation grows by its square root.
-  double acceleration_density = 1.0;
+  /// velocity's standard deviation grows by about its square root.
+  double acceleration_density = 0.8;
+  /// Time in which a velocity is expected to fall to 1/e, as people stop sooner or later.
+  /// Infinity: the constant-velocity model.
+  double velocity_memory_s = 1.0;
 };
 
 /// What a measured place says beside the predicted one.
@@ -36,8 +39,8 @@ struct Innovation {
 MotionState startMotion(const Eigen::Vector2d& position_m, const Eigen::Matrix2d& position_noise_m2,
                         double speed_sigma_mps);
 
-/// Moves the state on by `dt_s`, with the exactly integrated noise of a white acceleration:
-/// predict(a) then predict(b) is predict(a + b).
+/// Moves the state on by `dt_s`: dv = -v / memory dt + white acceleration, dx = v dt, integrated
+/// exactly, noise too, so that predict(a) then predict(b) is predict(a + b).
 /// @throws std::invalid_argument  if `dt_s` is negative or not finite.
 MotionState predict(const MotionState& state, double dt_s, const MotionParams& params = {});
 

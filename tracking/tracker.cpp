@@ -7,9 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
-#include <string>
 #include <tuple>
 #include <utility>
 
@@ -17,37 +15,14 @@ namespace heel {
 namespace {
 
 constexpr double kTwoPi = 6.283185307179586;
-constexpr double kLeastScoreShare = 1e-3;  // A score of 0 counts as this share of the best.
+constexpr double kStampTolerance_s = 1e-6;  // Sums of decimal stamps are not exact.
+constexpr double kLeastAppearance = 0.01;   // Less says no more.
+constexpr double kLeastScoreShare = 1e-3;   // A score of 0 counts as this share of the best.
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
-void require(bool holds, const char* what) {
-  if (!holds) {
-    throw std::invalid_argument(std::string("TrackerParams: ") + what);
-  }
-}
-
-void check(const TrackerParams& p) {
-  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
-  const auto probability = [](double value) { return value > 0.0 && value < 1.0; };
-  require(positive(p.motion.acceleration_density), "acceleration_density must be positive");
-  require(positive(p.position_sigma_m), "position_sigma_m must be positive");
-  require(positive(p.start_speed_sigma_mps), "start_speed_sigma_mps must be positive");
-  require(probability(p.gate_prob), "gate_prob must be between 0 and 1");
-  require(p.max_residual_m > 0.0, "max_residual_m must be positive");
-  require(probability(p.detection_prob), "detection_prob must be between 0 and 1");
-  require(positive(p.new_density_per_m2), "new_density_per_m2 must be positive");
-  require(std::isfinite(p.score_weight) && p.score_weight >= 0.0,
-          "score_weight must not be negative");
-  require(p.appearance_sigma > 0.0, "appearance_sigma must be positive");
-  require(p.appearance_gain > 0.0 && p.appearance_gain <= 1.0, "appearance_gain must be in (0, 1]");
-  require(std::isfinite(p.birth_clearance_m) && p.birth_clearance_m >= 0.0,
-          "birth_clearance_m must not be negative");
-  require(p.confirm_hits >= 1 && p.confirm_hits <= p.confirm_frames,
-          "confirm_hits must be between 1 and confirm_frames");
-  require(p.confirm_frames <= 32, "confirm_frames must be at most 32");
-  require(positive(p.max_coast_s), "max_coast_s must be positive");
-  require(positive(p.max_gap_s), "max_gap_s must be positive");
+double logAppearance(const Observation& observation) {
+  return std::log(std::clamp(observation.appearance, kLeastAppearance, 1.0));
 }
 
 int countSeen(std::uint32_t history, int frames) {
@@ -60,35 +35,9 @@ int countSeen(std::uint32_t history, int frames) {
 
 }  // namespace
 
-const char* toText(TrackStatus status) {
-  switch (status) {
-    case TrackStatus::kTentative:
-      return "tentative";
-    case TrackStatus::kConfirmed:
-      return "confirmed";
-    case TrackStatus::kCoasting:
-      return "coasting";
-  }
-  return "unknown";
-}
-
-const char* toText(StepStatus status) {
-  switch (status) {
-    case StepStatus::kFirst:
-      return "first frame";
-    case StepStatus::kRegular:
-      return "regular";
-    case StepStatus::kGap:
-      return "gap in time";
-    case StepStatus::kSkipped:
-      return "skipped: stamp not later than the one before";
-  }
-  return "unknown";
-}
-
 Tracker::Tracker(const TrackerParams& params, GeometricGate gate)
     : params_(params), gate_(std::move(gate)) {
-  check(params_);
+  checkParams(params_);
   noise_m2_ = Eigen::Matrix2d::Identity() * (params_.position_sigma_m * params_.position_sigma_m);
   gate_limit_ = chiSquare2Quantile(params_.gate_prob);
   // With this constant a pair costs more than 0 (the cost of leaving it) exactly where "unseen, and
@@ -215,8 +164,9 @@ void Tracker::fillCosts(int row, const Track& track, const std::vector<Observati
     if (distance2 > gate_limit_ || seen.residual_m.norm() > params_.max_residual_m) {
       continue;
     }
-    const double unlike = (o.appearance - track.appearance) / params_.appearance_sigma;
-    costs_(row, column) = base_cost_ + distance2 + unlike * unlike +
+    const double unlike = (logAppearance(o) - track.log_appearance) / params_.log_appearance_sigma;
+    costs_(row, column) = base_cost_ + distance2 +
+                          std::min(unlike * unlike, params_.max_unlikeness) +
                           std::log(kTwoPi * kTwoPi * seen.covariance_m2.determinant());
     best_score = std::max(best_score, o.score);
   }
@@ -236,8 +186,7 @@ void Tracker::updateTracks(double stamp_s, const std::vector<Observation>& obser
       track.seen_s = stamp_s;
       ++track.hits;
       track.score = o.score;
-      const double gain = std::max(params_.appearance_gain, 1.0 / track.hits);
-      track.appearance += gain * (o.appearance - track.appearance);
+      track.log_appearance += params_.appearance_gain * (logAppearance(o) - track.log_appearance);
     }
     if (track.status != TrackStatus::kTentative ||
         countSeen(track.history, params_.confirm_frames) >= params_.confirm_hits) {
@@ -252,7 +201,7 @@ void Tracker::endTracks(double stamp_s) {
       // Its first frame's bit, a 1, has moved up by one place each frame.
       return (track.history >> (params_.confirm_frames - 1)) != 0;
     }
-    return stamp_s - track.seen_s > params_.max_coast_s;
+    return stamp_s - track.seen_s > params_.max_coast_s + kStampTolerance_s;
   };
   for (const Track& track : tracks_) {
     if (ends(track) && track.status != TrackStatus::kTentative) {
@@ -260,6 +209,16 @@ void Tracker::endTracks(double stamp_s) {
     }
   }
   tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(), ends), tracks_.end());
+}
+
+Track& Tracker::startTrack(double stamp_s, const Eigen::Vector2d& position_m,
+                           double log_appearance) {
+  Track& track = tracks_.emplace_back();
+  track.id = next_id_++;
+  track.motion = startMotion(position_m, noise_m2_, params_.start_speed_sigma_mps);
+  track.born_s = track.seen_s = stamp_s;
+  track.log_appearance = log_appearance;
+  return track;
 }
 
 /// Starts a track on each observation that no track took and that is no fragment of one.
@@ -281,21 +240,47 @@ void Tracker::startTracks(double stamp_s, const std::vector<Observation>& observ
       ++report_.fragments;
       continue;
     }
-    Track track;
-    track.id = next_id_++;
-    track.motion = startMotion(o.position_m, noise_m2_, params_.start_speed_sigma_mps);
-    track.born_s = track.seen_s = stamp_s;
+    Track& track = startTrack(stamp_s, o.position_m, logAppearance(o));
     track.observation = index;
     track.hits = 1;
     track.score = o.score;
-    track.appearance = o.appearance;
     track.history = 1;
     track.status = params_.confirm_hits == 1 ? TrackStatus::kConfirmed : TrackStatus::kTentative;
-    tracks_.push_back(track);
     use.fate = ObservationFate::kBorn;
     use.track_id = track.id;
     ++report_.born;
   }
+}
+
+int Tracker::addTrack(const Eigen::Vector2d& position_m) {
+  if (!position_m.allFinite()) {
+    throw std::invalid_argument("Tracker: the place of a track is not finite");
+  }
+  if (!stamp_s_) {
+    throw std::logic_error("Tracker: a track can't be added before the first step");
+  }
+  Track& track = startTrack(*stamp_s_, position_m, logAppearance(Observation()));
+  track.status = TrackStatus::kCoasting;
+  return track.id;
+}
+
+void Tracker::confirmTrack(int id) {
+  const Track* found = findTrack(id);
+  if (found == nullptr) {
+    throw std::invalid_argument("Tracker: there is no such track");
+  }
+  Track& track = tracks_[static_cast<std::size_t>(found - tracks_.data())];
+  if (track.status == TrackStatus::kTentative) {
+    track.status =
+        track.observation == Track::kUnseen ? TrackStatus::kCoasting : TrackStatus::kConfirmed;
+  }
+}
+
+const Track* Tracker::findTrack(int id) const {
+  const auto found =
+      std::lower_bound(tracks_.begin(), tracks_.end(), id,
+                       [](const Track& track, int wanted) { return track.id < wanted; });
+  return found != tracks_.end() && found->id == id ? &*found : nullptr;
 }
 
 }  // namespace heel

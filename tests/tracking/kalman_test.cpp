@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 #include <stdexcept>
 
@@ -14,6 +15,7 @@ namespace heel {
 namespace {
 
 const Eigen::Matrix2d kNoise = Eigen::Matrix2d::Identity() * 0.01;
+constexpr double kForever = std::numeric_limits<double>::infinity();
 
 double smallestEigenvalue(const Eigen::MatrixXd& symmetric) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvalues().minCoeff();
@@ -36,13 +38,14 @@ TEST(Kalman, StartsAtThePlaceWithAnUnknownVelocity) {
 TEST(Kalman, PredictMovesAlongTheVelocity) {
   MotionState state;
   state.mean << 1.0, 2.0, 0.5, -0.25;
-  EXPECT_TRUE(predict(state, 2.0).mean.isApprox(Eigen::Vector4d(2.0, 1.5, 0.5, -0.25)));
+  EXPECT_TRUE(
+      predict(state, 2.0, {1.0, kForever}).mean.isApprox(Eigen::Vector4d(2.0, 1.5, 0.5, -0.25)));
 }
 
 TEST(Kalman, PredictAddsTheIntegratedNoise) {
   MotionState state;
   state.covariance.setZero();
-  const Eigen::Matrix4d q = predict(state, 2.0, {3.0}).covariance;
+  const Eigen::Matrix4d q = predict(state, 2.0, {3.0, kForever}).covariance;
   EXPECT_NEAR(q(0, 0), 3.0 * 8.0 / 3.0, 1e-12);
   EXPECT_NEAR(q(0, 2), 3.0 * 4.0 / 2.0, 1e-12);
   EXPECT_NEAR(q(2, 2), 3.0 * 2.0, 1e-12);
@@ -50,13 +53,41 @@ TEST(Kalman, PredictAddsTheIntegratedNoise) {
   EXPECT_EQ(q(0, 3), 0.0);
 }
 
+TEST(Kalman, PredictForgetsTheVelocity) {
+  MotionState state;
+  state.mean << 1.0, 0.0, 1.0, 0.0;
+  // After a time constant 1/e of the velocity is left; in the end it has gone its time constant.
+  EXPECT_NEAR(predict(state, 0.5, {1.0, 0.5}).mean(2), std::exp(-1.0), 1e-12);
+  EXPECT_NEAR(predict(state, 50.0, {1.0, 0.5}).mean(0), 1.5, 1e-12);
+  // The velocity's noise settles at density * memory / 2.
+  EXPECT_NEAR(predict(state, 50.0, {1.2, 0.5}).covariance(2, 2), 0.3, 1e-12);
+}
+
+TEST(Kalman, LongMemoryIsConstantVelocity) {
+  const MotionState close = predict(somebody(), 0.7, {0.8, 1e9});
+  const MotionState exact = predict(somebody(), 0.7, {0.8, kForever});
+  EXPECT_TRUE(close.mean.isApprox(exact.mean, 1e-8));
+  EXPECT_TRUE(close.covariance.isApprox(exact.covariance, 1e-8));
+}
+
+TEST(Kalman, NoiseIsSmoothWhereItsSeriesEnds) {
+  MotionState sure;
+  sure.covariance.setZero();
+  const double below = predict(sure, 0.01 * (1.0 - 1e-12), {1.0, 1.0}).covariance(0, 0);
+  const double above = predict(sure, 0.01 * (1.0 + 1e-12), {1.0, 1.0}).covariance(0, 0);
+  EXPECT_NEAR(above / below, 1.0, 1e-8);
+}
+
 TEST(Kalman, PredictTwiceIsPredictOnceOverTheSum) {
-  for (const double a : {0.0, 0.033, 0.5, 2.0}) {
-    for (const double b : {0.01, 0.2, 1.5}) {
-      const MotionState twice = predict(predict(somebody(), a), b);
-      const MotionState once = predict(somebody(), a + b);
-      EXPECT_TRUE(twice.mean.isApprox(once.mean, 1e-12));
-      EXPECT_TRUE(twice.covariance.isApprox(once.covariance, 1e-12));
+  for (const double memory_s : {0.1, 1.0, 10.0, kForever}) {
+    for (const double a : {0.0, 0.033, 0.5, 2.0}) {
+      for (const double b : {0.001, 0.2, 1.5}) {
+        const MotionParams motion{0.8, memory_s};
+        const MotionState twice = predict(predict(somebody(), a, motion), b, motion);
+        const MotionState once = predict(somebody(), a + b, motion);
+        EXPECT_TRUE(twice.mean.isApprox(once.mean, 1e-12));
+        EXPECT_TRUE(twice.covariance.isApprox(once.covariance, 1e-10));
+      }
     }
   }
 }
@@ -99,7 +130,7 @@ TEST(Kalman, UpdateWeighsByTheCovariances) {
 }
 
 TEST(Kalman, InnovationsHaveTheirExpectedSizeOnSimulatedPeople) {
-  const MotionParams motion{0.7};
+  const MotionParams motion{0.7, kForever};
   const double dt_s = 0.2;
   std::mt19937 random(7);
   std::normal_distribution<double> normal;

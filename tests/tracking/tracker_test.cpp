@@ -26,13 +26,6 @@ Observation seen(double x, double y, double score = 10.0, double appearance = 0.
   return {{x, y}, score, appearance};
 }
 
-const Track* find(const Tracker& tracker, int id) {
-  const auto& tracks = tracker.tracks();
-  const auto it =
-      std::find_if(tracks.begin(), tracks.end(), [id](const Track& t) { return t.id == id; });
-  return it == tracks.end() ? nullptr : &*it;
-}
-
 TEST(Tracker, ConfirmsATrackSeenOftenEnough) {
   Tracker tracker;
   EXPECT_EQ(tracker.step(0.0, {seen(1, 0)}).born, 1);
@@ -72,17 +65,20 @@ TEST(Tracker, CoastsThenLosesAndNeverUsesAnIdAgain) {
 
 TEST(Tracker, KeepsTwoPeopleApartWhoCross) {
   Tracker tracker;
+  int right_goer = 0, left_goer = 0;
   for (int k = 0; k <= 30; ++k) {
     // Along x towards each other at 1 m/s, 0.3 m apart in y.
     const double along = 0.2 * k;
-    tracker.step(kDt_s * k, {seen(along, 0.0), seen(6.0 - along, 0.3)});
+    const TrackerReport& report =
+        tracker.step(kDt_s * k, {seen(along, 0.0), seen(6.0 - along, 0.3)});
+    if (k == 0) {
+      right_goer = report.uses[0].track_id;
+      left_goer = report.uses[1].track_id;
+    }
+    ASSERT_EQ(report.uses[0].track_id, right_goer) << "frame " << k;
+    ASSERT_EQ(report.uses[1].track_id, left_goer) << "frame " << k;
   }
-  ASSERT_EQ(tracker.tracks().size(), 2U);
-  EXPECT_NEAR(find(tracker, 1)->motion.mean.x() + find(tracker, 2)->motion.mean.x(), 6.0, 1e-6);
-  const double left_goer = find(tracker, 1)->motion.velocity_mps().x() < 0.0 ? 1 : 2;
-  // Whoever walked in +x at the start still does.
-  EXPECT_EQ(left_goer, find(tracker, 1)->motion.mean.x() < 3.0 ? 1 : 2);
-  EXPECT_NEAR(std::abs(find(tracker, 1)->motion.velocity_mps().x()), 1.0, 0.01);
+  EXPECT_EQ(tracker.tracks().size(), 2U);
 }
 
 TEST(Tracker, CarriesAnIdThroughAnOcclusion) {
@@ -97,7 +93,7 @@ TEST(Tracker, CarriesAnIdThroughAnOcclusion) {
   }
   ASSERT_EQ(tracker.tracks().size(), 1U);
   EXPECT_EQ(tracker.tracks().front().id, 1);
-  EXPECT_NEAR(tracker.tracks().front().motion.mean.x(), 0.15 * 25, 0.02);
+  EXPECT_NEAR(tracker.tracks().front().motion.mean.x(), 0.15 * 25, 0.05);
 }
 
 TEST(Tracker, LosesThePersonWhoLeavesAndKeepsTheOther) {
@@ -130,10 +126,10 @@ TEST(Tracker, EachObservationIsExplainedByItsOwnTrack) {
     tracker.step(kDt_s * k, {seen(0.1 * k, 0.0, 10.0), seen(1.1, 0.35, 10.0)});
   }
   const TrackerReport& report = tracker.step(2.0, {seen(1.1, 0.35)});
-  const Track* confuser = find(tracker, report.uses[0].track_id);
+  const Track* confuser = tracker.findTrack(report.uses[0].track_id);
   ASSERT_NE(confuser, nullptr);
   EXPECT_NEAR(confuser->motion.velocity_mps().norm(), 0.0, 0.05);
-  const Track* target = find(tracker, 3 - confuser->id);
+  const Track* target = tracker.findTrack(3 - confuser->id);
   ASSERT_NE(target, nullptr);
   EXPECT_EQ(target->status, TrackStatus::kCoasting);
 }
@@ -151,13 +147,40 @@ TEST(Tracker, AppearanceTellsTwoPeopleApartAtOnePlace) {
 }
 
 TEST(Tracker, TentativeTracksTakeWhatTheOthersLeave) {
-  Tracker tracker;
+  TrackerParams params;
+  params.motion.velocity_memory_s = 0.1;  // Nobody is expected to go anywhere.
+  params.motion.acceleration_density = 0.01;
+  params.start_speed_sigma_mps = 0.1;
+  Tracker tracker(params);
   tracker.step(0.0, {seen(0, 0)});
   tracker.step(0.2, {seen(0, 0)});
-  tracker.step(0.4, {seen(0.45, 0)});  // Too far for the first, which coasts: a new track.
-  const int young = tracker.report().born == 1 ? tracker.report().uses[0].track_id : 0;
-  ASSERT_EQ(young, 2);
-  EXPECT_EQ(tracker.step(0.6, {seen(0.25, 0)}).uses[0].track_id, 1);
+  const TrackerReport& report = tracker.step(0.4, {seen(0.7, 0)});
+  ASSERT_EQ(report.born, 1);  // Too far for track 1, which coasts.
+  // Nearer to the young track's place than to the confirmed one's, which chooses first.
+  EXPECT_EQ(tracker.step(0.6, {seen(0.36, 0)}).uses[0].track_id, 1);
+}
+
+TEST(Tracker, UnlikeLooksAloneDoNotPartAPersonFromTheirTrack) {
+  Tracker tracker;
+  for (int k = 0; k < 5; ++k) {
+    tracker.step(kDt_s * k, {seen(1.0, 0.0, 10.0, 0.9)});
+  }
+  // Into the shade: the appearance falls to a tenth.
+  EXPECT_EQ(tracker.step(1.0, {seen(1.0, 0.0, 10.0, 0.09)}).uses[0].track_id, 1);
+}
+
+TEST(Tracker, AddsAndConfirmsTracksOnRequest) {
+  Tracker tracker;
+  EXPECT_THROW(tracker.addTrack({0.0, 0.0}), std::logic_error);
+  tracker.step(0.0, {seen(1, 0)});
+  const int added = tracker.addTrack({3.0, 0.0});
+  EXPECT_EQ(tracker.findTrack(added)->status, TrackStatus::kCoasting);
+  tracker.confirmTrack(1);
+  EXPECT_EQ(tracker.findTrack(1)->status, TrackStatus::kConfirmed);
+  EXPECT_EQ(tracker.step(0.2, {seen(3.1, 0)}).uses[0].track_id, added);
+  EXPECT_EQ(tracker.findTrack(99), nullptr);
+  EXPECT_THROW(tracker.confirmTrack(99), std::invalid_argument);
+  EXPECT_THROW(tracker.addTrack({std::nan(""), 0.0}), std::invalid_argument);
 }
 
 TEST(Tracker, TheOrderOfObservationsHasNoInfluence) {
@@ -183,7 +206,7 @@ TEST(Tracker, TheOrderOfObservationsHasNoInfluence) {
       ASSERT_EQ(a.status, b.status);
       ASSERT_EQ(a.motion.mean, b.motion.mean);
       ASSERT_EQ(a.motion.covariance, b.motion.covariance);
-      ASSERT_EQ(a.appearance, b.appearance);
+      ASSERT_EQ(a.log_appearance, b.log_appearance);
     }
   }
 }
