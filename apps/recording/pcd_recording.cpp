@@ -66,7 +66,7 @@ PcdHeader readHeader(const fs::path& file) {
     // A number in the header that is none, or more points than memory: the sentence below.
   }
   const auto has = [&](const char* field) { return pcl::getFieldIndex(header.layout, field) >= 0; };
-  if (!parsed && header.layout.fields.empty()) fail(file, "this is not a PCD file");
+  if (header.layout.fields.empty()) fail(file, "this is not a PCD file");
   if (!has("x") || !has("y") || !has("z")) fail(file, "the cloud has no fields x, y and z");
   if (!has("rgb") && !has("rgba")) {
     fail(file, "the cloud has no colour (no field rgb or rgba)");
