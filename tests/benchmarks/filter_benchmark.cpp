@@ -168,3 +168,5 @@ BENCHMARK(HeelBuildsATable)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace heel
+
+BENCHMARK_MAIN();
