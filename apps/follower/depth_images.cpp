@@ -25,12 +25,16 @@ const cv::Mat& DepthImages::of(const Frame& frame) {
   if (frame.cloud == nullptr || frame.image_bgr.empty()) {
     throw std::invalid_argument(frame.name + ": the cloud is not organized like an image");
   }
-  depth_m_.create(frame.image_bgr.size(), CV_32FC1);
-  auto* depth = depth_m_.ptr<float>();
-  for (const auto& point : *frame.cloud) {
+  depthOf(*frame.cloud, depth_m_);
+  return depth_m_;
+}
+
+void depthOf(const ColorCloud& cloud, cv::Mat& depth_m) {
+  depth_m.create(static_cast<int>(cloud.height), static_cast<int>(cloud.width), CV_32FC1);
+  auto* depth = depth_m.ptr<float>();
+  for (const auto& point : cloud) {
     *depth++ = point.z;
   }
-  return depth_m_;
 }
 
 }  // namespace heel

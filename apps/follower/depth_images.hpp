@@ -12,6 +12,10 @@
 
 namespace heel {
 
+/// The depth image of an organized cloud in the optical frame.
+/// @param depth_m  Out: CV_32FC1; its memory is reused.
+void depthOf(const ColorCloud& cloud, cv::Mat& depth_m);
+
 /// Gives every pixel's depth: matched from a stereo pair, as measured by an RGB-D camera, or taken
 /// from an organized cloud. From here on phase 1 does not know the sensor. Reuses its memory.
 class DepthImages {
