@@ -35,7 +35,8 @@ struct TrackerParams {
   /// The most that unlike appearance costs. People turn, and step into the shade: their looks alone
   /// must not part them from their track.
   double max_unlikeness = 6.0;
-  double appearance_gain = 0.25;   ///< Weight of the newest observation in a track's appearance.
+  /// Time over which a track's appearance is averaged: it forgets 1 - 1/e of its past in this time.
+  double appearance_memory_s = 0.7;
   double birth_clearance_m = 0.4;  ///< Closer to a track in view, what is left is its fragment.
   int confirm_hits = 2;            ///< A track is confirmed when seen in this many
   int confirm_frames = 3;          ///< of this many frames (at most 32), else it is dropped.

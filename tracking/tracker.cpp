@@ -183,10 +183,11 @@ void Tracker::updateTracks(double stamp_s, const std::vector<Observation>& obser
     if (seen) {
       const Observation& o = observations[at(track.observation)];
       track.motion = update(track.motion, o.position_m, noise_m2_);
-      track.seen_s = stamp_s;
       ++track.hits;
       track.score = o.score;
-      track.log_appearance += params_.appearance_gain * (logAppearance(o) - track.log_appearance);
+      const double gain = -std::expm1((track.seen_s - stamp_s) / params_.appearance_memory_s);
+      track.log_appearance += gain * (logAppearance(o) - track.log_appearance);
+      track.seen_s = stamp_s;
     }
     if (track.status != TrackStatus::kTentative ||
         countSeen(track.history, params_.confirm_frames) >= params_.confirm_hits) {

@@ -4,6 +4,7 @@
 #include "apps/recording/pcd_recording.hpp"
 #include "apps/recording/recording.hpp"
 #include "apps/recording/rgbd_recording.hpp"
+#include "apps/recording/stereo_recording.hpp"
 
 #include <stdexcept>
 
@@ -20,6 +21,7 @@ std::unique_ptr<Recording> openKnownLayout(const fs::path& path, const Recording
     throw std::runtime_error(path.string() + " is neither a folder nor a PCD file (.pcd)");
   }
   if (RgbdRecording::fits(path)) return RgbdRecording::open(path, params);
+  if (StereoRecording::fits(path)) return StereoRecording::open(path, params);
   if (PcdRecording::fits(path)) return PcdRecording::open(path, params);
   throw std::runtime_error(
       path.string() +

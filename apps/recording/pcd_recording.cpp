@@ -4,6 +4,8 @@
 #include "apps/recording/pcd_recording.hpp"
 
 #include "apps/recording/camera_file.hpp"
+#include "apps/recording/cloud_camera.hpp"
+#include "apps/recording/folder_files.hpp"
 #include "apps/recording/stamps.hpp"
 
 #include <pcl/common/io.h>
@@ -117,15 +119,6 @@ void toImage(const ColorCloud& cloud, cv::Mat& image_bgr) {
 
 bool isPcdName(const fs::path& file) { return file.extension() == ".pcd"; }
 
-std::vector<fs::path> pcdFilesIn(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (isPcdName(entry.path())) files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 }  // namespace
 
 void readColorCloud(const fs::path& file, ColorCloud& cloud) {
@@ -146,10 +139,7 @@ void readColorCloud(const fs::path& file, ColorCloud& cloud) {
 }
 
 bool PcdRecording::fits(const fs::path& path) {
-  if (!fs::is_directory(path)) return isPcdName(path);
-  const fs::directory_iterator folder(path);
-  return std::any_of(begin(folder), end(folder),
-                     [](const auto& entry) { return isPcdName(entry.path()); });
+  return fs::is_directory(path) ? !filesIn(path, isPcdName).empty() : isPcdName(path);
 }
 
 std::unique_ptr<Recording> PcdRecording::open(const fs::path& path, const RecordingParams& params) {
@@ -170,7 +160,7 @@ std::unique_ptr<Recording> PcdRecording::open(const fs::path& path, const Record
     if (camera.rate_hz) rate_hz = *camera.rate_hz;
     info.T_base_camera = camera.T_ground_camera;
   }
-  auto files = pcdFilesIn(path);
+  auto files = filesIn(path, isPcdName);
   auto stamps_s = stampsOfFiles(path / "times.txt", files, rate_hz, info.nominal_stamps);
   return std::unique_ptr<Recording>(
       new PcdRecording(path, std::move(info), std::move(stamps_s), std::move(files)));
@@ -178,7 +168,22 @@ std::unique_ptr<Recording> PcdRecording::open(const fs::path& path, const Record
 
 PcdRecording::PcdRecording(const std::filesystem::path& path, RecordingInfo info,
                            std::vector<double> stamps_s, std::vector<fs::path> files)
-    : IndexedRecording(path, std::move(info), std::move(stamps_s)), files_(std::move(files)) {}
+    : IndexedRecording(path, std::move(info), std::move(stamps_s)), files_(std::move(files)) {
+  if (info_.camera.left.width == 0) findCamera();
+}
+
+void PcdRecording::findCamera() {
+  ColorCloud cloud;
+  for (const auto& file : files_) {
+    try {
+      readColorCloud(file, cloud);
+    } catch (const std::runtime_error&) {
+      continue;  // the frame is left out later, with its reason
+    }
+    info_.camera.left = cameraOfCloud(cloud).value_or(PinholeCamera{});
+    return;
+  }
+}
 
 std::string PcdRecording::frameName(std::size_t index) const { return files_[index].string(); }
 

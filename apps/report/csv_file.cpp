@@ -167,6 +167,12 @@ std::int64_t CsvReader::integer(std::size_t i) const {
   return value;
 }
 
+std::size_t CsvReader::count(std::size_t i) const {
+  const std::int64_t value = integer(i);
+  if (value < 1) failAt(i, "a number from 1");
+  return static_cast<std::size_t>(value);
+}
+
 bool CsvReader::flag(std::size_t i) const {
   const std::string value = withoutBlanks(text(i));
   if (value != "0" && value != "1") failAt(i, "0 or 1");

@@ -63,7 +63,8 @@ class CsvReader {
   const std::string& text(std::size_t i) const { return fields_[places_[i]]; }
   double number(std::size_t i) const;  ///< A finite number.
   std::int64_t integer(std::size_t i) const;
-  bool flag(std::size_t i) const;  ///< 1 or 0.
+  std::size_t count(std::size_t i) const;  ///< A whole number from 1.
+  bool flag(std::size_t i) const;          ///< 1 or 0.
 
  private:
   [[noreturn]] void fail(const std::string& why) const;

@@ -124,7 +124,7 @@ std::vector<TruthRow> readTruth(const fs::path& file) {
   while (csv.next()) {
     TruthRow row;
     row.stamp_s = csv.number(0);
-    row.frame = static_cast<std::size_t>(csv.integer(1));
+    row.frame = csv.count(1);
     row.person = csv.text(2);
     row.position_m = {csv.number(3), csv.number(4)};
     row.exact = csv.flag(5);

@@ -169,6 +169,21 @@ TEST(Tracker, UnlikeLooksAloneDoNotPartAPersonFromTheirTrack) {
   EXPECT_EQ(tracker.step(1.0, {seen(1.0, 0.0, 10.0, 0.09)}).uses[0].track_id, 1);
 }
 
+TEST(Tracker, AveragesAppearanceOverTimeWhateverTheFrameRate) {
+  TrackerParams params;
+  params.appearance_memory_s = 0.5;
+  for (const int frames : {5, 10, 30}) {
+    Tracker tracker(params);
+    tracker.step(0.0, {seen(1, 0, 10.0, 0.4)});
+    for (int k = 1; k <= frames; ++k) {
+      tracker.step(1.0 * k / frames, {seen(1, 0, 10.0, 0.8)});
+    }
+    // e^-2 of the logarithm's first value is left after two time constants.
+    EXPECT_NEAR(tracker.tracks().front().log_appearance,
+                std::log(0.8) + (std::log(0.4) - std::log(0.8)) * std::exp(-2.0), 1e-12);
+  }
+}
+
 TEST(Tracker, AddsAndConfirmsTracksOnRequest) {
   Tracker tracker;
   EXPECT_THROW(tracker.addTrack({0.0, 0.0}), std::logic_error);
