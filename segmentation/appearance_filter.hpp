@@ -10,7 +10,7 @@
 #include <pcl/filters/filter_indices.h>
 #include <pcl/types.h>
 
-#include <string>
+#include <cstddef>
 
 namespace heel {
 
@@ -52,6 +52,8 @@ class AppearanceFilter : public pcl::FilterIndices<PointT> {
   void applyFilter(pcl::Indices& indices) override;
 
  private:
+  void listRemoved(std::size_t n_kept);
+
   ColorTable table_;
   pcl::Indices kept_;     // Workspace: as long as the longest list so far.
   pcl::Indices removed_;  // The same.

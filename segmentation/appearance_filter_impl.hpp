@@ -30,31 +30,44 @@ void AppearanceFilter<PointT>::applyFilter(pcl::Indices& indices) {
   }
 
   // The lists are built aside, for `indices` may be *indices_ itself. Every index is written to the
-  // end of a list, and only the end moves on: no branch depends on a noisy image, which halves the
-  // time.
-  const std::size_t n = indices_->size();
-  if (kept_.size() < n) kept_.resize(n);
-  if (extract_removed_indices_ && removed_.size() < n) removed_.resize(n);
-  auto kept_end = kept_.begin();
-  auto removed_end = removed_.begin();
+  // end of the list, and the end moves on if it is kept: a branch would depend on a noisy image,
+  // and take twice the time.
+  const pcl::Indices& visited = *indices_;
   const PointCloud& cloud = *input_;
+  if (kept_.size() < visited.size()) kept_.resize(visited.size());
+  pcl::index_t* kept = kept_.data();
+  std::size_t n_kept = 0;
   const std::uint8_t* scores = table_.data();
   const std::uint8_t threshold = table_.threshold();
   const bool wanted = !negative_;
-  const bool list_removed = extract_removed_indices_;
-  for (const pcl::index_t i : *indices_) {
+  for (const pcl::index_t i : visited) {
     const PointT& p = cloud[i];
     const bool passes = scores[ColorTable::cell(p.b, p.g, p.r)] > threshold;
-    const int keep = static_cast<int>(passes == wanted) & static_cast<int>(pcl::isFinite(p));
-    *kept_end = i;
-    kept_end += keep;
-    if (list_removed) {
-      *removed_end = i;
-      removed_end += 1 - keep;
-    }
+    kept[n_kept] = i;
+    n_kept += static_cast<unsigned>(passes == wanted) & static_cast<unsigned>(pcl::isFinite(p));
   }
-  indices.assign(kept_.begin(), kept_end);
-  removed_indices_->assign(removed_.begin(), removed_end);
+  listRemoved(n_kept);
+  indices.assign(kept, kept + n_kept);
+}
+
+template <typename PointT>
+void AppearanceFilter<PointT>::listRemoved(std::size_t n_kept) {
+  removed_indices_->clear();
+  if (!extract_removed_indices_) return;
+  // The kept indices are in the order of the visited ones: what is not the next of them was
+  // removed.
+  const pcl::Indices& visited = *indices_;
+  if (removed_.size() < visited.size()) removed_.resize(visited.size());
+  std::size_t n_removed = 0;
+  std::size_t next = 0;
+  for (const pcl::index_t i : visited) {
+    const unsigned is_kept =
+        static_cast<unsigned>(next < n_kept) & static_cast<unsigned>(kept_[next] == i);
+    removed_[n_removed] = i;
+    n_removed += 1 - is_kept;
+    next += is_kept;
+  }
+  removed_indices_->assign(removed_.data(), removed_.data() + n_removed);
 }
 
 }  // namespace heel
