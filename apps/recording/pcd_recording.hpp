@@ -14,12 +14,6 @@
 
 namespace heel {
 
-/// Reads a PCD file with colours (XYZRGB or XYZRGBA, organized or not, ascii, binary or
-/// compressed).
-/// @throws std::runtime_error  with one sentence that names the file, if it is missing, truncated,
-///         or not PCD, has no colours, no points, or none with finite coordinates.
-void readColorCloud(const std::filesystem::path& file, ColorCloud& cloud);
-
 /// A sequence of coloured clouds. A file's points are in the camera's optical frame; the file's
 /// viewpoint is not used. Organized clouds give an image too.
 ///
@@ -44,7 +38,6 @@ class PcdRecording final : public IndexedRecording {
   void read(std::size_t index, Frame& frame) override;
 
   std::vector<std::filesystem::path> files_;
-  ColorCloud::Ptr cloud_;
 };
 
 }  // namespace heel

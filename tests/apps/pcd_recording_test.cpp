@@ -3,6 +3,7 @@
 
 #include "apps/recording/pcd_recording.hpp"
 
+#include "apps/recording/pcd_file.hpp"
 #include "tests/apps/temp_folder.hpp"
 #include "tests/support/data.hpp"
 
@@ -60,7 +61,7 @@ void save(const std::filesystem::path& file, const pcl::PointCloud<PointT>& clou
 
 std::string readMessage(const std::filesystem::path& file) {
   heel::ColorCloud cloud;
-  return messageOf([&] { heel::readColorCloud(file, cloud); });
+  return messageOf([&] { heel::readPcd(file); });
 }
 
 class PcdForms : public testing::TestWithParam<Form> {
@@ -72,7 +73,7 @@ TEST_P(PcdForms, GiveTheSamePointsAndColours) {
   const auto expectSame = [&](const auto& written) {
     save(folder / "a.pcd", written, GetParam());
     heel::ColorCloud read;
-    heel::readColorCloud(folder / "a.pcd", read);
+    read = heel::readPcd(folder / "a.pcd").cloud;
     ASSERT_EQ(read.width, written.width);
     ASSERT_EQ(read.height, written.height);
     EXPECT_FALSE(pcl::isFinite(read[0]));
