@@ -74,31 +74,36 @@ bool isInCylinder(const Eigen::Vector3f& p, const Eigen::Vector2d& position_m,
   const double dx = static_cast<double>(p.x()) - position_m.x();
   const double dy = static_cast<double>(p.y()) - position_m.y();
   return dx * dx + dy * dy <= radius_m * radius_m &&
-         static_cast<double>(p.z()) >= band.min_height_m &&
-         static_cast<double>(p.z()) <= band.max_height_m;
+         static_cast<double>(p.z()) >= band.body.min_height_m &&
+         static_cast<double>(p.z()) <= band.body.max_height_m;
 }
 
-/// Geometric mean of the bands' shares.
+/// Geometric mean of the shares of the bands that were learned.
 template <typename ShareOfBand>
-double meanOverBands(const AppearanceBands& bands, const ShareOfBand& share_of) {
+double meanOverBands(const std::vector<AppearanceBand>& bands, const ShareOfBand& share_of) {
   double log_sum = 0.0;
+  int learned = 0;
   for (const AppearanceBand& band : bands) {
+    if (band.table.empty()) continue;
     log_sum += std::log(std::max(share_of(band), 1e-6));
+    ++learned;
   }
-  return bands.empty() ? 0.5 : std::exp(log_sum / static_cast<double>(bands.size()));
+  return learned == 0 ? 0.5 : std::exp(log_sum / learned);
 }
 
 }  // namespace
 
 double bodyAppearance(const BodyView& view, const Eigen::Vector2d& position_m,
-                      const AppearanceBands& bands, const BodyAppearanceParams& params) {
+                      const std::vector<AppearanceBand>& bands,
+                      const BodyAppearanceParams& params) {
   const Eigen::Isometry3f T = view.T_base_camera.cast<float>();
   const Board narrow = boardAt(position_m, view.T_base_camera, params.board_half_width_m);
   const Board wide = boardAt(position_m, view.T_base_camera, params.radius_m);
   return meanOverBands(bands, [&](const AppearanceBand& band) {
     Coverage coverage(params.prior_points);
-    const cv::Rect board = pixelsOf(narrow, band.min_height_m, band.max_height_m, view);
-    const cv::Rect body = pixelsOf(wide, band.min_height_m, band.max_height_m, view) | board;
+    const cv::Rect board = pixelsOf(narrow, band.body.min_height_m, band.body.max_height_m, view);
+    const cv::Rect body =
+        pixelsOf(wide, band.body.min_height_m, band.body.max_height_m, view) | board;
     for (int v = body.y; v < body.y + body.height; ++v) {
       const auto* bgr = view.image_bgr.ptr<cv::Vec3b>(v);
       const auto* depth = view.depth_m.ptr<float>(v);
@@ -122,7 +127,8 @@ double bodyAppearance(const BodyView& view, const Eigen::Vector2d& position_m,
 }
 
 double bodyAppearance(const ColorCloud& cloud, const Eigen::Vector2d& position_m,
-                      const AppearanceBands& bands, const BodyAppearanceParams& params) {
+                      const std::vector<AppearanceBand>& bands,
+                      const BodyAppearanceParams& params) {
   return meanOverBands(bands, [&](const AppearanceBand& band) {
     Coverage coverage(params.prior_points);
     for (const auto& p : cloud) {

@@ -4,7 +4,6 @@
 #include "apps/recording/pcd_recording.hpp"
 
 #include "apps/recording/camera_file.hpp"
-#include "apps/recording/cloud_camera.hpp"
 #include "apps/recording/folder_files.hpp"
 #include "apps/recording/stamps.hpp"
 
@@ -168,22 +167,7 @@ std::unique_ptr<Recording> PcdRecording::open(const fs::path& path, const Record
 
 PcdRecording::PcdRecording(const std::filesystem::path& path, RecordingInfo info,
                            std::vector<double> stamps_s, std::vector<fs::path> files)
-    : IndexedRecording(path, std::move(info), std::move(stamps_s)), files_(std::move(files)) {
-  if (info_.camera.left.width == 0) findCamera();
-}
-
-void PcdRecording::findCamera() {
-  ColorCloud cloud;
-  for (const auto& file : files_) {
-    try {
-      readColorCloud(file, cloud);
-    } catch (const std::runtime_error&) {
-      continue;  // the frame is left out later, with its reason
-    }
-    info_.camera.left = cameraOfCloud(cloud).value_or(PinholeCamera{});
-    return;
-  }
-}
+    : IndexedRecording(path, std::move(info), std::move(stamps_s)), files_(std::move(files)) {}
 
 std::string PcdRecording::frameName(std::size_t index) const { return files_[index].string(); }
 

@@ -24,8 +24,7 @@ void readColorCloud(const std::filesystem::path& file, ColorCloud& cloud);
 /// viewpoint is not used. Organized clouds give an image too.
 ///
 /// Times come from times.txt, or from the file names (see stampOfName), or are nominal. A
-/// camera.yaml in the folder may give the rate, the mounting and the intrinsics; without it the
-/// intrinsics are those of the first organized cloud, where its points tell them.
+/// camera.yaml in the folder may give the rate, the mounting and the intrinsics.
 class PcdRecording final : public IndexedRecording {
  public:
   static constexpr const char* kLayout = "PCD files";
@@ -40,9 +39,6 @@ class PcdRecording final : public IndexedRecording {
  private:
   PcdRecording(const std::filesystem::path& path, RecordingInfo info, std::vector<double> stamps_s,
                std::vector<std::filesystem::path> files);
-
-  /// Reads clouds until one is of use, for its camera.
-  void findCamera();
 
   std::string frameName(std::size_t index) const override;
   void read(std::size_t index, Frame& frame) override;

@@ -76,9 +76,4 @@ cv::Size pictureSize(const AnnotateParams& params = {});
 /// @throws std::invalid_argument  if the mask's size is not the image's, or a type is wrong.
 void annotate(const Scene& scene, const AnnotateParams& params, cv::Mat& picture);
 
-/// Projects a point of the floor's frame into the image [px]; absent behind the camera.
-std::optional<cv::Point2d> projectToImage(const Eigen::Vector3d& point_m,
-                                          const PinholeCamera& camera,
-                                          const Eigen::Isometry3d& T_floor_camera);
-
 }  // namespace heel

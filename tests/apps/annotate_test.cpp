@@ -4,6 +4,7 @@
 #include "apps/report/annotate.hpp"
 
 #include "apps/report/drawing.hpp"
+#include "apps/report/image_picture.hpp"
 #include "apps/report/plan_picture.hpp"
 
 #include <gmock/gmock.h>
@@ -51,7 +52,7 @@ cv::Mat draw(const Scene& scene) {
   return picture;
 }
 
-/// The share of the region's pixels that have just this colour.
+/// How many pixels have just this colour.
 int countOf(const cv::Mat& picture, const cv::Scalar& color) {
   cv::Mat same;
   cv::inRange(picture, color, color, same);
