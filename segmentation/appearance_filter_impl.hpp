@@ -29,45 +29,38 @@ void AppearanceFilter<PointT>::applyFilter(pcl::Indices& indices) {
     return;
   }
 
-  // The lists are built aside, for `indices` may be *indices_ itself. Every index is written to the
-  // end of the list, and the end moves on if it is kept: a branch would depend on a noisy image,
-  // and take twice the time.
-  const pcl::Indices& visited = *indices_;
-  const PointCloud& cloud = *input_;
-  if (kept_.size() < visited.size()) kept_.resize(visited.size());
-  pcl::index_t* kept = kept_.data();
-  std::size_t n_kept = 0;
-  const std::uint8_t* scores = table_.data();
-  const std::uint8_t threshold = table_.threshold();
-  const bool wanted = !negative_;
-  for (const pcl::index_t i : visited) {
-    const PointT& p = cloud[i];
-    const bool passes = scores[ColorTable::cell(p.b, p.g, p.r)] > threshold;
-    kept[n_kept] = i;
-    n_kept += static_cast<unsigned>(passes == wanted) & static_cast<unsigned>(pcl::isFinite(p));
-  }
-  listRemoved(n_kept);
-  indices.assign(kept, kept + n_kept);
+  // The lists are built aside, for `indices` may be *indices_ itself.
+  const std::size_t n = indices_->size();
+  if (kept_.size() < n) kept_.resize(n);
+  if (extract_removed_indices_ && removed_.size() < n) removed_.resize(n);
+  const std::size_t n_kept = extract_removed_indices_ ? select<true>() : select<false>();
+  const std::size_t n_removed = extract_removed_indices_ ? n - n_kept : 0;
+  removed_indices_->assign(removed_.data(), removed_.data() + n_removed);
+  indices.assign(kept_.data(), kept_.data() + n_kept);
 }
 
 template <typename PointT>
-void AppearanceFilter<PointT>::listRemoved(std::size_t n_kept) {
-  removed_indices_->clear();
-  if (!extract_removed_indices_) return;
-  // The kept indices are in the order of the visited ones: what is not the next of them was
-  // removed.
+template <bool kListRemoved>
+std::size_t AppearanceFilter<PointT>::select() {
+  // Every index is written to the end of its list, and the end moves on if it belongs there: a
+  // branch would depend on a noisy image, and take twice the time.
   const pcl::Indices& visited = *indices_;
-  if (removed_.size() < visited.size()) removed_.resize(visited.size());
-  std::size_t n_removed = 0;
-  std::size_t next = 0;
-  for (const pcl::index_t i : visited) {
-    const unsigned is_kept =
-        static_cast<unsigned>(next < n_kept) & static_cast<unsigned>(kept_[next] == i);
-    removed_[n_removed] = i;
-    n_removed += 1 - is_kept;
-    next += is_kept;
+  const PointCloud& cloud = *input_;
+  pcl::index_t* kept = kept_.data();
+  pcl::index_t* removed = removed_.data();
+  const std::uint8_t* scores = table_.data();
+  const std::uint8_t threshold = table_.threshold();
+  const bool wanted = !negative_;
+  std::size_t n_kept = 0;
+  for (std::size_t n = 0; n < visited.size(); ++n) {
+    const pcl::index_t i = visited[n];
+    const PointT& p = cloud[i];
+    const bool passes = scores[ColorTable::cell(p.b, p.g, p.r)] > threshold;
+    kept[n_kept] = i;
+    if constexpr (kListRemoved) removed[n - n_kept] = i;
+    n_kept += static_cast<unsigned>(passes == wanted) & static_cast<unsigned>(pcl::isFinite(p));
   }
-  removed_indices_->assign(removed_.data(), removed_.data() + n_removed);
+  return n_kept;
 }
 
 }  // namespace heel
