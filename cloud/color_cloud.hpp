@@ -6,6 +6,7 @@
 #pragma once
 
 #include "cloud/pinhole_camera.hpp"
+#include "cloud/row_spans.hpp"
 
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>
@@ -17,23 +18,50 @@ namespace heel {
 
 using ColorCloud = pcl::PointCloud<pcl::PointXYZRGB>;
 
+/// Turns disparities (CV_32FC1, NaN where there is none) into depths (the same), as StereoCamera
+/// says. Disparities of points at or behind infinity become NaN.
+/// @throws std::invalid_argument  if the type is wrong or the camera has no baseline.
+void disparityToDepth(const cv::Mat& disparity, const StereoCamera& camera, cv::Mat& depth_m);
+
 /// Turns a depth image and the colours beside it into an organized cloud.
 ///
 /// @param depth_m        CV_32FC1, metres along the optical axis; NaN (or <= 0) where there is
-/// none.
+///                       none.
 /// @param image_bgr      CV_8UC3 of the same size.
 /// @param T_base_camera  Maps points of the camera's optical frame to the frame of the cloud.
 /// @param cloud          Out: organized like the image, NaN where there is no depth; its memory is
 ///                       reused.
-/// @throws std::invalid_argument  if the sizes or types do not fit.
+/// @throws std::invalid_argument  if the sizes or types do not fit, or a focal length is not > 0.
 void makeColorCloud(const cv::Mat& depth_m, const cv::Mat& image_bgr, const PinholeCamera& camera,
                     const Eigen::Isometry3d& T_base_camera, ColorCloud& cloud);
 
-/// The same, only for the pixels where `mask` (CV_8UC1) is not 0: all other points are NaN.
-/// `indices` lists the points that have a position, in order. The cost beyond the blanking of the
-/// cloud follows the number of masked pixels.
+/// The same, only for the pixels where `mask` (CV_8UC1) is not 0: all other points are NaN and
+/// black. `indices` lists the points that have a position, in order. For one frame; for a stream,
+/// a MaskedCloud does the same without rewriting the whole cloud.
 void makeColorCloud(const cv::Mat& depth_m, const cv::Mat& image_bgr, const cv::Mat& mask,
                     const PinholeCamera& camera, const Eigen::Isometry3d& T_base_camera,
                     ColorCloud& cloud, pcl::Indices& indices);
+
+/// The masked cloud of each frame of a stream, at a cost that follows the number of masked pixels:
+/// of the previous frame's cloud, only the points that had a position are blanked.
+class MaskedCloud {
+ public:
+  MaskedCloud();
+
+  /// As makeColorCloud with a mask.
+  void update(const cv::Mat& depth_m, const cv::Mat& image_bgr, const cv::Mat& mask,
+              const PinholeCamera& camera, const Eigen::Isometry3d& T_base_camera);
+
+  /// Organized; NaN and black outside of `indices()`. The next update changes it.
+  ColorCloud::ConstPtr cloud() const { return cloud_; }
+
+  /// The points that have a position, in order.
+  const pcl::Indices& indices() const { return indices_; }
+
+ private:
+  ColorCloud::Ptr cloud_;
+  pcl::Indices indices_;
+  RowSpans spans_;
+};
 
 }  // namespace heel

@@ -3,25 +3,39 @@
 
 #include "segmentation/color_table.hpp"
 
+#include <utility>
+
 namespace heel {
+namespace {
 
-ColorTable::ColorTable() : scores_(kCells, 0) {}
+/// The middle colours of all levels, in the order of the levels.
+std::array<std::uint8_t, ColorTable::kLevels> middles() {
+  std::array<std::uint8_t, ColorTable::kLevels> values{};
+  for (int v = 0; v < 256; ++v) {
+    const auto value = static_cast<std::uint8_t>(v);
+    values[detail::kColorLevels[value]] = ColorTable::middle(value);
+  }
+  return values;
+}
 
-ColorTable::ColorTable(
-    const std::function<std::uint8_t(std::uint8_t, std::uint8_t, std::uint8_t)>& score)
-    : scores_(kCells) {
-  constexpr int kSteps = 1 << kBits;
-  const auto centre = [](int step) {
-    return static_cast<std::uint8_t>((step << kShift) + (1 << kShift) / 2);
-  };
-  std::size_t i = 0;
-  for (int b = 0; b < kSteps; ++b) {
-    for (int g = 0; g < kSteps; ++g) {
-      for (int r = 0; r < kSteps; ++r) {
-        scores_[i++] = score(centre(b), centre(g), centre(r));
-      }
+}  // namespace
+
+ColorTable::ColorTable(const Score& score, std::uint8_t threshold) : threshold_(threshold) {
+  const auto values = middles();
+  std::vector<std::uint8_t> scores;
+  scores.reserve(kCells);
+  for (const std::uint8_t r : values) {
+    for (const std::uint8_t g : values) {
+      for (const std::uint8_t b : values) scores.push_back(score(b, g, r));
     }
   }
+  scores_ = std::make_shared<const std::vector<std::uint8_t>>(std::move(scores));
+}
+
+ColorTable ColorTable::withThreshold(std::uint8_t threshold) const {
+  ColorTable table = *this;
+  table.threshold_ = threshold;
+  return table;
 }
 
 }  // namespace heel

@@ -12,8 +12,9 @@ namespace heel {
 /// A world blob as the tracker sees it.
 struct Observation {
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  ///< In a frame fixed to the floor.
-  double score = 0.0;       ///< Size of the blob; of several that compete the higher is preferred.
-  double appearance = 0.0;  ///< How well its colours fit the target's model, in [0, 1].
+  double score = 0.0;  ///< Size of the blob; of several that compete the higher is preferred.
+  /// How well its colours fit the target's model, in (0, 1]; 0.5 says nothing either way.
+  double appearance = 0.5;
 };
 
 }  // namespace heel

@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace heel {
 
@@ -22,11 +23,13 @@ enum class SensorKind { kStereo, kRgbd, kCloud };
 
 /// What holds for the whole of a recording.
 struct RecordingInfo {
-  std::string name;
+  std::string name;    ///< The folder's or the file's name.
+  std::string layout;  ///< How it is stored, for people to read: "RGB-D folder, TUM layout".
   SensorKind sensor = SensorKind::kRgbd;
-  StereoCamera camera;  ///< `left` for RGB-D too (baseline 0); zeros for clouds.
+  StereoCamera camera;  ///< `left` for RGB-D and clouds too (baseline 0); zeros if not known.
   std::size_t frame_count = 0;
-  double duration_s = 0.0;
+  double duration_s = 0.0;      ///< From the first stamp to the last.
+  bool nominal_stamps = false;  ///< No times are stored: they are made from the assumed rate.
   /// Where the camera is mounted: maps its optical frame to the base frame. Absent if not known.
   std::optional<Eigen::Isometry3d> T_base_camera;
 };
@@ -37,7 +40,14 @@ struct SkippedFrame {
   std::string reason;  ///< One sentence that names the file.
 };
 
-/// A recording, read one frame at a time; holds one frame's data at the most.
+/// How recordings are read; the defaults suit the data sets that we know.
+struct RecordingParams {
+  double max_stamp_difference_s = 0.02;  ///< Images of one frame are not further apart than this.
+  double nominal_rate_hz = 10.0;  ///< Frames per second, where the recording stores no times.
+};
+
+/// A recording, read one frame at a time; holds one frame's data at the most, and the list of its
+/// files.
 class Recording {
  public:
   virtual ~Recording() = default;
@@ -45,7 +55,8 @@ class Recording {
   const RecordingInfo& info() const { return info_; }
 
   /// Reads the next frame into `frame`, reusing its memory.
-  /// A frame that can't be read is left out and added to `skipped()`.
+  /// A frame that can't be read, or whose stamp does not come after the one before it, is left out
+  /// and added to `skipped()`.
   /// @return false at the end.
   virtual bool next(Frame& frame) = 0;
 
@@ -58,7 +69,13 @@ class Recording {
 
 /// Opens whatever recording `path` holds: a folder of stereo images, an RGB-D folder in the TUM
 /// layout, or a folder of PCD files (or one file).
-/// @throws std::runtime_error  with one sentence that names the file and the reason.
-std::unique_ptr<Recording> openRecording(const std::filesystem::path& path);
+/// @throws std::runtime_error     with one sentence that names the file and the reason.
+/// @throws std::invalid_argument  if a parameter is not positive.
+std::unique_ptr<Recording> openRecording(const std::filesystem::path& path,
+                                         const RecordingParams& params = {});
+
+/// The sentence for a recording of which no frame could be read: how many there were, and why the
+/// first was left out.
+std::string nothingReadMessage(const Recording& recording);
 
 }  // namespace heel

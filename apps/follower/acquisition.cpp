@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/follower/acquisition.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+constexpr double kSameTime_s = 1e-6;  // stamps are decimal fractions, their sums are not exact
+
+}  // namespace
+
+const char* toText(AcquisitionEnd end) {
+  switch (end) {
+    case AcquisitionEnd::kNotYet:
+      return "not ended";
+    case AcquisitionEnd::kTimeIsUp:
+      return "its time was up";
+    case AcquisitionEnd::kSecondPerson:
+      return "a second person came into view";
+    case AcquisitionEnd::kPersonLeft:
+      return "the person left";
+  }
+  return "unknown";
+}
+
+Acquisition::Acquisition(const PinholeCamera& camera, const Eigen::Isometry3d& T_base_camera,
+                         const AcquisitionParams& params)
+    : params_(params), detector_(camera, T_base_camera, params.detector) {
+  for (const double value : {params.background_s, params.person_s, params.max_missing_s,
+                             params.max_speed_mps, params.max_jump_m}) {
+    if (!(value >= 0.0)) throw std::invalid_argument("acquisition: a parameter is negative");
+  }
+}
+
+const AcquisitionStep& Acquisition::step(double stamp_s, const cv::Mat& image_bgr,
+                                         const cv::Mat& depth_m) {
+  if (!std::isfinite(stamp_s) || (started_ && stamp_s < stamp_s_)) {
+    throw std::invalid_argument("acquisition: the stamp runs backwards");
+  }
+  step_.usable = false;
+  step_.person = -1;
+  step_.view = nullptr;
+  if (result_.state == AcquisitionState::kEnded) return step_;
+
+  const double start_s = started_ ? start_s_ : stamp_s;
+  if (stamp_s - start_s <= params_.background_s + kSameTime_s) {
+    learner_.add(image_bgr, depth_m);
+    result_.empty_frames = learner_.frames();
+    step_.labels.create(image_bgr.size(), CV_8UC1);
+    step_.labels.setTo(AcquisitionStep::kScene);
+    step_.usable = true;
+  } else {
+    if (background_.empty()) {
+      background_ = learner_.model();
+      result_.state = AcquisitionState::kWaiting;
+    }
+    step_.view = &detector_.detect(background_, image_bgr, depth_m);
+    findPerson(stamp_s);
+    labelPixels();
+  }
+  started_ = true;
+  start_s_ = start_s;
+  stamp_s_ = stamp_s;
+  step_.state = result_.state;
+  return step_;
+}
+
+// The first to enter is the person; from then on they are the one nearest to their last place.
+void Acquisition::findPerson(double stamp_s) {
+  const auto end = [&](AcquisitionEnd why) {
+    result_.state = AcquisitionState::kEnded;
+    result_.end = why;
+    step_.person = -1;
+  };
+  const auto& people = step_.view->people;
+  const bool entered = result_.state == AcquisitionState::kPerson;
+  if (people.size() > 1) return end(AcquisitionEnd::kSecondPerson);
+  if (entered && stamp_s - result_.first_seen_s > params_.person_s + kSameTime_s) {
+    return end(AcquisitionEnd::kTimeIsUp);
+  }
+  if (people.empty()) {
+    ++(entered ? result_.missed_frames : result_.waiting_frames);
+    step_.usable = true;
+    if (entered && stamp_s - result_.last_seen_s > params_.max_missing_s + kSameTime_s) {
+      end(AcquisitionEnd::kPersonLeft);
+    }
+    return;
+  }
+  const auto& place = step_.view->blobs[static_cast<std::size_t>(people.front())].position_m;
+  if (entered) {
+    const double reach_m =
+        params_.max_jump_m + params_.max_speed_mps * (stamp_s - result_.last_seen_s);
+    if ((place - last_place_m_).norm() > reach_m) return end(AcquisitionEnd::kSecondPerson);
+  } else {
+    result_.state = AcquisitionState::kPerson;
+    result_.first_seen_s = stamp_s;
+  }
+  last_place_m_ = place;
+  result_.last_seen_s = stamp_s;
+  ++result_.person_frames;
+  step_.person = people.front();
+  step_.usable = true;
+}
+
+void Acquisition::labelPixels() {
+  const Foreground& foreground = step_.view->foreground;
+  const cv::Mat& mask = foreground.mask;
+  step_.labels.create(mask.size(), CV_8UC1);
+  for (int v = 0; v < mask.rows; ++v) {
+    const auto* shown = mask.ptr<std::uint8_t>(v);
+    const auto* changed = foreground.changed.ptr<std::uint8_t>(v);
+    auto* labels = step_.labels.ptr<std::uint8_t>(v);
+    for (int u = 0; u < mask.cols; ++u) {
+      labels[u] =
+          (shown[u] | changed[u]) != 0 ? AcquisitionStep::kUnknown : AcquisitionStep::kScene;
+    }
+  }
+  if (step_.person < 0) return;
+  const bool take_all = looksLikeTheWall();
+  const auto torso_m = static_cast<float>(params_.min_learn_height_m);
+  for (const pcl::index_t i : *step_.view->candidates) {
+    const auto& point = (*step_.view->cloud)[static_cast<std::size_t>(i)];
+    if (!(take_all || foreground.changed.data[i] != 0)) continue;
+    if (detector_.blobOf(point) != step_.person) continue;
+    const bool torso = point.z > torso_m;
+    step_.labels.data[i] = torso ? AcquisitionStep::kTorso : AcquisitionStep::kLegs;
+    ++result_.points;
+    result_.torso_points += torso ? 1 : 0;
+  }
+}
+
+bool Acquisition::looksLikeTheWall() const {
+  long all = 0;
+  long changed = 0;
+  for (const pcl::index_t i : *step_.view->candidates) {
+    if (detector_.blobOf((*step_.view->cloud)[static_cast<std::size_t>(i)]) != step_.person) {
+      continue;
+    }
+    ++all;
+    changed += step_.view->foreground.changed.data[i] != 0 ? 1 : 0;
+  }
+  return static_cast<double>(changed) < params_.min_changed_share * static_cast<double>(all);
+}
+
+}  // namespace heel

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Phase 2, a frame in and the target's place out (section 3).
+#pragma once
+
+#include "apps/follower/camera_setup.hpp"
+#include "apps/recording/frame.hpp"
+#include "cloud/color_cloud.hpp"
+#include "cloud/stereo_matcher.hpp"
+#include "segmentation/appearance_band.hpp"
+#include "segmentation/appearance_filter.hpp"
+#include "segmentation/body_appearance.hpp"
+#include "segmentation/height_crop.hpp"
+#include "segmentation/plan_view.hpp"
+#include "segmentation/world_blobs.hpp"
+#include "tracking/target.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace heel {
+
+/// The stages of the chain, in order.
+enum class Stage { kColorFilter, kDepth, kHeight, kPlanView, kTracking };
+inline constexpr int kStages = 5;
+const char* toText(Stage stage);
+
+/// What a blob must be to be looked at as a person. Lenient: only the parts of a body that have the
+/// target's colours are seen.
+struct CandidateParams {
+  int min_cells = 10;
+  double min_score = 12.0;      ///< Sum of the cells' heights [m].
+  double min_height_m = 1.25;   ///< Of its highest point.
+  double min_distance_m = 0.3;  ///< From the camera, on the floor; nearer is "too close".
+};
+
+struct PerceptionParams {
+  StereoMatcherParams stereo;
+  PlanViewParams plan_view;
+  WorldBlobParams blobs;
+  CandidateParams candidates;
+  BodyAppearanceParams body;
+  TrackerParams tracker;
+  TargetParams target;
+  GeometricGate gate;  ///< Besides "too close": where a person can be seen.
+};
+
+/// What one frame brought, stage by stage. References are to the perception's own memory, valid
+/// until the next frame.
+struct PerceptionStep {
+  double stamp_s = 0.0;
+  int color_pixels = 0;  ///< Pixels (of an unorganized cloud: points) of the target's colours.
+  int color_points = 0;  ///< Of these, the ones with a position.
+  cv::Mat mask;          ///< CV_8UC1, the pixels of the target's colours; empty: no image.
+  ColorCloud::ConstPtr cloud;             ///< In the base frame.
+  pcl::Indices standing;                  ///< Points of the target's colours at their heights.
+  std::vector<WorldBlob> blobs;           ///< All blobs, highest score first.
+  std::vector<Observation> observations;  ///< The blobs that may be people.
+  std::vector<int> blob_of_observation;   ///< Which blob each is.
+  TargetEstimate target;
+
+  /// The stage that lost the target, and why, as a short sentence; empty if it is seen.
+  std::string reason;
+};
+
+/// Finds the target in one frame after the other. Value in, value out; holds the stages' memory.
+class Perception {
+ public:
+  /// Told after each stage, so that the caller, who has the clock, can time them.
+  using StageDone = std::function<void(Stage)>;
+
+  /// @throws std::invalid_argument  if there is no band or a parameter is out of its range.
+  Perception(const CameraSetup& setup, AppearanceBands bands, const PerceptionParams& params = {});
+
+  /// The target is at this place in the next frame (after phase 1, say).
+  void startAt(const Eigen::Vector2d& position_m) { tracker_.startAt(position_m); }
+
+  /// Stamps need not be regular; one that is not later than the last is skipped by the tracker.
+  /// @throws std::invalid_argument  if the frame's images do not fit each other.
+  const PerceptionStep& step(const Frame& frame, const StageDone& done = {});
+
+  const std::vector<Track>& tracks() const { return tracker_.tracker().tracks(); }
+  const TrackerReport& report() const { return tracker_.tracker().report(); }
+
+ private:
+  void filterColors(const Frame& frame);
+  void measureDepth(const Frame& frame);
+  void keepStanding();
+  void findCandidates(const Frame& frame);
+  double appearanceOf(const WorldBlob& blob, const Frame& frame) const;
+  std::string whyNotSeen() const;
+
+  SensorKind sensor_;
+  StereoCamera camera_;
+  Eigen::Isometry3d T_base_camera_;
+  AppearanceBands bands_;
+  ColorTable any_band_;
+  PerceptionParams params_;
+
+  StereoMatcher matcher_;
+  cv::Mat disparity_, depth_m_;
+  MaskedCloud masked_cloud_;
+  ColorCloud::Ptr whole_cloud_;
+  pcl::IndicesPtr candidates_;
+  std::vector<HeightCrop> height_crops_;  // one a band
+  AppearanceFilter<pcl::PointXYZRGB> filter_;
+  pcl::IndicesPtr in_band_;
+  PlanView plan_view_;
+  WorldBlobFinder finder_;
+  TargetTracker tracker_;
+  PerceptionStep step_;
+};
+
+}  // namespace heel

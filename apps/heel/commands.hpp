@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// The verbs of the heel command. Each adds its options to the application and, when it is the one
+/// that was called, does its work: options in, library call, result out.
+///
+/// A verb throws std::runtime_error or std::invalid_argument with one sentence when it can't go on.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace heel {
+
+void addLearn(CLI::App& app);
+void addTrack(CLI::App& app);
+void addFilter(CLI::App& app);
+void addInspect(CLI::App& app);
+void addEvaluate(CLI::App& app);
+void addExperiment(CLI::App& app);
+
+}  // namespace heel

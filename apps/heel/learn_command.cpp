@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/follower/learn_person.hpp"
+#include "apps/heel/commands.hpp"
+#include "apps/report/annotate.hpp"
+#include "apps/report/progress_bar.hpp"
+#include "apps/report/video_writer.hpp"
+#include "segmentation/appearance_model_io.hpp"
+#include "segmentation/appearance_picture.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace heel {
+namespace {
+
+struct Options {
+  std::filesystem::path recording;
+  std::filesystem::path out = "person.yaml";
+  LearnPersonParams params;
+};
+
+void warn(const std::string& warning) {
+  std::fprintf(stderr, "heel: warning: %s\n", warning.c_str());
+}
+
+/// The picture that shows who was learned: the frame with most of the person in it.
+class BestView {
+ public:
+  explicit BestView(const CameraSetup& setup) : setup_(setup) {}
+
+  void offer(const Frame& frame, const AcquisitionStep& step) {
+    if (step.person < 0 || !step.usable) return;
+    const WorldBlob& blob = step.view->blobs[static_cast<std::size_t>(step.person)];
+    if (blob.area_m2 <= area_m2_) return;
+    area_m2_ = blob.area_m2;
+    scene_.image_bgr = frame.image_bgr.clone();
+    scene_.mask = step.labels >= AcquisitionStep::kTorso;
+    scene_.frame = frame.number;
+    scene_.stamp_s = frame.stamp_s;
+    SceneTrack person;
+    person.position_m = blob.position_m;
+    person.height_m = blob.max_height_m;
+    person.is_target = true;
+    person.confidence = 1.0;
+    scene_.tracks = {person};
+  }
+
+  cv::Mat draw() {
+    scene_.camera = setup_.camera.left;
+    scene_.T_floor_camera = setup_.T_base_camera;
+    scene_.state = "learned";
+    scene_.reason = "the marked pixels above 1 m are what the model was learned from";
+    scene_.tone = Tone::kGood;
+    cv::Mat picture;
+    annotate(scene_, {}, picture);
+    return picture;
+  }
+
+ private:
+  const CameraSetup& setup_;
+  Scene scene_;
+  double area_m2_ = 0.0;
+};
+
+void print(const LearnedPerson& learned) {
+  const AcquisitionResult& acquisition = learned.acquisition;
+  std::printf("learned the person seen from %.1f to %.1f s; it ended as %s\n",
+              acquisition.first_seen_s, acquisition.last_seen_s, toText(acquisition.end));
+  std::printf(
+      "  %d frames of the empty room, %d of the person (%.0f %% of those since they came)\n",
+      acquisition.empty_frames, acquisition.person_frames, 100.0 * acquisition.confidence());
+  std::printf("  band      heights [m]   points     delta   expected FP        expected FN\n");
+  for (const AppearanceBand& band : learned.model.bands()) {
+    std::printf("  %-8s  %.2f to %.2f  %7llu  %8.4f   %8llu %5.1f %%   %8llu %5.1f %%\n",
+                band.body.name.c_str(), band.body.min_height_m, band.body.max_height_m,
+                static_cast<unsigned long long>(band.person.total()), band.delta(),
+                static_cast<unsigned long long>(band.errors.false_positives),
+                100.0 * band.errors.false_positive_share,
+                static_cast<unsigned long long>(band.errors.false_negatives),
+                100.0 * band.errors.false_negative_share);
+  }
+}
+
+void run(const Options& options) {
+  const CameraSetup setup = findCameraSetup(*openRecording(options.recording));
+  for (const std::string& warning : setup.warnings) warn(warning);
+  const auto recording = openRecording(options.recording);
+  BestView best_view(setup);
+  ProgressBar progress("learning", recording->info().frame_count);
+  const LearnedPerson learned =
+      learnPerson(*recording, setup, options.params, [&](const Frame& frame, const auto& step) {
+        best_view.offer(frame, step);
+        progress.show(frame.number);
+      });
+  for (const SkippedFrame& frame : learned.skipped) warn(frame.reason);
+  if (options.out.has_parent_path()) {
+    std::filesystem::create_directories(options.out.parent_path());
+  }
+  saveAppearance(learned.model, options.out);
+  std::filesystem::path picture = options.out;
+  writePicture(picture.replace_extension(".png"), drawAppearance(learned.model));
+  std::filesystem::path view = options.out;
+  view.replace_filename(options.out.stem().string() + "_view.png");
+  writePicture(view, best_view.draw());
+  print(learned);
+  const Separability separability = learned.model.separability();
+  if (separability.doubt != AppearanceDoubt::kNone) warn(separability.advice);
+  std::printf("wrote %s, %s, %s\n", options.out.string().c_str(), picture.string().c_str(),
+              view.string().c_str());
+}
+
+}  // namespace
+
+void addLearn(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = app.add_subcommand("learn", "Learn who to follow, from a recording");
+  verb->footer(
+      "Example:\n"
+      "  heel learn recordings/kitchen --out person.yaml\n"
+      "The robot stands still. The recording begins with the empty room (about 5 s); then the "
+      "person\n"
+      "to follow enters, alone, and moves about (about 10 s). It ends by itself when the time is "
+      "up,\n"
+      "the person leaves, or a second person comes into view.\n"
+      "Writes the model, a picture of it, and a picture of who was learned.");
+  verb->add_option("RECORDING", options->recording, "folder of a recording")->required();
+  verb->add_option("--out", options->out, "where to write the model")->capture_default_str();
+  verb->add_option("--background", options->params.acquisition.background_s,
+                   "how long the room is empty at the beginning [s]")
+      ->capture_default_str();
+  verb->add_option("--person", options->params.acquisition.person_s,
+                   "how long to look at the person [s]")
+      ->capture_default_str();
+  verb->add_option_function<int>(
+          "--colors",
+          [options](int count) {
+            options->params.appearance.model = ColorModel::kPrincipalColors;
+            options->params.appearance.principal_colors.count = count;
+          },
+          "use the paper's model with this many principal colours; 1 is the paper's, 0 chooses")
+      ->type_name("K");
+  verb->add_flag_callback(
+      "--legs", [options] { options->params.appearance.bands = wholeBody(); },
+      "also learn from below 1 m: trousers tell people in similar jumpers apart");
+  verb->callback([options] { run(*options); });
+}
+
+}  // namespace heel

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/follower/perception.hpp"
+#include "apps/heel/commands.hpp"
+#include "apps/heel/track_output.hpp"
+#include "apps/report/progress_bar.hpp"
+#include "segmentation/appearance_model_io.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace heel {
+namespace {
+
+struct Options {
+  std::filesystem::path recording;
+  std::filesystem::path model;
+  std::filesystem::path out = "out";
+  std::vector<double> start_m;
+  std::vector<double> bounds_m;
+  bool no_film = false;
+};
+
+/// Milliseconds since the last call.
+class Clock {
+ public:
+  double lap_ms() {
+    const auto now = std::chrono::steady_clock::now();
+    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+    return ms;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+void warn(const std::string& warning) {
+  std::fprintf(stderr, "heel: warning: %s\n", warning.c_str());
+}
+
+void print(const TrackOutput& output, const Options& options, std::size_t skipped) {
+  std::printf("%zu frames, the target seen or predicted in %zu", output.frames(),
+              output.framesWithTarget());
+  if (skipped > 0) std::printf("; %zu frames could not be read", skipped);
+  std::printf("\n");
+  for (const auto& [state, frames] : output.framesByState()) {
+    std::printf("  %-10s %6zu\n", state.c_str(), frames);
+  }
+  std::printf("results in %s: tracks.csv frames.csv timing.csv summary.json%s\n",
+              options.out.string().c_str(), options.no_film ? "" : " tracks.mp4 frame_*.png");
+}
+
+void run(const Options& options) {
+  const AppearanceModel model = readAppearanceModel(options.model);
+  const CameraSetup setup = findCameraSetup(*openRecording(options.recording));
+  for (const std::string& warning : setup.warnings) warn(warning);
+
+  PerceptionParams params;
+  TrackOutputParams output_params;
+  output_params.film = !options.no_film;
+  if (!options.bounds_m.empty()) {
+    const Eigen::Vector2d lowest(options.bounds_m[0], options.bounds_m[1]);
+    const Eigen::Vector2d highest(options.bounds_m[2], options.bounds_m[3]);
+    params.gate = insideBounds(lowest, highest);
+    output_params.bounds_m = Eigen::AlignedBox2d(lowest, highest);
+  }
+  Perception perception(setup, model.bands(), params);
+  if (!options.start_m.empty()) perception.startAt({options.start_m[0], options.start_m[1]});
+
+  const auto recording = openRecording(options.recording);
+  TrackOutput output(options.out, recording->info(), setup, output_params);
+  ProgressBar progress("tracking", recording->info().frame_count);
+  std::vector<std::string> warnings = setup.warnings;
+  std::vector<SkippedFrame> skipped;
+  Frame frame;
+  StageTimes times_ms{};
+  while (recording->next(frame)) {
+    Clock clock;
+    try {
+      const PerceptionStep& step = perception.step(
+          frame, [&](Stage stage) { times_ms[static_cast<std::size_t>(stage)] = clock.lap_ms(); });
+      output.add(frame, perception, step, times_ms);
+    } catch (const std::invalid_argument& error) {
+      skipped.push_back({frame.number, error.what()});
+    }
+    progress.show(frame.number);
+  }
+  skipped.insert(skipped.end(), recording->skipped().begin(), recording->skipped().end());
+  if (output.frames() == 0) throw std::runtime_error(nothingReadMessage(*recording));
+  for (const SkippedFrame& frame_left_out : skipped) warn(frame_left_out.reason);
+  output.commit(skipped, warnings);
+  print(output, options, skipped.size());
+}
+
+}  // namespace
+
+void addTrack(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = app.add_subcommand("track", "Follow a learned person through a recording");
+  verb->footer(
+      "Example:\n"
+      "  heel track recordings/kitchen --model person.yaml --out out/kitchen\n"
+      "Writes tracks.csv (who is where), frames.csv (what every stage left of each frame, and why\n"
+      "there is no target), timing.csv, summary.json, and the film tracks.mp4 with stills.");
+  verb->add_option("RECORDING", options->recording, "folder of a recording")->required();
+  verb->add_option("--model", options->model, "the person, as 'heel learn' wrote it")->required();
+  verb->add_option("--out", options->out, "folder for the results")->capture_default_str();
+  verb->add_option("--start", options->start_m,
+                   "where the person stands in the first frame [m] (default: found by their looks)")
+      ->expected(2)
+      ->type_name("X Y");
+  verb->add_option("--bounds", options->bounds_m,
+                   "the room: nobody outside of it is taken for the person [m]")
+      ->expected(4)
+      ->type_name("X0 Y0 X1 Y1");
+  verb->add_flag("--no-film", options->no_film, "write the tables only");
+  verb->callback([options] { run(*options); });
+}
+
+}  // namespace heel

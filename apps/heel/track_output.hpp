@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// The result folder of `heel track`: tables, film, stills and summary.
+#pragma once
+
+#include "apps/follower/perception.hpp"
+#include "apps/report/annotate.hpp"
+#include "apps/report/result_files.hpp"
+#include "apps/report/trails.hpp"
+#include "apps/report/video_writer.hpp"
+
+#include <Eigen/Geometry>
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace heel {
+
+struct TrackOutputParams {
+  bool film = true;                             ///< Also draw the film and the stills.
+  std::size_t stills = 6;                       ///< Spread over the frames that have a target.
+  std::optional<Eigen::AlignedBox2d> bounds_m;  ///< To draw.
+};
+
+/// Milliseconds that each stage of a frame took.
+using StageTimes = std::array<double, kStages>;
+
+/// Writes a run as it goes on; nothing gets its name before commit().
+class TrackOutput {
+ public:
+  /// @throws std::runtime_error  if the folder or a file can't be written; so do the others.
+  TrackOutput(const std::filesystem::path& folder, const RecordingInfo& info,
+              const CameraSetup& setup, const TrackOutputParams& params);
+
+  void add(const Frame& frame, const Perception& perception, const PerceptionStep& step,
+           const StageTimes& times_ms);
+
+  /// Writes the summary, and gives all files their names.
+  void commit(const std::vector<SkippedFrame>& skipped, const std::vector<std::string>& warnings);
+
+  std::size_t frames() const { return frames_; }
+  std::size_t framesWithTarget() const { return frames_with_target_; }
+  const std::map<std::string, std::size_t>& framesByState() const { return states_; }
+
+ private:
+  void addRows(const Frame& frame, const Perception& perception, const PerceptionStep& step);
+  void draw(const Frame& frame, const Perception& perception, const PerceptionStep& step);
+  void keepStill();
+
+  std::filesystem::path folder_;
+  RecordingInfo info_;
+  CameraSetup setup_;
+  TrackOutputParams params_;
+  ResultFiles files_;
+  std::optional<FilmWriter> film_;
+  cv::Mat picture_;
+  Scene scene_;
+  Trails trails_;
+  std::map<int, double> heights_m_;  // of tracks that are alive
+  struct Still {
+    std::size_t frame;
+    cv::Mat picture;
+  };
+  std::vector<Still> stills_;
+  std::size_t still_step_ = 1;  // every so many frames with a target
+  std::size_t frames_ = 0;
+  std::size_t frames_with_target_ = 0;
+  std::map<std::string, std::size_t> states_;
+  std::map<std::string, std::size_t> reasons_;
+  std::vector<std::string> film_names_;
+};
+
+}  // namespace heel

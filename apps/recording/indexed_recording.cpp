@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/recording/indexed_recording.hpp"
+
+#include "apps/recording/stamps.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace heel {
+
+IndexedRecording::IndexedRecording(const std::filesystem::path& path, RecordingInfo info,
+                                   std::vector<double> stamps_s)
+    : stamps_s_(std::move(stamps_s)) {
+  info_ = std::move(info);
+  info_.name = std::filesystem::canonical(path).filename().string();
+  info_.frame_count = stamps_s_.size();
+  if (!stamps_s_.empty()) {
+    const auto [first, last] = std::minmax_element(stamps_s_.begin(), stamps_s_.end());
+    info_.duration_s = *last - *first;
+  }
+}
+
+bool IndexedRecording::next(Frame& frame) {
+  while (next_index_ < stamps_s_.size()) {
+    const std::size_t index = next_index_++;
+    try {
+      checkStamp(index);
+      read(index, frame);
+    } catch (const std::runtime_error& error) {
+      skipped_.push_back({index + 1, error.what()});
+      continue;
+    }
+    frame.number = index + 1;
+    frame.stamp_s = stamps_s_[index];
+    frame.name = frameName(index);
+    return true;
+  }
+  return false;
+}
+
+void IndexedRecording::checkStamp(std::size_t index) {
+  const double stamp_s = stamps_s_[index];
+  if (!(stamp_s > last_stamp_s_)) {
+    const bool stalls = stamp_s == last_stamp_s_;
+    throw std::runtime_error(frameName(index) + ": the time " +
+                             (stalls ? "stands still" : "runs backwards") + ", from " +
+                             stampText(last_stamp_s_) + " s to " + stampText(stamp_s) + " s");
+  }
+  last_stamp_s_ = stamp_s;
+}
+
+}  // namespace heel

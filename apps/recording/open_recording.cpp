@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/recording/pcd_recording.hpp"
+#include "apps/recording/recording.hpp"
+#include "apps/recording/rgbd_recording.hpp"
+#include "apps/recording/stereo_recording.hpp"
+
+#include <stdexcept>
+
+namespace heel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::unique_ptr<Recording> openKnownLayout(const fs::path& path, const RecordingParams& params) {
+  if (!fs::exists(path)) throw std::runtime_error(path.string() + " does not exist");
+  if (!fs::is_directory(path)) {
+    if (PcdRecording::fits(path)) return PcdRecording::open(path, params);
+    throw std::runtime_error(path.string() + " is neither a folder nor a PCD file (.pcd)");
+  }
+  if (RgbdRecording::fits(path)) return RgbdRecording::open(path, params);
+  if (StereoRecording::fits(path)) return StereoRecording::open(path, params);
+  if (PcdRecording::fits(path)) return PcdRecording::open(path, params);
+  throw std::runtime_error(
+      path.string() +
+      " holds no recording of a known layout, which are: an RGB-D folder in the TUM layout "
+      "(rgb.txt, depth.txt, camera.yaml), stereo images (left/ and right/, image_0/ and image_1/, "
+      "cam0/ and cam1/, left*.png and right*.png, or im0.png and im1.png; with calib.yaml, "
+      "left.yaml and right.yaml, or calib.txt), and PCD files (*.pcd)");
+}
+
+}  // namespace
+
+std::unique_ptr<Recording> openRecording(const fs::path& path, const RecordingParams& params) {
+  if (!(params.max_stamp_difference_s > 0.0) || !(params.nominal_rate_hz > 0.0)) {
+    throw std::invalid_argument("openRecording: the stamps' difference and rate must be above 0");
+  }
+  try {
+    return openKnownLayout(path, params);
+  } catch (const fs::filesystem_error& error) {
+    throw std::runtime_error(path.string() + " cannot be read: " + error.code().message());
+  }
+}
+
+std::string nothingReadMessage(const Recording& recording) {
+  const auto& skipped = recording.skipped();
+  std::string message = "none of the " + std::to_string(recording.info().frame_count) +
+                        " frames of " + recording.info().name + " could be read";
+  if (!skipped.empty()) message += "; the first: " + skipped.front().reason;
+  return message;
+}
+
+}  // namespace heel

@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/recording/stamps.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <numeric>
+#include <stdexcept>
+#include <string_view>
+
+namespace heel {
+
+namespace {
+
+/// A finite number that fills the whole text.
+std::optional<double> numberOf(std::string_view text) {
+  double value = 0.0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const char* const kBlank = " \t\r";
+  const auto first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+/// Calls `take` for each line that is neither blank nor a comment; it says whether it understood.
+void forEachLine(const std::filesystem::path& list, const std::string& form,
+                 const std::function<bool(std::string_view)>& take) {
+  std::ifstream in(list);
+  if (!in) throw std::runtime_error(list.string() + " cannot be read");
+  std::string line;
+  std::size_t taken = 0;
+  for (std::size_t number = 1; std::getline(in, line); ++number) {
+    const std::string_view text = trimmed(line);
+    if (text.empty() || text.front() == '#') continue;
+    if (!take(text)) {
+      throw std::runtime_error(list.string() + ", line " + std::to_string(number) + ": '" +
+                               std::string(text.substr(0, 60)) + "' is not of the form '" + form +
+                               "'");
+    }
+    ++taken;
+  }
+  if (in.bad()) throw std::runtime_error(list.string() + " cannot be read to its end");
+  if (taken == 0) throw std::runtime_error(list.string() + " lists nothing");
+}
+
+}  // namespace
+
+std::vector<StampedFile> readStampedFiles(const std::filesystem::path& list) {
+  std::vector<StampedFile> files;
+  const std::filesystem::path folder = list.parent_path();
+  forEachLine(list, "stamp filename", [&](std::string_view text) {
+    const auto gap = text.find_first_of(" \t,");
+    if (gap == std::string_view::npos) return false;
+    const auto stamp_s = numberOf(text.substr(0, gap));
+    const std::string_view name = trimmed(text.substr(gap + 1));
+    if (!stamp_s || name.empty()) return false;
+    files.push_back({*stamp_s, folder / name});
+    return true;
+  });
+  return files;
+}
+
+std::vector<double> readTimes(const std::filesystem::path& list) {
+  std::vector<double> stamps_s;
+  forEachLine(list, "seconds", [&](std::string_view text) {
+    const auto stamp_s = numberOf(text);
+    if (stamp_s) stamps_s.push_back(*stamp_s);
+    return stamp_s.has_value();
+  });
+  return stamps_s;
+}
+
+std::vector<std::optional<std::size_t>> nearestInTime(const std::vector<StampedFile>& files,
+                                                      const std::vector<StampedFile>& others,
+                                                      double limit_s) {
+  std::vector<std::size_t> by_time(others.size());
+  std::iota(by_time.begin(), by_time.end(), std::size_t{0});
+  std::stable_sort(by_time.begin(), by_time.end(), [&](std::size_t a, std::size_t b) {
+    return others[a].stamp_s < others[b].stamp_s;
+  });
+  std::vector<std::optional<std::size_t>> nearest(files.size());
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const double stamp_s = files[i].stamp_s;
+    const auto after =
+        std::lower_bound(by_time.begin(), by_time.end(), stamp_s,
+                         [&](std::size_t k, double t) { return others[k].stamp_s < t; });
+    double best_s = limit_s;
+    const auto consider = [&](std::size_t k) {
+      const double apart_s = std::abs(others[k].stamp_s - stamp_s);
+      if (apart_s > best_s) return;
+      best_s = apart_s;
+      nearest[i] = k;
+    };
+    if (after != by_time.end()) consider(*after);
+    if (after != by_time.begin()) consider(*(after - 1));
+  }
+  return nearest;
+}
+
+std::optional<double> stampOfName(const std::filesystem::path& file) {
+  const std::string stem = file.stem().string();
+  const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
+  const bool all_digits = !stem.empty() && std::all_of(stem.begin(), stem.end(), isDigit);
+  if (all_digits && (stem.size() == 16 || stem.size() == 19)) {
+    // Seconds and the rest apart: as one double, nanoseconds since 1970 would be rounded first.
+    const double fraction = *numberOf(stem.substr(10)) / (stem.size() == 16 ? 1e6 : 1e9);
+    return *numberOf(stem.substr(0, 10)) + fraction;
+  }
+  if (stem.empty() || !isDigit(stem.front()) || stem.find('.') == std::string::npos) {
+    return std::nullopt;
+  }
+  return numberOf(stem);
+}
+
+std::vector<double> stampsOfFiles(const std::filesystem::path& times,
+                                  const std::vector<std::filesystem::path>& files, double rate_hz,
+                                  bool& nominal) {
+  nominal = false;
+  std::vector<double> stamps_s;
+  if (std::filesystem::exists(times)) {
+    stamps_s = readTimes(times);
+    if (stamps_s.size() != files.size()) {
+      throw std::runtime_error(times.string() + " lists " + std::to_string(stamps_s.size()) +
+                               " times for " + std::to_string(files.size()) + " files");
+    }
+    return stamps_s;
+  }
+  for (const auto& file : files) {
+    const auto stamp_s = stampOfName(file);
+    if (!stamp_s) break;
+    stamps_s.push_back(*stamp_s);
+  }
+  nominal = stamps_s.size() != files.size();
+  if (nominal) {
+    stamps_s.clear();
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      stamps_s.push_back(static_cast<double>(i) / rate_hz);
+    }
+  }
+  return stamps_s;
+}
+
+std::string stampText(double stamp_s) {
+  std::array<char, 400> text{};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), stamp_s, std::chars_format::fixed, 6)
+          .ptr;
+  return {text.data(), end};
+}
+
+}  // namespace heel

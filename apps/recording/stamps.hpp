@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// When the files of a recording were taken: lists of stamps, and stamps in file names.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace heel {
+
+/// A file and its time.
+struct StampedFile {
+  double stamp_s = 0.0;
+  std::filesystem::path path;
+};
+
+/// Reads a list of the TUM layout: lines "stamp filename", "# " comments; names count from the
+/// list's own folder.
+/// @throws std::runtime_error  if it can't be read, holds no file, or a line is not of this form.
+std::vector<StampedFile> readStampedFiles(const std::filesystem::path& list);
+
+/// Reads a list of times, one a line in seconds (KITTI's times.txt).
+/// @throws std::runtime_error  as above.
+std::vector<double> readTimes(const std::filesystem::path& list);
+
+/// For each of `files`, which of `others` is the nearest in time; absent where that is more than
+/// `limit_s` away. `others` may be in any order.
+std::vector<std::optional<std::size_t>> nearestInTime(const std::vector<StampedFile>& files,
+                                                      const std::vector<StampedFile>& others,
+                                                      double limit_s);
+
+/// The time that a file's name tells: seconds with a decimal point ("1305031102.175304.png"), or
+/// 16 digits (microseconds) or 19 digits (nanoseconds). Absent for any other name.
+std::optional<double> stampOfName(const std::filesystem::path& file);
+
+/// The times of files: from the list `times` (see readTimes) if that file exists, else from the
+/// names if all of them tell one, else at `rate_hz` from 0.
+/// @param nominal  Out: whether the rate was used.
+/// @throws std::runtime_error  if the list has not one time for each of the files.
+std::vector<double> stampsOfFiles(const std::filesystem::path& times,
+                                  const std::vector<std::filesystem::path>& files, double rate_hz,
+                                  bool& nominal);
+
+/// A stamp as text, to the microsecond.
+std::string stampText(double stamp_s);
+
+}  // namespace heel

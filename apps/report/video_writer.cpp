@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/report/video_writer.hpp"
+
+#include "apps/report/atomic_file.hpp"
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
+
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace heel {
+
+namespace fs = std::filesystem;
+
+FilmWriter::FilmWriter(fs::path path, double rate_hz, cv::Size size)
+    : path_(std::move(path)), rate_hz_(rate_hz), size_(size) {
+  if (!(rate_hz > 0.0) || size.empty()) {
+    throw std::invalid_argument("FilmWriter: the rate and the size must be above 0");
+  }
+  const bool wants_mp4 = path_.extension() == ".mp4";
+  if (wants_mp4 && open(path_, Format::kMp4)) return;
+  if (open(fs::path(path_).replace_extension(".avi"), Format::kMotionJpeg)) return;
+  film_.reset();
+  const AtomicFile reason(path_);  // throws the system's reason, which OpenCV does not tell
+  throw std::runtime_error(path_.string() + " cannot be written: OpenCV has no film format here");
+}
+
+FilmWriter::~FilmWriter() {
+  if (film_ == nullptr) return;
+  film_.reset();
+  std::error_code ignored;
+  fs::remove(temporary_, ignored);
+}
+
+bool FilmWriter::open(const fs::path& path, Format format) {
+  path_ = path;
+  temporary_ = temporaryBeside(path);
+  film_ = std::make_unique<cv::VideoWriter>();
+  const bool is_mp4 = format == Format::kMp4;
+  const int codec = is_mp4 ? cv::VideoWriter::fourcc('m', 'p', '4', 'v')
+                           : cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
+  return film_->open(temporary_.string(), is_mp4 ? cv::CAP_FFMPEG : cv::CAP_OPENCV_MJPEG, codec,
+                     rate_hz_, size_);
+}
+
+bool FilmWriter::isWhole() const {
+  cv::VideoCapture film(temporary_.string(), cv::CAP_FFMPEG);
+  return film.isOpened() && film.get(cv::CAP_PROP_FRAME_COUNT) == static_cast<double>(frames_);
+}
+
+void FilmWriter::write(const cv::Mat& picture) {
+  if (film_ == nullptr) throw std::logic_error("FilmWriter: written to after its end");
+  if (picture.type() != CV_8UC3 || picture.size() != size_) {
+    throw std::invalid_argument("FilmWriter: a picture of another type or size");
+  }
+  film_->write(picture);
+  ++frames_;
+}
+
+void FilmWriter::commit() {
+  if (film_ == nullptr) throw std::logic_error("FilmWriter: committed after its end");
+  film_.reset();  // writes the film's end
+  if (frames_ > 0 && isWhole()) {
+    commitTemporary(temporary_, path_);
+    return;
+  }
+  std::error_code ignored;
+  fs::remove(temporary_, ignored);
+  if (frames_ == 0) return;
+  throw std::runtime_error(path_.string() +
+                           " cannot be written: the film is not whole; is the disk full?");
+}
+
+void writePicture(const fs::path& file, const cv::Mat& picture) {
+  std::vector<std::uint8_t> bytes;
+  bool encoded = false;
+  try {
+    encoded = cv::imencode(file.extension().string(), picture, bytes);
+  } catch (const cv::Exception&) {
+    // The sentence below says all that a reader can use.
+  }
+  if (!encoded) {
+    throw std::runtime_error(file.string() + " cannot be written: no picture format of this name");
+  }
+  writeFile(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+}  // namespace heel

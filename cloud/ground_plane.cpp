@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cloud/ground_plane.hpp"
+
+#include <pcl/sample_consensus/ransac.h>
+#include <pcl/sample_consensus/sac_model_perpendicular_plane.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+using Points = pcl::PointCloud<pcl::PointXYZ>;
+using PlaneModel = pcl::SampleConsensusModelPerpendicularPlane<pcl::PointXYZ>;
+
+constexpr std::size_t kFewestPoints = 100;
+constexpr int kMaxPlanes = 6;  // floor, table tops, seats
+
+/// (n, d) with n towards the camera, so that the camera is above.
+Eigen::Vector4d upwards(const Eigen::VectorXf& coefficients) {
+  const Eigen::Vector4d plane = coefficients.head<4>().cast<double>();
+  return plane.w() < 0.0 ? Eigen::Vector4d(-plane) : plane;
+}
+
+double heightOver(const Eigen::Vector4d& plane, const pcl::PointXYZ& p) {
+  return plane.head<3>().dot(p.getVector3fMap().cast<double>()) + plane.w();
+}
+
+std::size_t countBelow(const Points& points, const Eigen::Vector4d& plane,
+                       const GroundPlaneParams& params) {
+  return static_cast<std::size_t>(
+      std::count_if(points.begin(), points.end(), [&](const pcl::PointXYZ& p) {
+        const double depth = p.z;
+        return heightOver(plane, p) < -(params.below_m + params.below_per_square_m * depth * depth);
+      }));
+}
+
+double spread(const Points& points, const Eigen::Vector4d& plane, const pcl::Indices& inliers) {
+  double squares = 0.0;
+  for (const auto i : inliers) {
+    const double height = heightOver(plane, points[static_cast<std::size_t>(i)]);
+    squares += height * height;
+  }
+  return std::sqrt(squares / static_cast<double>(inliers.size()));
+}
+
+Mounting mountingOver(const Eigen::Vector4d& plane) {
+  const Eigen::Vector3d up = plane.head<3>();
+  return {plane.w(), std::asin(std::clamp(-up.z(), -1.0, 1.0)), std::atan2(-up.x(), -up.y())};
+}
+
+}  // namespace
+
+GroundPlaneEstimator::GroundPlaneEstimator(const GroundPlaneParams& params,
+                                           const Eigen::Vector3d& up_in_camera)
+    : params_(params), up_(up_in_camera.normalized()), points_(new Points) {
+  const bool positive = params.max_range_m > 0.0 && params.inlier_distance_m > 0.0 &&
+                        params.max_tilt_rad > 0.0 && params.min_inlier_share > 0.0 &&
+                        params.points_per_frame > 0 && params.max_points > 0;
+  if (!positive) throw std::invalid_argument("GroundPlaneEstimator: a parameter is not positive");
+  if (!(up_in_camera.norm() > 0.0)) {
+    throw std::invalid_argument("GroundPlaneEstimator: up has no direction");
+  }
+}
+
+void GroundPlaneEstimator::add(const ColorCloud& cloud) {
+  const auto usable = [&](const pcl::PointXYZRGB& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) &&
+           p.getVector3fMap().norm() <= params_.max_range_m;
+  };
+  const auto count = static_cast<std::size_t>(std::count_if(cloud.begin(), cloud.end(), usable));
+  if (count == 0) return;
+  const std::size_t step = (count + params_.points_per_frame - 1) / params_.points_per_frame;
+  std::size_t seen = 0;
+  for (const auto& p : cloud) {
+    if (isFull()) return;
+    if (usable(p) && seen++ % step == 0) points_->push_back({p.x, p.y, p.z});
+  }
+}
+
+std::optional<GroundPlane> GroundPlaneEstimator::estimate() const {
+  if (points_->size() < kFewestPoints) return std::nullopt;
+  pcl::Indices remaining(points_->size());
+  for (std::size_t i = 0; i < remaining.size(); ++i) remaining[i] = static_cast<int>(i);
+  const auto needed = static_cast<std::size_t>(
+      std::ceil(params_.min_inlier_share * static_cast<double>(points_->size())));
+
+  // RANSAC gives the planes from the largest down: the first with nothing below it is the floor.
+  for (int k = 0; k < kMaxPlanes && remaining.size() >= std::max(needed, kFewestPoints); ++k) {
+    pcl::shared_ptr<PlaneModel> model(new PlaneModel(points_, remaining));
+    model->setAxis(up_.cast<float>());
+    model->setEpsAngle(params_.max_tilt_rad);
+    pcl::RandomSampleConsensus<pcl::PointXYZ> ransac(model, params_.inlier_distance_m);
+    ransac.setMaxIterations(1000);
+    if (!ransac.computeModel()) return std::nullopt;
+    Eigen::VectorXf coefficients, refined;
+    pcl::Indices inliers;
+    ransac.getModelCoefficients(coefficients);
+    for (int i = 0; i < 3; ++i) {
+      model->selectWithinDistance(coefficients, params_.inlier_distance_m, inliers);
+      model->optimizeModelCoefficients(inliers, coefficients, refined);
+      coefficients = refined;
+    }
+    model->selectWithinDistance(coefficients, params_.inlier_distance_m, inliers);
+    if (inliers.size() < needed) return std::nullopt;
+
+    const Eigen::Vector4d plane = upwards(coefficients);
+    const auto below = static_cast<double>(countBelow(*points_, plane, params_));
+    const bool level = plane.head<3>().dot(up_) > std::cos(params_.max_tilt_rad);
+    if (level && below <= params_.max_below_share * static_cast<double>(inliers.size())) {
+      GroundPlane floor;
+      floor.plane = plane;
+      floor.mounting = mountingOver(plane);
+      floor.T_base_camera = baseFromCamera(floor.mounting);
+      floor.points = points_->size();
+      floor.inlier_share =
+          static_cast<double>(inliers.size()) / static_cast<double>(points_->size());
+      floor.spread_m = spread(*points_, plane, inliers);
+      return floor;
+    }
+    pcl::Indices others;
+    std::sort(inliers.begin(), inliers.end());
+    std::set_difference(remaining.begin(), remaining.end(), inliers.begin(), inliers.end(),
+                        std::back_inserter(others));
+    remaining.swap(others);
+  }
+  return std::nullopt;
+}
+
+std::string mountingWarning(const Mounting& found, const Mounting& configured,
+                            const MountingTolerance& tolerance) {
+  const bool agree = std::abs(found.height_m - configured.height_m) <= tolerance.height_m &&
+                     std::abs(found.pitch_rad - configured.pitch_rad) <= tolerance.angle_rad &&
+                     std::abs(found.roll_rad - configured.roll_rad) <= tolerance.angle_rad;
+  if (agree) return {};
+  constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+  std::array<char, 320> text{};
+  std::snprintf(text.data(), text.size(),
+                "The floor says that the camera is %.2f m high, pitched %.1f deg and rolled %.1f "
+                "deg, but %.2f m, %.1f deg and %.1f deg are configured: correct the mounting.",
+                found.height_m, found.pitch_rad * kDegrees, found.roll_rad * kDegrees,
+                configured.height_m, configured.pitch_rad * kDegrees,
+                configured.roll_rad * kDegrees);
+  return text.data();
+}
+
+}  // namespace heel

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Where the floor is, found from the first seconds of a recording.
+#pragma once
+
+#include "cloud/color_cloud.hpp"
+#include "cloud/mounting.hpp"
+
+#include <Eigen/Geometry>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace heel {
+
+/// How the floor is told from tables and walls. Defaults suit rooms and a camera on a robot or on
+/// a wall that is tilted by less than 40 degrees from the guess.
+struct GroundPlaneParams {
+  double max_range_m = 6.0;             ///< Points further off are not used.
+  double inlier_distance_m = 0.03;      ///< Of the floor's points, from the plane.
+  double max_tilt_rad = 0.7;            ///< Between the floor's normal and the guess of "up".
+  double min_inlier_share = 0.05;       ///< Of the points, that a floor must have.
+  double max_below_share = 0.15;        ///< Points below a floor, per point of it: it has none but
+                                        ///< noise, whereas a table has the floor.
+  double below_m = 0.1;                 ///< What counts as below, plus ...
+  double below_per_square_m = 0.02;     ///< ... this times the squared depth (stereo's noise).
+  std::size_t points_per_frame = 4000;  ///< Drawn evenly from each cloud.
+  std::size_t max_points = 40000;       ///< Later clouds are not used any more.
+};
+
+/// The floor, as seen from the camera, and on what that rests.
+struct GroundPlane {
+  Eigen::Vector4d plane = Eigen::Vector4d::Zero();  ///< (n, d): n.p + d is the height of point p of
+                                                    ///< the optical frame over the floor [m].
+  Mounting mounting;                                ///< The camera over this floor.
+  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();  ///< baseFromCamera(mounting)
+  std::size_t points = 0;                                           ///< Points that were used.
+  double inlier_share = 0.0;                                        ///< Of them, on the floor.
+  double spread_m = 0.0;  ///< Root mean square distance of these from the plane.
+};
+
+/// Collects clouds and finds the floor in them by PCL's RANSAC: the largest plane that is about
+/// level and has nothing below it. Deterministic.
+class GroundPlaneEstimator {
+ public:
+  /// @param up_in_camera  A guess of "up" in the optical frame; as for a level camera by default.
+  /// @throws std::invalid_argument  if a parameter is out of range or the guess is zero.
+  explicit GroundPlaneEstimator(const GroundPlaneParams& params = {},
+                                const Eigen::Vector3d& up_in_camera = -Eigen::Vector3d::UnitY());
+
+  /// Adds points of a cloud in the camera's optical frame; NaN points are skipped.
+  void add(const ColorCloud& cloud);
+
+  /// Whether further clouds would change nothing.
+  bool isFull() const { return points_->size() >= params_.max_points; }
+
+  /// The floor, or nothing if no plane is like one.
+  std::optional<GroundPlane> estimate() const;
+
+ private:
+  GroundPlaneParams params_;
+  Eigen::Vector3d up_;
+  pcl::PointCloud<pcl::PointXYZ>::Ptr points_;
+};
+
+/// How far the floor that was found may be from the configured mounting.
+struct MountingTolerance {
+  double height_m = 0.05;
+  double angle_rad = 0.05;
+};
+
+/// A sentence that says how the mountings differ; empty if they agree.
+std::string mountingWarning(const Mounting& found, const Mounting& configured,
+                            const MountingTolerance& tolerance = {});
+
+}  // namespace heel

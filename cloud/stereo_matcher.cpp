@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cloud/stereo_matcher.hpp"
+
+#include "cloud/mask_support.hpp"
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace heel {
+namespace {
+
+constexpr std::int16_t kNone = -kDisparityScale;
+
+void require(bool holds, const std::string& rule) {
+  if (!holds) throw std::invalid_argument("StereoMatcher: " + rule);
+}
+
+StereoMatcherParams checked(const StereoMatcherParams& p) {
+  require(p.disparities > 0 && p.disparities <= 256 && p.disparities % 16 == 0,
+          "disparities must be a multiple of 16, at most 256");
+  require(p.block_size % 2 == 1 && p.block_size >= 1 && p.block_size <= 5,
+          "block_size must be 1, 3 or 5");
+  require(p.p1 > 0 && p.p2 > p.p1 && p.p2 <= 900, "0 < p1 < p2 <= 900 must hold");
+  require(p.prefilter_cap % 2 == 1 && p.prefilter_cap >= 15 && p.prefilter_cap <= 63,
+          "prefilter_cap must be odd, from 15 to 63");
+  require(p.uniqueness_percent >= 0 && p.uniqueness_percent < 100,
+          "uniqueness_percent must be from 0 to 99");
+  require(p.max_left_right_difference >= 1, "max_left_right_difference must be at least 1");
+  require(p.speckle_size >= 0 && p.speckle_range >= 0, "a speckle's figures can't be negative");
+  require(p.margin_px >= 0, "margin_px can't be negative");
+  require(p.min_support >= 0.0 && p.min_support <= 1.0, "min_support must be from 0 to 1");
+  return p;
+}
+
+}  // namespace
+
+StereoMatcher::StereoMatcher(const StereoMatcherParams& params)
+    : params_(checked(params)),
+      dense_(cv::StereoSGBM::create(0, params.disparities, params.block_size, params.p1, params.p2,
+                                    params.max_left_right_difference, params.prefilter_cap,
+                                    params.uniqueness_percent, params.speckle_size,
+                                    params.speckle_range, cv::StereoSGBM::MODE_SGBM)),
+      masked_(params_),
+      margin_(2 * params.margin_px + 1, 2 * params.margin_px + 1, CV_8UC1, cv::Scalar(1)) {}
+
+StereoMatcher::~StereoMatcher() = default;
+StereoMatcher::StereoMatcher(StereoMatcher&&) noexcept = default;
+StereoMatcher& StereoMatcher::operator=(StereoMatcher&&) noexcept = default;
+
+/// Checks the images, makes them grey, and continues them at the left: then the first pixel has
+/// the whole range of disparities.
+void StereoMatcher::prepare(const cv::Mat& left, const cv::Mat& right) {
+  require(!left.empty() && !right.empty(), "an image is empty");
+  require(left.size() == right.size(), "left and right images differ in size");
+  for (const auto& [image, wide] : {std::pair{&left, &left_}, std::pair{&right, &right_}}) {
+    require(image->type() == CV_8UC3 || image->type() == CV_8UC1,
+            "images must be 8-bit BGR or grey");
+    if (image->channels() == 3) cv::cvtColor(*image, grey_, cv::COLOR_BGR2GRAY);
+    cv::copyMakeBorder(image->channels() == 3 ? grey_ : *image, *wide, 0, 0, params_.disparities, 0,
+                       cv::BORDER_REPLICATE);
+  }
+}
+
+int StereoMatcher::match(const cv::Mat& left, const cv::Mat& right, cv::Mat& disparity) {
+  prepare(left, right);
+  dense_->compute(left_, right_, fixed_);
+  supported_.create(left.size(), CV_8UC1);
+  supported_.setTo(255);
+  pixels_.find(supported_);
+  return finish(pixels_, disparity);
+}
+
+MaskedMatch StereoMatcher::match(const cv::Mat& left, const cv::Mat& right, const cv::Mat& mask,
+                                 cv::Mat& disparity) {
+  prepare(left, right);
+  require(mask.type() == CV_8UC1 && mask.size() == left.size(),
+          "the mask must be 8-bit and of the images' size");
+  const SupportCount support = keepSupported(mask, params_.min_support, supported_, cells_);
+  MaskedMatch result{support.wanted, support.kept, 0};
+
+  cv::dilate(supported_, grown_, margin_);
+  cv::copyMakeBorder(grown_, grown_, 0, 0, params_.disparities, 0, cv::BORDER_CONSTANT);
+  masked_.compute(left_, right_, grown_, fixed_);
+
+  // What cv::StereoSGBM does after matching.
+  const cv::Rect bounds = masked_.bounds();
+  if (!bounds.empty()) {
+    const cv::Rect around(bounds.x - 1, bounds.y - 1, bounds.width + 2, bounds.height + 2);
+    cv::Mat matched = fixed_(around & cv::Rect({}, fixed_.size()));
+    cv::medianBlur(matched, filtered_, 3);
+    if (params_.speckle_size > 0) {
+      cv::filterSpeckles(filtered_, kNone, params_.speckle_size,
+                         params_.speckle_range * kDisparityScale, speckle_buffer_);
+    }
+    filtered_.copyTo(matched);
+  }
+  pixels_.find(supported_);
+  result.matched = finish(pixels_, disparity);
+  return result;
+}
+
+/// Turns fixed point into pixels where asked, NaN elsewhere and where the match lies outside.
+int StereoMatcher::finish(const RowSpans& pixels, cv::Mat& disparity) const {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  disparity.create(supported_.size(), CV_32FC1);
+  disparity.setTo(nan);
+  int found = 0;
+  for (int y = 0; y < disparity.rows; ++y) {
+    const auto* fixed = fixed_.ptr<std::int16_t>(y) + params_.disparities;
+    auto* out = disparity.ptr<float>(y);
+    for (const Span& span : pixels.row(y)) {
+      for (int x = span.begin; x < span.end; ++x) {
+        const int d = fixed[x];
+        const bool inside = d >= 0 && d <= x * kDisparityScale;
+        out[x] = inside ? static_cast<float>(d) / kDisparityScale : nan;
+        found += inside ? 1 : 0;
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace heel

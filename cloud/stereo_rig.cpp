@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cloud/stereo_rig.hpp"
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+/// Beyond this, a length was most likely not given in metres.
+constexpr double kLongestBaseline_m = 10.0;
+
+StereoCamera rectifiedCamera(const cv::Mat& left, const cv::Mat& right, cv::Size size) {
+  StereoCamera camera;
+  camera.left = {size.width,
+                 size.height,
+                 left.at<double>(0, 0),
+                 left.at<double>(1, 1),
+                 left.at<double>(0, 2),
+                 left.at<double>(1, 2)};
+  // The right projection is that of the left's frame: P(0, 3) = -fx * baseline.
+  camera.baseline_m = -right.at<double>(0, 3) / right.at<double>(0, 0);
+  camera.disparity_offset = right.at<double>(0, 2) - left.at<double>(0, 2);
+  return camera;
+}
+
+void check(const StereoCamera& camera, const cv::Mat& right_P, const std::string& origin) {
+  const auto fail = [&](const std::string& reason) {
+    throw std::runtime_error(origin + ": " + reason);
+  };
+  const double b = camera.baseline_m;
+  if (camera.left.width <= 0 || camera.left.height <= 0)
+    fail("the size of the images is not given");
+  if (!(camera.left.fx > 0.0) || !(camera.left.fy > 0.0)) fail("a focal length is not positive");
+  if (std::abs(right_P.at<double>(1, 3)) > std::abs(right_P.at<double>(0, 3))) {
+    fail("the cameras stand above each other; only pairs side by side can be matched");
+  }
+  if (!std::isfinite(b) || std::abs(b) < 1e-6) fail("there is no baseline between the cameras");
+  if (b < 0.0) fail("the left and right cameras are swapped, the baseline is negative");
+  if (b > kLongestBaseline_m) {
+    fail("the baseline is " + std::to_string(b) + " m; give lengths in metres");
+  }
+}
+
+/// Whether rectifying would move no pixel.
+bool isIdentity(const RawCamera& camera) {
+  const bool undistorted =
+      camera.distortion.empty() || cv::norm(camera.distortion, cv::NORM_INF) < 1e-12;
+  const cv::Mat new_K = camera.P.colRange(0, 3);
+  return undistorted && cv::norm(camera.R, cv::Mat::eye(3, 3, CV_64F), cv::NORM_INF) < 1e-9 &&
+         cv::norm(camera.K, new_K, cv::NORM_INF) < 1e-3;
+}
+
+}  // namespace
+
+StereoRig::StereoRig(RawCamera left, RawCamera right, cv::Size image_size,
+                     const std::string& origin)
+    : camera_(rectifiedCamera(left.P, right.P, image_size)) {
+  check(camera_, right.P, origin);
+  if (isIdentity(left) && isIdentity(right)) return;
+  cv::initUndistortRectifyMap(left.K, left.distortion, left.R, left.P, image_size, CV_16SC2,
+                              left_map_, left_weights_);
+  cv::initUndistortRectifyMap(right.K, right.distortion, right.R, right.P, image_size, CV_16SC2,
+                              right_map_, right_weights_);
+}
+
+StereoRig::StereoRig(const StereoCamera& camera) : camera_(camera) {
+  if (!(camera.baseline_m > 0.0)) throw std::invalid_argument("StereoRig: no baseline");
+}
+
+void StereoRig::rectify(const cv::Mat& left, const cv::Mat& right, cv::Mat& rectified_left,
+                        cv::Mat& rectified_right) const {
+  const cv::Size size(camera_.left.width, camera_.left.height);
+  if (left.size() != size || right.size() != size) {
+    throw std::invalid_argument("StereoRig: the images are not of the calibrated size, " +
+                                std::to_string(size.width) + "x" + std::to_string(size.height));
+  }
+  if (isRectified()) {
+    rectified_left = left;
+    rectified_right = right;
+    return;
+  }
+  cv::remap(left, rectified_left, left_map_, left_weights_, cv::INTER_LINEAR);
+  cv::remap(right, rectified_right, right_map_, right_weights_, cv::INTER_LINEAR);
+}
+
+}  // namespace heel

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// The appearance filter on a point cloud (paper, section 3.1), as a PCL filter.
+#pragma once
+
+#include "segmentation/color_table.hpp"
+
+#include <pcl/filters/filter_indices.h>
+#include <pcl/types.h>
+
+#include <string>
+
+namespace heel {
+
+/// Keeps the points whose colour passes a ColorTable, whichever appearance model made it.
+///
+/// Behaves as any pcl::FilterIndices: honours setIndices, setNegative, setKeepOrganized,
+/// setUserFilterValue and getRemovedIndices. Points with non-finite x, y or z are always removed.
+/// Without a table it reports a PCL_ERROR and keeps nothing. Filtering one cloud after another
+/// allocates nothing once its lists have grown.
+///
+/// @tparam PointT  A PCL point with x, y, z, r, g, b. Instantiated for all of PCL's own; for
+/// another,
+///                 `#define PCL_NO_PRECOMPILE` before including this.
+template <typename PointT>
+class AppearanceFilter : public pcl::FilterIndices<PointT> {
+  using Base = pcl::FilterIndices<PointT>;
+
+ public:
+  using Ptr = pcl::shared_ptr<AppearanceFilter<PointT>>;
+  using ConstPtr = pcl::shared_ptr<const AppearanceFilter<PointT>>;
+  using PointCloud = typename Base::PointCloud;
+
+  /// @param extract_removed_indices  Set to read getRemovedIndices() afterwards.
+  explicit AppearanceFilter(bool extract_removed_indices = false);
+
+  /// Which colours to keep: those above the table's threshold.
+  void setTable(const ColorTable& table) { table_ = table; }
+  const ColorTable& getTable() const { return table_; }
+
+ protected:
+  using Base::applyFilter;  // keeps applyFilter(PointCloud&) visible
+  using Base::extract_removed_indices_;
+  using Base::filter_name_;
+  using Base::indices_;
+  using Base::input_;
+  using Base::negative_;
+  using Base::removed_indices_;
+
+  void applyFilter(pcl::Indices& indices) override;
+
+ private:
+  ColorTable table_;
+  pcl::Indices kept_;     // Workspace: as long as the longest list so far.
+  pcl::Indices removed_;  // The same.
+};
+
+}  // namespace heel
+
+#ifdef PCL_NO_PRECOMPILE  // users with a point type of their own get the bodies
+#include "segmentation/appearance_filter_impl.hpp"
+#endif

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/report/progress_bar.hpp"
+
+#include "tests/apps/temp_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <pty.h>
+#include <unistd.h>
+
+#include <array>
+
+namespace {
+
+using heel::test::readText;
+using heel::test::TempFolder;
+
+TEST(ProgressBar, TellsEveryTenthWhereThereIsNoTerminal) {
+  const TempFolder folder;
+  std::FILE* out = std::fopen((folder / "log").c_str(), "w");
+  {
+    heel::ProgressBar bar("track", 50, out);
+    for (std::size_t done = 1; done <= 60; ++done) bar.show(done);
+  }
+  std::fclose(out);
+  std::string expected;
+  for (int k = 0; k <= 10; ++k) {
+    expected += "track: " + std::to_string(10 * k) + " % (" + std::to_string(5 * k) + " of 50)\n";
+  }
+  EXPECT_EQ(readText(folder / "log"), expected);
+}
+
+TEST(ProgressBar, IsSilentWithoutATotal) {
+  const TempFolder folder;
+  std::FILE* out = std::fopen((folder / "log").c_str(), "w");
+  heel::ProgressBar("track", 0, out).show(3);
+  std::fclose(out);
+  EXPECT_EQ(readText(folder / "log"), "");
+}
+
+TEST(ProgressBar, IsDrawnOverItselfOnATerminal) {
+  int screen = -1, terminal = -1;
+  ASSERT_EQ(openpty(&screen, &terminal, nullptr, nullptr, nullptr), 0);
+  std::FILE* out = fdopen(terminal, "w");
+  {
+    heel::ProgressBar bar("track", 2, out);
+    bar.show(1);
+  }
+  std::array<char, 1000> seen{};
+  const auto length = read(screen, seen.data(), seen.size());
+  ASSERT_GT(length, 0);
+  EXPECT_EQ(std::string(seen.data(), static_cast<std::size_t>(length)),
+            "\rtrack [..............................]   0 % (0 of 2)"
+            "\rtrack [###############...............]  50 % (1 of 2)\r\n");
+  std::fclose(out);
+  close(screen);
+}
+
+}  // namespace

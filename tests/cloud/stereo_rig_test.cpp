@@ -1,0 +1,332 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cloud/stereo_rig.hpp"
+
+#include "cloud/stereo_calibration.hpp"
+#include "tests/support/data.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace heel {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+const cv::Size kSize(640, 480);
+
+/// A pair 0.12 m apart, a little turned against each other, with distortion.
+struct RawPair {
+  cv::Mat K1 = (cv::Mat_<double>(3, 3) << 510, 0, 325, 0, 508, 236, 0, 0, 1);
+  cv::Mat K2 = (cv::Mat_<double>(3, 3) << 515, 0, 316, 0, 513, 244, 0, 0, 1);
+  cv::Mat D1 = (cv::Mat_<double>(1, 5) << -0.2, 0.05, 0.001, -0.001, 0.0);
+  cv::Mat D2 = (cv::Mat_<double>(1, 5) << -0.18, 0.04, 0.0, 0.001, 0.0);
+  cv::Mat R, T = (cv::Mat_<double>(3, 1) << -0.12, 0.002, -0.003);
+  RawPair() { cv::Rodrigues(cv::Vec3d(0.01, -0.02, 0.015), R); }
+};
+
+/// A folder of its own for each test, removed at the end.
+class StereoCalibration : public testing::Test {
+ protected:
+  StereoCalibration()
+      : folder_(fs::path(testing::TempDir()) /
+                testing::UnitTest::GetInstance()->current_test_info()->name()) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~StereoCalibration() override { fs::remove_all(folder_); }
+
+  fs::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+
+  /// What a reader says about a bad file.
+  template <typename Read>
+  static std::string complaint(Read&& read) {
+    try {
+      read();
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "nothing";
+  }
+
+  fs::path folder_;
+};
+
+void store(cv::FileStorage& storage, const RawPair& pair,
+           const std::vector<std::string>& names = {"M1", "D1", "M2", "D2", "R", "T"}) {
+  const std::vector<cv::Mat> values = {pair.K1, pair.D1, pair.K2, pair.D2, pair.R, pair.T};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!names[i].empty()) storage << names[i] << values[i];
+  }
+}
+
+fs::path storePair(const fs::path& file, const RawPair& pair,
+                   const std::vector<std::string>& names = {"M1", "D1", "M2", "D2", "R", "T"},
+                   bool with_size = true) {
+  cv::FileStorage storage(file.string(), cv::FileStorage::WRITE);
+  if (with_size) storage << "image_width" << kSize.width << "image_height" << kSize.height;
+  store(storage, pair, names);
+  return file;
+}
+
+/// Where raw cameras see points of the left camera's frame.
+std::vector<cv::Point2d> project(const std::vector<cv::Point3d>& points, const cv::Mat& R,
+                                 const cv::Mat& T, const cv::Mat& K, const cv::Mat& D) {
+  std::vector<cv::Point2d> pixels;
+  cv::Mat rotation;
+  cv::Rodrigues(R, rotation);
+  cv::projectPoints(points, rotation, T, K, D, pixels);
+  return pixels;
+}
+
+/// A soft spot; it is moved, but not torn, by rectification.
+cv::Mat spotImage(const cv::Point2d& at) {
+  cv::Mat image(kSize, CV_32FC1);
+  for (int y = 0; y < kSize.height; ++y) {
+    for (int x = 0; x < kSize.width; ++x) {
+      const double r2 = (x - at.x) * (x - at.x) + (y - at.y) * (y - at.y);
+      image.at<float>(y, x) = static_cast<float>(255.0 * std::exp(-r2 / 18.0));
+    }
+  }
+  return image;
+}
+
+cv::Point2d spot(const cv::Mat& image) {
+  const cv::Moments m = cv::moments(image);
+  return {m.m10 / m.m00, m.m01 / m.m00};
+}
+
+TEST_F(StereoCalibration, RectifiedRawImagesMeasureTheTruth) {
+  const RawPair pair;
+  const StereoRig rig = readOpenCvCalibration({storePair(folder_ / "stereo.yml", pair)});
+  EXPECT_FALSE(rig.isRectified());
+  EXPECT_NEAR(rig.camera().baseline_m, cv::norm(pair.T), 1e-9);
+  EXPECT_EQ(rig.camera().left.width, 640);
+  const std::vector<cv::Point3d> points = {{0.1, 0.0, 1.5}, {-0.3, 0.2, 2.0}, {0.5, -0.4, 3.0}};
+  const auto left =
+      project(points, cv::Mat::eye(3, 3, CV_64F), cv::Mat::zeros(3, 1, CV_64F), pair.K1, pair.D1);
+  const auto right = project(points, pair.R, pair.T, pair.K2, pair.D2);
+  std::vector<cv::Point3d> measured;
+  const StereoCamera& c = rig.camera();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    cv::Mat rectified_left, rectified_right;
+    rig.rectify(spotImage(left[i]), spotImage(right[i]), rectified_left, rectified_right);
+    const cv::Point2d l = spot(rectified_left), r = spot(rectified_right);
+    EXPECT_NEAR(l.y, r.y, 0.1) << "rows agree";
+    const double z = c.left.fx * c.baseline_m / (l.x - r.x + c.disparity_offset);
+    measured.emplace_back((l.x - c.left.cx) * z / c.left.fx, (l.y - c.left.cy) * z / c.left.fy, z);
+  }
+  // Rectification turns the frame, which keeps lengths.
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_NEAR(cv::norm(measured[i]), cv::norm(points[i]), 0.01);
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_NEAR(cv::norm(measured[i] - measured[j]), cv::norm(points[i] - points[j]), 0.02);
+    }
+  }
+}
+
+TEST_F(StereoCalibration, KnowsTheNamesThatPeopleGive) {
+  const RawPair pair;
+  const double baseline_m = cv::norm(pair.T);
+  const std::vector<std::vector<std::string>> conventions = {
+      {"K1", "D1", "K2", "D2", "R", "T"},
+      {"cameraMatrix1", "distCoeffs1", "cameraMatrix2", "distCoeffs2", "R", "T"},
+      {"camera_matrix_left", "dist_coeffs_left", "camera_matrix_right", "dist_coeffs_right",
+       "rotation_matrix", "translation_vector"},
+      {"left_camera_matrix", "left_distortion_coefficients", "right_camera_matrix",
+       "right_distortion_coefficients", "R", "T"}};
+  for (const char* file : {"stereo.yml", "stereo.xml", "stereo.json"}) {
+    for (const auto& names : conventions) {
+      EXPECT_NEAR(readStereoRig(storePair(folder_ / file, pair, names)).camera().baseline_m,
+                  baseline_m, 1e-9)
+          << names[0] << " in " << file;
+    }
+  }
+}
+
+TEST_F(StereoCalibration, ReadsTheTwoFilesOfOpenCvsSample) {
+  const RawPair pair;
+  storePair(folder_ / "intrinsics.yml", pair, {"M1", "D1", "M2", "D2", "", ""}, false);
+  storePair(folder_ / "extrinsics.yml", pair, {"", "", "", "", "R", "T"}, false);
+  EXPECT_NEAR(readStereoRig(folder_, kSize).camera().baseline_m, cv::norm(pair.T), 1e-9);
+  EXPECT_THAT(complaint([&] { readStereoRig(folder_); }),
+              AllOf(HasSubstr("intrinsics.yml"), HasSubstr("size of the images is not given")));
+}
+
+TEST_F(StereoCalibration, TakesAStoredRectificationAsItIs) {
+  const RawPair pair;
+  cv::Mat R1, R2, P1, P2, Q;
+  cv::stereoRectify(pair.K1, pair.D1, pair.K2, pair.D2, kSize, pair.R, pair.T, R1, R2, P1, P2, Q,
+                    cv::CALIB_ZERO_DISPARITY, 0.5);
+  const fs::path file = folder_ / "stereo.yml";
+  {
+    cv::FileStorage storage(file.string(), cv::FileStorage::WRITE);
+    storage << "imageSize" << kSize;
+    store(storage, pair);
+    storage << "R1" << R1 << "R2" << R2 << "P1" << P1 << "P2" << P2 << "Q" << Q;
+  }
+  const StereoCamera camera = readStereoRig(file).camera();
+  EXPECT_DOUBLE_EQ(camera.left.fx, P1.at<double>(0, 0));
+  EXPECT_DOUBLE_EQ(camera.left.cx, P1.at<double>(0, 2));
+  EXPECT_NEAR(camera.baseline_m, cv::norm(pair.T), 1e-9);
+}
+
+TEST_F(StereoCalibration, HandsRectifiedImagesOnUntouched) {
+  const fs::path file = folder_ / "stereo.yml";
+  const cv::Mat P1 = (cv::Mat_<double>(3, 4) << 500, 0, 320, 0, 0, 500, 240, 0, 0, 0, 1, 0);
+  const cv::Mat P2 = (cv::Mat_<double>(3, 4) << 500, 0, 330, -50, 0, 500, 240, 0, 0, 0, 1, 0);
+  {
+    cv::FileStorage storage(file.string(), cv::FileStorage::WRITE);
+    storage << "image_width" << 640 << "image_height" << 480 << "P1" << P1 << "P2" << P2;
+  }
+  const StereoRig rig = readStereoRig(file);
+  EXPECT_TRUE(rig.isRectified());
+  EXPECT_DOUBLE_EQ(rig.camera().baseline_m, 0.1);
+  EXPECT_DOUBLE_EQ(rig.camera().disparity_offset, 10.0);
+  const cv::Mat left(kSize, CV_8UC3, cv::Scalar::all(1)), right = left.clone();
+  cv::Mat l, r;
+  rig.rectify(left, right, l, r);
+  EXPECT_EQ(l.data, left.data);
+  EXPECT_EQ(r.data, right.data);
+  EXPECT_THROW(rig.rectify(left, right.colRange(0, 600), l, r), std::invalid_argument);
+}
+
+TEST_F(StereoCalibration, NamesTheFileAndTheReason) {
+  const auto said = [&](const fs::path& file) { return complaint([&] { readStereoRig(file); }); };
+  const auto stored = [&](const RawPair& pair, const std::vector<std::string>& names) {
+    return said(storePair(folder_ / "bad.yml", pair, names));
+  };
+  EXPECT_THAT(said(folder_ / "none.yml"), AllOf(HasSubstr("none.yml"), HasSubstr("no such file")));
+  EXPECT_THAT(complaint([&] { readOpenCvCalibration({folder_ / "none.yml"}); }),
+              AllOf(HasSubstr("none.yml"), HasSubstr("no such file")));
+  EXPECT_THAT(said(write("text.yml", "hello\n")),
+              AllOf(HasSubstr("text.yml"), HasSubstr("not an OpenCV calibration")));
+  EXPECT_THAT(said(write("torn.yml", "%YAML:1.0\n---\nM1: !!opencv-matrix\n   rows: [")),
+              HasSubstr("not an OpenCV calibration"));
+  EXPECT_THAT(stored({}, {"", "D1", "M2", "D2", "R", "T"}),
+              AllOf(HasSubstr("bad.yml"), HasSubstr("(M1) is missing")));
+  EXPECT_THAT(stored({}, {"M1", "D1", "M2", "", "R", "T"}), HasSubstr("(D2) is missing"));
+  EXPECT_THAT(stored({}, {"M1", "D1", "M2", "D2", "", "T"}), HasSubstr("(R) is missing"));
+  EXPECT_THAT(stored({}, {"M1", "D1", "M2", "D2", "R", ""}), HasSubstr("(T) is missing"));
+  RawPair pair;
+  pair.T = cv::Mat::zeros(3, 1, CV_64F);
+  EXPECT_THAT(stored(pair, {"M1", "D1", "M2", "D2", "R", "T"}), HasSubstr("no baseline"));
+  pair.T.at<double>(0) = -120.0;
+  EXPECT_THAT(stored(pair, {"M1", "D1", "M2", "D2", "R", "T"}), HasSubstr("in metres"));
+  pair.T.at<double>(0) = 0.12;
+  EXPECT_THAT(stored(pair, {"M1", "D1", "M2", "D2", "R", "T"}), HasSubstr("swapped"));
+  pair.T = (cv::Mat_<double>(3, 1) << 0.0, -0.12, 0.0);
+  EXPECT_THAT(stored(pair, {"M1", "D1", "M2", "D2", "R", "T"}), HasSubstr("above each other"));
+  pair.K1 = cv::Mat::eye(2, 2, CV_64F);
+  EXPECT_THAT(stored(pair, {"M1", "D1", "M2", "D2", "R", "T"}), HasSubstr("M1 has not the right"));
+  EXPECT_THAT(said(folder_ / "."), HasSubstr("holds no calibration"));
+}
+
+std::string cameraInfo(const std::string& P, const std::string& D = "[-0.2, 0.05, 0, 0, 0]",
+                       const std::string& more = "") {
+  return "image_width: 640\nimage_height: 480\ncamera_name: left\n"
+         "camera_matrix:\n  rows: 3\n  cols: 3\n  data: [500, 0, 320, 0, 500, 240, 0, 0, 1]\n"
+         "distortion_model: plumb_bob\n"
+         "distortion_coefficients:\n  rows: 1\n  cols: 5\n  data: " +
+         D +
+         "\nrectification_matrix:\n  rows: 3\n  cols: 3\n  data: [1, 0, 0, 0, 1, 0, 0, 0, 1]\n"
+         "projection_matrix:\n  rows: 3\n  cols: 4\n  data: " +
+         P + "\n" + more;
+}
+const char* const kLeftP = "[500, 0, 320, 0, 0, 500, 240, 0, 0, 0, 1, 0]";
+const char* const kRightP = "[500, 0, 320, -60, 0, 500, 240, 0, 0, 0, 1, 0]";
+
+TEST_F(StereoCalibration, ReadsAPairOfRosFiles) {
+  write("left.yaml", cameraInfo(kLeftP));
+  write("right.yaml", cameraInfo(kRightP));
+  const StereoRig raw = readStereoRig(folder_);
+  EXPECT_DOUBLE_EQ(raw.camera().baseline_m, 0.12);
+  EXPECT_DOUBLE_EQ(raw.camera().left.fx, 500.0);
+  EXPECT_EQ(raw.camera().left.height, 480);
+  EXPECT_FALSE(raw.isRectified());
+  write("left.yaml", cameraInfo(kLeftP, "[0, 0, 0, 0, 0]"));
+  write("right.yaml", cameraInfo(kRightP, "[]"));
+  EXPECT_TRUE(readStereoRig(folder_).isRectified());
+}
+
+TEST_F(StereoCalibration, ReadsEchoedRosMessages) {
+  const auto message = [](const std::string& P) {
+    return "height: 480\nwidth: 640\ndistortion_model: plumb_bob\nD: [0, 0, 0, 0, 0]\n"
+           "K: [500, 0, 320, 0, 500, 240, 0, 0, 1]\nR: [1, 0, 0, 0, 1, 0, 0, 0, 1]\nP: " +
+           P + "\n";
+  };
+  const fs::path left = write("l.yaml", message(kLeftP)), right = write("r.yaml", message(kRightP));
+  EXPECT_DOUBLE_EQ(readCameraInfo(left, right).camera().baseline_m, 0.12);
+}
+
+TEST_F(StereoCalibration, SaysWhatIsWrongWithARosFile) {
+  const fs::path left = write("left.yaml", cameraInfo(kLeftP));
+  const auto said = [&](const std::string& right) {
+    const fs::path file = write("right.yaml", right);
+    return complaint([&] { readCameraInfo(left, file); });
+  };
+  EXPECT_THAT(complaint([&] { readStereoRig(folder_); }),
+              AllOf(HasSubstr("right.yaml"), HasSubstr("no such file")));
+  EXPECT_THAT(said(cameraInfo(kLeftP)), AllOf(HasSubstr("right.yaml"), HasSubstr("no baseline")));
+  EXPECT_THAT(said(cameraInfo("[500, 0, 320, 60, 0, 500, 240, 0, 0, 0, 1, 0]")),
+              HasSubstr("swapped"));
+  EXPECT_THAT(said(cameraInfo("[1, 2]")), HasSubstr("projection_matrix has not 12 elements"));
+  EXPECT_THAT(said(cameraInfo("[a, b]")), HasSubstr("not a list of numbers"));
+  EXPECT_THAT(said("image_width: 640\nimage_height: 480\n"), HasSubstr("camera_matrix is missing"));
+  EXPECT_THAT(said("image_width: 640\n"), HasSubstr("image_height is missing"));
+  EXPECT_THAT(said("image_width: x\nimage_height: 3\n"), HasSubstr("not a number"));
+  EXPECT_THAT(said("a: [1,"), HasSubstr("not YAML"));
+  EXPECT_THAT(said("hello"), HasSubstr("no named values"));
+  std::string fisheye = cameraInfo(kRightP);
+  fisheye.replace(fisheye.find("plumb_bob"), 9, "equidistant");
+  EXPECT_THAT(said(fisheye), HasSubstr("equidistant"));
+  std::string small = cameraInfo(kRightP);
+  small.replace(small.find("640"), 3, "320");
+  EXPECT_THAT(said(small), HasSubstr("its image size is not that of"));
+}
+
+TEST_F(StereoCalibration, ReadsMiddleburysFile) {
+  const std::string good =
+      "cam0=[1000 0 300; 0 1001 250; 0 0 1]\ncam1=[1000 0 330; 0 1001 250; 0 0 1]\n"
+      "doffs=30\nbaseline=176.252\n width= 718\nheight=496\nndisp=73\n";
+  const StereoRig rig = readStereoRig(write("calib.txt", good));
+  EXPECT_TRUE(rig.isRectified());
+  EXPECT_DOUBLE_EQ(rig.camera().baseline_m, 0.176252);
+  EXPECT_DOUBLE_EQ(rig.camera().disparity_offset, 30.0);
+  EXPECT_DOUBLE_EQ(rig.camera().left.fy, 1001.0);
+  EXPECT_EQ(rig.camera().left.width, 718);
+  EXPECT_DOUBLE_EQ(readStereoRig(folder_).camera().baseline_m, 0.176252);
+  const auto said = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    return complaint([&] { readStereoRig(write("calib.txt", text)); });
+  };
+  EXPECT_THAT(said("baseline=176.252", ""),
+              AllOf(HasSubstr("calib.txt"), HasSubstr("baseline is")));
+  EXPECT_THAT(said("176.252", "0"), HasSubstr("no baseline"));
+  EXPECT_THAT(said("cam0=[1000 0", "cam0=[1000"), HasSubstr("cam0 has not 9 numbers"));
+  EXPECT_THAT(said("cam0=[1000", "cam0=[0"), HasSubstr("focal length"));
+  EXPECT_THAT(complaint([&] { readMiddleburyCalibration(folder_ / "no.txt"); }),
+              HasSubstr("no such file"));
+}
+
+TEST(StereoRig, RefusesACameraWithoutBaseline) {
+  EXPECT_THROW(StereoRig(StereoCamera{}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace heel

@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tracking/target.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace heel {
+namespace {
+
+void require(bool holds, const char* what) {
+  if (!holds) {
+    throw std::invalid_argument(std::string("TargetParams: ") + what);
+  }
+}
+
+bool isNotNegative(double value) { return std::isfinite(value) && value >= 0.0; }
+
+}  // namespace
+
+const char* toText(TargetStatus status) {
+  switch (status) {
+    case TargetStatus::kNone:
+      return "none yet";
+    case TargetStatus::kFollowed:
+      return "followed";
+    case TargetStatus::kCoasting:
+      return "coasting";
+    case TargetStatus::kAmbiguous:
+      return "ambiguous";
+    case TargetStatus::kLost:
+      return "lost";
+  }
+  return "unknown";
+}
+
+const char* toText(TargetReason reason) {
+  switch (reason) {
+    case TargetReason::kNotStarted:
+      return "waits for a start";
+    case TargetReason::kSeen:
+      return "seen";
+    case TargetReason::kStarted:
+      return "started at the given place";
+    case TargetReason::kRecognized:
+      return "recognized by its looks";
+    case TargetReason::kNotObserved:
+      return "nothing observed near its place";
+    case TargetReason::kRejectedByGate:
+      return "the observation near its place was rejected by the geometric gate";
+    case TargetReason::kTakenByOther:
+      return "the observation near its place is another person's";
+    case TargetReason::kOutsideGate:
+      return "the observation near its place is unlikely to be the target";
+    case TargetReason::kNobodyInView:
+      return "nobody in view";
+    case TargetReason::kNobodyLooksLike:
+      return "nobody in view looks like the target";
+    case TargetReason::kOutOfReach:
+      return "who looks like the target cannot have walked there";
+    case TargetReason::kSeveralLookLike:
+      return "several people look like the target";
+    case TargetReason::kNotSureYet:
+      return "somebody looks like the target, not for long enough yet";
+    case TargetReason::kTimeJumped:
+      return "gap in time";
+    case TargetReason::kFrameSkipped:
+      return "frame skipped: its stamp was not later";
+  }
+  return "unknown";
+}
+
+TargetTracker::TargetTracker(const TargetParams& params, const TrackerParams& tracker_params,
+                             GeometricGate gate)
+    : params_(params), tracker_(tracker_params, std::move(gate)) {
+  require(isNotNegative(params.start_distance_m), "start_distance_m must not be negative");
+  require(params.min_appearance >= 0.0 && params.min_appearance <= 1.0,
+          "min_appearance must be in [0, 1]");
+  require(std::isfinite(params.min_appearance_ratio) && params.min_appearance_ratio >= 1.0,
+          "min_appearance_ratio must be at least 1");
+  require(params.appearance_frames >= 1, "appearance_frames must be at least 1");
+  require(params.max_speed_mps > 0.0, "max_speed_mps must be positive");
+  require(isNotNegative(params.reach_slack_m), "reach_slack_m must not be negative");
+  require(params.coast_memory_s > 0.0, "coast_memory_s must be positive");
+  require(isNotNegative(params.confusion_distance_m), "confusion_distance_m must not be negative");
+}
+
+void TargetTracker::startAt(const Eigen::Vector2d& position_m) {
+  if (!position_m.allFinite()) {
+    throw std::invalid_argument("TargetTracker: the start is not finite");
+  }
+  start_m_ = position_m;
+}
+
+const TargetEstimate& TargetTracker::step(double stamp_s,
+                                          const std::vector<Observation>& observations,
+                                          const Viewpoint& viewpoint) {
+  const TrackerReport& report = tracker_.step(stamp_s, observations, viewpoint);
+  if (report.status == StepStatus::kSkipped) {
+    estimate_.reason = TargetReason::kFrameSkipped;
+    return estimate_;
+  }
+  const bool had_target = estimate_.hasPlace();
+  estimate_.verdict = GateVerdict::kAccepted;
+  estimate_.reason = TargetReason::kSeen;
+  estimate_.candidates = 0;
+  if (report.status == StepStatus::kGap && report.dt_s < 0.0) {
+    estimate_.last_seen.reset();  // Of another clock: nobody knows how long ago that was.
+  }
+  if (start_m_) {
+    chooseAtStart();
+  }
+  const Track* target = tracker_.findTrack(estimate_.track_id);
+  if (target == nullptr && search()) {
+    target = tracker_.findTrack(estimate_.track_id);
+  }
+  if (target != nullptr) {
+    describe(*target, observations);
+  } else {
+    estimate_.track_id = TargetEstimate::kNoTrack;
+    estimate_.motion = {};
+    estimate_.appearance = estimate_.confidence = 0.0;
+    if (had_target && report.status == StepStatus::kGap &&
+        estimate_.reason != TargetReason::kSeveralLookLike) {
+      estimate_.reason = TargetReason::kTimeJumped;
+    }
+  }
+  return estimate_;
+}
+
+/// The track nearest to the start becomes the target, or a new one there.
+void TargetTracker::chooseAtStart() {
+  const Track* nearest = nullptr;
+  double nearest_m = params_.start_distance_m;
+  for (const Track& track : tracker_.tracks()) {
+    const double distance_m = (track.motion.position_m() - *start_m_).norm();
+    if (distance_m <= nearest_m && (nearest == nullptr || distance_m < nearest_m)) {
+      nearest = &track;
+      nearest_m = distance_m;
+    }
+  }
+  const int id = nearest != nullptr ? nearest->id : tracker_.addTrack(*start_m_);
+  tracker_.confirmTrack(id);
+  take(*tracker_.findTrack(id), TargetReason::kStarted);
+  estimate_.last_seen = LastSeen{*tracker_.stamp_s(), *start_m_, Eigen::Vector2d::Zero()};
+  start_m_.reset();
+}
+
+/// Looks for the target among everyone in view, by appearance; false, and why, if there is none.
+bool TargetTracker::search() {
+  const Track *best = nullptr, *second = nullptr;
+  bool somebody_in_view = false, out_of_reach = false;
+  for (const Track& track : tracker_.tracks()) {
+    if (track.status != TrackStatus::kConfirmed) {
+      continue;
+    }
+    somebody_in_view = true;
+    const bool looks_like = track.appearance() > params_.min_appearance;
+    if (!canBeTarget(track)) {
+      out_of_reach = out_of_reach || looks_like;
+      continue;
+    }
+    estimate_.candidates += looks_like ? 1 : 0;
+    if (best == nullptr || track.log_appearance > best->log_appearance) {
+      second = std::exchange(best, &track);
+    } else if (second == nullptr || track.log_appearance > second->log_appearance) {
+      second = &track;
+    }
+  }
+
+  estimate_.status = had_target_ ? TargetStatus::kLost : TargetStatus::kNone;
+  const int was_likely = std::exchange(likely_id_, TargetEstimate::kNoTrack);
+  if (!had_target_ && !params_.start_by_appearance) {
+    estimate_.reason = TargetReason::kNotStarted;
+  } else if (estimate_.candidates == 0) {
+    estimate_.reason = !somebody_in_view ? TargetReason::kNobodyInView
+                       : out_of_reach    ? TargetReason::kOutOfReach
+                                         : TargetReason::kNobodyLooksLike;
+  } else if (second != nullptr &&
+             best->appearance() <= params_.min_appearance_ratio * second->appearance()) {
+    estimate_.status = TargetStatus::kAmbiguous;
+    estimate_.reason = TargetReason::kSeveralLookLike;
+  } else {
+    likely_id_ = best->id;
+    likely_frames_ = was_likely == best->id ? likely_frames_ + 1 : 1;
+    if (likely_frames_ >= params_.appearance_frames) {
+      take(*best, TargetReason::kRecognized);
+      return true;
+    }
+    estimate_.reason = TargetReason::kNotSureYet;
+  }
+  return false;
+}
+
+void TargetTracker::take(const Track& track, TargetReason reason) {
+  estimate_.track_id = track.id;
+  estimate_.reason = reason;
+  likely_id_ = TargetEstimate::kNoTrack;
+  had_target_ = true;
+}
+
+/// Fills the estimate from the target's track.
+void TargetTracker::describe(const Track& track, const std::vector<Observation>& observations) {
+  estimate_.motion = track.motion;
+  estimate_.appearance = track.appearance();
+  estimate_.confidence = confidenceOf(track);
+  if (track.status == TrackStatus::kConfirmed) {
+    estimate_.status = TargetStatus::kFollowed;
+    estimate_.last_seen =
+        LastSeen{*tracker_.stamp_s(), track.motion.position_m(), track.motion.velocity_mps()};
+  } else {
+    estimate_.status = TargetStatus::kCoasting;
+    if (estimate_.reason != TargetReason::kStarted) {
+      explainUnseen(track, observations);
+    }
+  }
+}
+
+/// Finds what became of the observation nearest to where the target must be.
+void TargetTracker::explainUnseen(const Track& track,
+                                  const std::vector<Observation>& observations) {
+  estimate_.reason = TargetReason::kNotObserved;
+  double nearest_m = tracker_.params().max_residual_m;
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    const double distance_m = (observations[i].position_m - track.motion.position_m()).norm();
+    if (!(distance_m < nearest_m)) {  // False for a place that is no number, too.
+      continue;
+    }
+    nearest_m = distance_m;
+    const ObservationUse& use = tracker_.report().uses[i];
+    estimate_.verdict = use.verdict;
+    switch (use.fate) {
+      case ObservationFate::kRejected:
+        estimate_.reason = TargetReason::kRejectedByGate;
+        break;
+      case ObservationFate::kUpdated:
+      case ObservationFate::kFragment:
+        estimate_.reason = TargetReason::kTakenByOther;
+        break;
+      case ObservationFate::kBorn:
+      case ObservationFate::kIgnored:
+        estimate_.reason = TargetReason::kOutsideGate;
+        break;
+    }
+  }
+}
+
+double TargetTracker::confidenceOf(const Track& track) const {
+  double all = 0.0;
+  for (const Track& other : tracker_.tracks()) {
+    const double distance_m = (other.motion.position_m() - track.motion.position_m()).norm();
+    const bool can_be_mistaken =
+        other.status != TrackStatus::kTentative && distance_m < params_.confusion_distance_m;
+    all += other.id == track.id || can_be_mistaken ? other.appearance() : 0.0;
+  }
+  const double unseen_s = *tracker_.stamp_s() - track.seen_s;
+  return track.appearance() * std::exp(-unseen_s / params_.coast_memory_s) *
+         (track.appearance() / all);
+}
+
+/// Whether the target can have walked to where this track is.
+bool TargetTracker::canBeTarget(const Track& track) const {
+  if (!estimate_.last_seen) {
+    return true;
+  }
+  const double away_m = (track.motion.position_m() - estimate_.last_seen->position_m).norm();
+  const double time_s = *tracker_.stamp_s() - estimate_.last_seen->stamp_s;
+  return away_m <= params_.max_speed_mps * time_s + params_.reach_slack_m;
+}
+
+}  // namespace heel

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tracking/target_metrics.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+double nearestOther(const TargetFrame& frame) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector2d& other : frame.others_m) {
+    nearest = std::min(nearest, (other - *frame.estimate_m).norm());
+  }
+  return nearest;
+}
+
+/// Measures the delays; fed frame by frame.
+class ReacquisitionClock {
+ public:
+  explicit ReacquisitionClock(TargetMetrics& metrics) : metrics_(metrics) {}
+
+  void see(double stamp_s, bool in_view, bool right) {
+    const bool came_back = in_view && !was_in_view_;
+    const bool went_off = in_view && was_right_ && !right;
+    if (ever_right_ && (came_back || went_off)) {
+      waiting_ = true;
+      since_s_ = stamp_s;
+    }
+    if (!in_view && waiting_) {
+      ++metrics_.not_reacquired;
+      waiting_ = false;
+    }
+    if (right && waiting_) {
+      metrics_.reacquisition_delays_s.push_back(stamp_s - since_s_);
+      waiting_ = false;
+    }
+    ever_right_ = ever_right_ || right;
+    was_in_view_ = in_view;
+    was_right_ = right;
+  }
+
+  void finish() {
+    if (waiting_) {
+      ++metrics_.not_reacquired;
+    }
+  }
+
+ private:
+  TargetMetrics& metrics_;
+  bool waiting_ = false;
+  double since_s_ = 0.0;
+  bool ever_right_ = false;
+  bool was_in_view_ = false;
+  bool was_right_ = false;
+};
+
+}  // namespace
+
+EstimateOf judge(const TargetFrame& frame, double match_distance_m) {
+  if (!(match_distance_m > 0.0)) {
+    throw std::invalid_argument("judge: the matching distance must be positive");
+  }
+  if (!frame.estimate_m) {
+    return EstimateOf::kNone;
+  }
+  if (frame.target_m && (*frame.target_m - *frame.estimate_m).norm() <= match_distance_m) {
+    return EstimateOf::kTarget;
+  }
+  return nearestOther(frame) <= match_distance_m ? EstimateOf::kWrongPerson : EstimateOf::kNobody;
+}
+
+TargetMetrics targetMetrics(const std::vector<TargetFrame>& frames, double match_distance_m) {
+  TargetMetrics metrics;
+  ReacquisitionClock clock(metrics);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const TargetFrame& frame = frames[i];
+    if (i > 0 && !(frame.stamp_s > frames[i - 1].stamp_s)) {
+      throw std::invalid_argument("targetMetrics: the stamps must increase");
+    }
+    const EstimateOf of = judge(frame, match_distance_m);
+    const bool in_view = frame.target_m.has_value();
+    ++metrics.frames;
+    metrics.frames_in_view += in_view ? 1 : 0;
+    switch (of) {
+      case EstimateOf::kNone:
+        metrics.none += in_view ? 1 : 0;
+        break;
+      case EstimateOf::kTarget: {
+        const double error = (*frame.target_m - *frame.estimate_m).norm();
+        ++metrics.right;
+        metrics.error_sum_m += error;
+        metrics.contested += nearestOther(frame) < error ? 1 : 0;
+        break;
+      }
+      case EstimateOf::kWrongPerson:
+        ++(in_view ? metrics.wrong_person : metrics.absent_wrong_person);
+        metrics.wrong_target_s += i + 1 < frames.size() ? frames[i + 1].stamp_s - frame.stamp_s : 0;
+        break;
+      case EstimateOf::kNobody:
+        ++(in_view ? metrics.nobody : metrics.absent_nobody);
+        break;
+    }
+    clock.see(frame.stamp_s, in_view, of == EstimateOf::kTarget);
+  }
+  clock.finish();
+  if (!frames.empty()) {
+    metrics.duration_s = frames.back().stamp_s - frames.front().stamp_s;
+  }
+  return metrics;
+}
+
+double TargetMetrics::recall() const {
+  return frames_in_view == 0 ? kNothing : static_cast<double>(right) / frames_in_view;
+}
+
+double TargetMetrics::wrongPersonShare() const {
+  return frames_in_view == 0 ? kNothing : static_cast<double>(wrong_person) / frames_in_view;
+}
+
+double TargetMetrics::meanError_m() const { return right == 0 ? kNothing : error_sum_m / right; }
+
+double TargetMetrics::meanReacquisitionDelay_s() const {
+  const auto& delays = reacquisition_delays_s;
+  return delays.empty() ? kNothing
+                        : std::accumulate(delays.begin(), delays.end(), 0.0) /
+                              static_cast<double>(delays.size());
+}
+
+double TargetMetrics::longestReacquisitionDelay_s() const {
+  const auto& delays = reacquisition_delays_s;
+  return delays.empty() ? kNothing : *std::max_element(delays.begin(), delays.end());
+}
+
+}  // namespace heel

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// How well one target person was followed.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+namespace heel {
+
+/// A frame of a recording with truth: where people are, and where the target was said to be.
+struct TargetFrame {
+  double stamp_s = 0.0;
+  std::optional<Eigen::Vector2d> target_m;    ///< The target's true place; none: not in view.
+  std::vector<Eigen::Vector2d> others_m;      ///< The true places of everyone else in view.
+  std::optional<Eigen::Vector2d> estimate_m;  ///< Where the target was said to be, if anywhere.
+};
+
+/// Whom a frame's estimate is of.
+enum class EstimateOf {
+  kNone,         ///< There is no estimate.
+  kTarget,       ///< Within the distance of the target, even if somebody else is near as well.
+  kWrongPerson,  ///< Not the target: within the distance of somebody else.
+  kNobody,       ///< Within the distance of nobody.
+};
+
+/// @throws std::invalid_argument  unless the distance is positive.
+EstimateOf judge(const TargetFrame& frame, double match_distance_m = 0.5);
+
+/// The counts and times of a run; the figures that have nothing to divide by are NaN.
+struct TargetMetrics {
+  int frames = 0;          ///< All frames.
+  int frames_in_view = 0;  ///< Frames with the target in view; the shares are of these.
+  int right = 0;           ///< Of `frames_in_view`: the estimate is of the target.
+  int wrong_person = 0;    ///< of another person,
+  int nobody = 0;          ///< of nobody,
+  int none = 0;            ///< or there is none. The four add up to `frames_in_view`.
+  /// Of `right`: the estimate is nearer to somebody else than to the target.
+  int contested = 0;
+  int absent_wrong_person = 0;  ///< Target not in view, yet an estimate on another person.
+  int absent_nobody = 0;        ///< Target not in view, yet an estimate on nobody.
+  double error_sum_m = 0.0;     ///< Distance to the target over the `right` frames.
+
+  double duration_s = 0.0;  ///< Last stamp minus first.
+  /// Time on a wrong person, in view or not; a frame lasts until the next one.
+  double wrong_target_s = 0.0;
+
+  /// Delays from when the target could be had again (it came back into view, or its estimate went
+  /// off it) to the next right frame, in order. The first time is an acquisition, not counted.
+  std::vector<double> reacquisition_delays_s;
+  int not_reacquired = 0;  ///< The target left, or the recording ended, before that.
+
+  double recall() const;
+  double wrongPersonShare() const;
+  double meanError_m() const;
+  double meanReacquisitionDelay_s() const;
+  double longestReacquisitionDelay_s() const;
+};
+
+/// Judges a run. Frames must be in order of time.
+/// @throws std::invalid_argument  if the distance is not positive or stamps do not increase.
+TargetMetrics targetMetrics(const std::vector<TargetFrame>& frames, double match_distance_m = 0.5);
+
+}  // namespace heel

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// A track, the tracker's parameters, and its report of a step.
+#pragma once
+
+#include "tracking/geometric_gate.hpp"
+#include "tracking/kalman.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace heel {
+
+struct TrackerParams {
+  MotionParams motion;
+  double position_sigma_m = 0.12;      ///< Of an observation's place, per axis.
+  double start_speed_sigma_mps = 1.0;  ///< Of a new track's unknown velocity, per axis.
+  double gate_prob = 0.997;            ///< Share of a track's own observations inside its gate.
+  double max_residual_m = 0.8;         ///< No gate is wider than this, however unsure the track.
+  double detection_prob = 0.9;         ///< That a person in view is observed in a frame.
+  /// Observations from nowhere (newcomers, clutter) per square metre and frame. An observation is
+  /// given to a track only where the track explains it better than this.
+  double new_density_per_m2 = 0.02;
+  /// Of several observations that compete for a track, one whose score is the fraction f of the
+  /// best one's pays -score_weight ln(f) on the scale of squared Mahalanobis distances.
+  double score_weight = 1.0;
+  /// Scatter of the logarithm of a person's appearance from frame to frame: an observation whose
+  /// logarithm is d away from its track's pays (d / sigma)^2. Infinity: blind to appearance.
+  double log_appearance_sigma = 0.35;
+  /// The most that unlike appearance costs. People turn, and step into the shade: their looks alone
+  /// must not part them from their track.
+  double max_unlikeness = 6.0;
+  /// Time over which a track's appearance is averaged: it forgets 1 - 1/e of its past in this time.
+  double appearance_memory_s = 0.7;
+  double birth_clearance_m = 0.4;  ///< Closer to a track in view, what is left is its fragment.
+  int confirm_hits = 2;            ///< A track is confirmed when seen in this many
+  int confirm_frames = 3;          ///< of this many frames (at most 32), else it is dropped.
+  double max_coast_s = 1.0;        ///< A confirmed track unseen for longer is lost.
+  double max_gap_s = 2.0;          ///< A longer gap between two frames loses all tracks.
+};
+
+/// @throws std::invalid_argument  if a parameter is out of range; the text names it.
+void checkParams(const TrackerParams& params);
+
+enum class TrackStatus {
+  kTentative,  ///< Too young to be believed.
+  kConfirmed,  ///< Seen in this frame.
+  kCoasting,   ///< Not seen in this frame; its place is predicted.
+};
+const char* toText(TrackStatus status);
+
+/// One person's track.
+struct Track {
+  static constexpr int kUnseen = -1;
+
+  int id = 0;  ///< Counts from 1; never used again.
+  TrackStatus status = TrackStatus::kTentative;
+  MotionState motion;           ///< At the newest frame's stamp.
+  double born_s = 0.0;          ///< Stamp of its first observation.
+  double seen_s = 0.0;          ///< Stamp of its newest observation.
+  int observation = kUnseen;    ///< Index of the observation it took in the newest frame.
+  int hits = 0;                 ///< Observations taken in all.
+  double score = 0.0;           ///< Of its newest observation.
+  double log_appearance = 0.0;  ///< Running mean of its observations' logarithms.
+  std::uint32_t history = 0;    ///< Bit k: seen k frames ago.
+
+  double appearance() const { return std::exp(log_appearance); }
+};
+
+/// How a frame's stamp fits the one before.
+enum class StepStatus {
+  kFirst,    ///< The first frame.
+  kRegular,  ///< Later by no more than `max_gap_s`.
+  kGap,      ///< Later by more than `max_gap_s`, or earlier by more: all tracks were lost first.
+  kSkipped,  ///< Not later, by no more than `max_gap_s`: the frame was ignored.
+};
+const char* toText(StepStatus status);
+
+/// What became of an observation.
+enum class ObservationFate {
+  kIgnored,   ///< The frame was skipped.
+  kRejected,  ///< By the geometric gate; see `verdict`.
+  kUpdated,   ///< It updated track `track_id`.
+  kBorn,      ///< It started track `track_id`.
+  kFragment,  ///< Too close to track `track_id`, which has a better observation.
+};
+struct ObservationUse {
+  ObservationFate fate = ObservationFate::kIgnored;
+  GateVerdict verdict = GateVerdict::kAccepted;
+  int track_id = 0;
+};
+
+/// What happened in a step.
+struct TrackerReport {
+  StepStatus status = StepStatus::kFirst;
+  double dt_s = 0.0;                             ///< Stamp minus the one before; 0 for the first.
+  std::array<int, kGateVerdicts> verdicts = {};  ///< Observations by what the gate said.
+  int updated = 0;                               ///< Observations by fate.
+  int born = 0;
+  int fragments = 0;
+  std::vector<ObservationUse> uses;  ///< One for each observation, in their order.
+  std::vector<int> lost;             ///< Ids of confirmed tracks that ended.
+
+  int verdictCount(GateVerdict verdict) const {
+    return verdicts[static_cast<std::size_t>(verdict)];
+  }
+};
+
+}  // namespace heel

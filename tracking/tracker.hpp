@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Tracks of everyone in view: the paper's Kalman filters, gating and association (section 3.2).
+#pragma once
+
+#include "tracking/assignment.hpp"
+#include "tracking/geometric_gate.hpp"
+#include "tracking/kalman.hpp"
+#include "tracking/observation.hpp"
+#include "tracking/track.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace heel {
+
+/// Follows everyone in view. Each observation explains at most one track and each track takes at
+/// most one, chosen together at the least cost: squared Mahalanobis distance plus the logarithm of
+/// the innovation covariance's determinant, plus penalties for low score and unlike appearance.
+/// Tentative tracks choose from what the others leave.
+///
+/// The order of the observations has no influence. Allocates only when there are more observations
+/// or tracks than ever before.
+class Tracker {
+ public:
+  /// @param gate  Where a person can be seen; everywhere when empty.
+  /// @throws std::invalid_argument  if a parameter is out of range; the text names it.
+  explicit Tracker(const TrackerParams& params = {}, GeometricGate gate = {});
+
+  /// Takes in the observations made at `stamp_s`.
+  /// @return What happened; valid until the next call.
+  /// @throws std::invalid_argument  if the stamp is not finite.
+  const TrackerReport& step(double stamp_s, const std::vector<Observation>& observations,
+                            const Viewpoint& viewpoint = {});
+
+  /// Starts a confirmed track at a place where somebody is known to be though nobody saw them, as
+  /// of the newest stamp. Its appearance is that of an observation without evidence.
+  /// @return Its id.
+  /// @throws std::invalid_argument  if the place is not finite.
+  /// @throws std::logic_error       before the first step.
+  int addTrack(const Eigen::Vector2d& position_m);
+
+  /// Makes a tentative track confirmed; no effect on others.
+  /// @throws std::invalid_argument  if there is no such track.
+  void confirmTrack(int id);
+
+  /// The track of that id, or null; valid until the next call.
+  const Track* findTrack(int id) const;
+
+  /// Stamp of the newest frame that was not skipped.
+  std::optional<double> stamp_s() const { return stamp_s_; }
+
+  /// All tracks, tentative ones too, in the order of their ids.
+  const std::vector<Track>& tracks() const { return tracks_; }
+  const TrackerReport& report() const { return report_; }
+  const TrackerParams& params() const { return params_; }
+
+ private:
+  bool advanceTo(double stamp_s);
+  void gateObservations(const std::vector<Observation>& observations, const Viewpoint& viewpoint);
+  void associate(const std::vector<Observation>& observations, bool tentative);
+  void fillCosts(int row, const Track& track, const std::vector<Observation>& observations);
+  void updateTracks(double stamp_s, const std::vector<Observation>& observations);
+  Track& startTrack(double stamp_s, const Eigen::Vector2d& position_m, double log_appearance);
+  void startTracks(double stamp_s, const std::vector<Observation>& observations);
+  void endTracks(double stamp_s);
+
+  TrackerParams params_;
+  GeometricGate gate_;
+  Eigen::Matrix2d noise_m2_;
+  double gate_limit_;
+  double base_cost_;
+  std::optional<double> stamp_s_;
+  int next_id_ = 1;
+  std::vector<Track> tracks_;
+  TrackerReport report_;
+  std::vector<int> accepted_;  ///< Indices of observations, ordered by value.
+  std::vector<int> free_;      ///< Those of them that no track has taken yet.
+  std::vector<int> rows_;      ///< Indices of the tracks that choose.
+  CostMatrix costs_;
+  AssignmentSolver solver_;
+  Assignment assignment_;
+};
+
+}  // namespace heel
