@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "apps/recording/recording.hpp"
 #include "apps/simulation/simulate.hpp"
 
 #include "tests/simulation/scenes.hpp"
@@ -55,6 +56,28 @@ TEST(Simulate, WritesARecordingWithItsTruth) {
   const cv::Mat depth = cv::imread((out / "truth/depth/000001.png").string(), cv::IMREAD_UNCHANGED);
   EXPECT_EQ(depth.type(), CV_16UC1);
   EXPECT_EQ(depth.at<std::uint16_t>(20, 140), 29400);  // The wall, 2.94 m away.
+}
+
+TEST(Simulate, WritesWhatTheRecordingReadersRead) {
+  const test::TempFolder folder("readable");
+  const Scene scene = smallScene();
+  simulate(scene, optionsFor(folder / "out"));
+  const auto recording = openRecording(folder / "out");
+  const Simulator simulator(scene, {1, 0, false});
+  EXPECT_EQ(recording->info().sensor, SensorKind::kStereo);
+  EXPECT_EQ(recording->info().frame_count, 5U);
+  EXPECT_NEAR(recording->info().camera.left.fx, simulator.camera().left.fx, 1e-9);
+  EXPECT_NEAR(recording->info().camera.baseline_m, simulator.camera().baseline_m, 1e-9);
+  ASSERT_TRUE(recording->info().T_base_camera.has_value());
+  EXPECT_TRUE(recording->info().T_base_camera->isApprox(simulator.T_base_camera(), 1e-8));
+  Frame frame;
+  int frames = 0;
+  while (recording->next(frame)) {
+    EXPECT_NEAR(frame.stamp_s, 0.1 * frames++, 1e-9);
+    EXPECT_EQ(frame.right_bgr.size(), cv::Size(160, 120));
+  }
+  EXPECT_EQ(frames, 5);
+  EXPECT_TRUE(recording->skipped().empty());
 }
 
 TEST(Simulate, LeavesOutWhoIsNotInView) {
