@@ -7,6 +7,7 @@
 
 #include "cloud/color_cloud.hpp"
 #include "segmentation/appearance_model.hpp"
+#include "segmentation/world_blobs.hpp"
 
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>
@@ -38,15 +39,15 @@ struct BodyView {
 /// geometric mean over the bands, in (0, 1); 0.5 says nothing either way. A person in other clothes
 /// lets some pixels pass too; what gives them away is all the rest of them.
 ///
-/// A pixel belongs to the body if its point lies in the cylinder around `position_m` and in the
-/// band; without a depth, if it lies on the board.
-/// @param position_m  The body's place on the floor, in the base frame.
-double bodyAppearance(const BodyView& view, const Eigen::Vector2d& position_m,
+/// A pixel belongs to the body if its point lies in the cylinder around the blob's place and in the
+/// band; without a depth, if it lies on the board, which ends at the blob's height.
+/// @param blob  Where the body is, in the base frame, and how high.
+double bodyAppearance(const BodyView& view, const WorldBlob& blob,
                       const std::vector<AppearanceBand>& bands,
                       const BodyAppearanceParams& params = {});
 
 /// The same over the points of a cloud in the base frame.
-double bodyAppearance(const ColorCloud& cloud, const Eigen::Vector2d& position_m,
+double bodyAppearance(const ColorCloud& cloud, const WorldBlob& blob,
                       const std::vector<AppearanceBand>& bands,
                       const BodyAppearanceParams& params = {});
 

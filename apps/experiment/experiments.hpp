@@ -43,7 +43,7 @@ ClearMot runDetectorExperiment(const std::filesystem::path& recording,
 struct ProtocolResult {
   LearnedPerson learned;
   std::string person;       ///< Whose model it is, by the truth.
-  TargetMetrics following;  ///< From the end of phase 1 to the person's last true place.
+  TargetMetrics following;  ///< From when others come into view to the person's last true place.
 };
 ProtocolResult runProtocolExperiment(const std::filesystem::path& recording,
                                      const ExperimentParams& params);

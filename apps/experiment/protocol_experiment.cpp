@@ -9,10 +9,10 @@
 namespace heel {
 namespace {
 
-/// Follows a model through a recording from its first frame on, but judges only the frames after
-/// `after_s`, up to the person's last true place.
+/// Follows a model through a recording from its first frame on, but judges only frames from `from`
+/// to the person's last true place.
 TargetMetrics follow(const std::filesystem::path& path, const AppearanceModel& model,
-                     const std::string& person, double after_s, const ExperimentParams& params) {
+                     const std::string& person, std::size_t from, const ExperimentParams& params) {
   const TruthFrames truth(path);
   const CameraSetup setup = findCameraSetup(*openRecording(path));
   const auto recording = openRecording(path);
@@ -22,7 +22,7 @@ TargetMetrics follow(const std::filesystem::path& path, const AppearanceModel& m
   Frame frame;
   while (recording->next(frame)) {
     const PerceptionStep& step = perception.step(frame);
-    if (frame.stamp_s <= after_s) continue;
+    if (frame.number < from) continue;
     frames.push_back(truth.targetFrame(person, frame.number, frame.stamp_s));
     if (step.target.hasPlace()) frames.back().estimate_m = step.target.motion.position_m();
     if (frames.back().target_m) last = frames.size();
@@ -44,14 +44,14 @@ ProtocolResult runProtocolExperiment(const std::filesystem::path& path,
   LearnedPerson learned = learnPerson(*openRecording(path), setup, learning);
   const std::string person = truth.people().front();
   const TargetMetrics following =
-      follow(path, learned.model, person, learned.acquisition.last_seen_s, params);
+      follow(path, learned.model, person, truth.firstFrameOfOthers(person), params);
   return {std::move(learned), person, following};
 }
 
 TargetMetrics runFollowingExperiment(const std::filesystem::path& path,
                                      const AppearanceModel& model, const std::string& person,
                                      const ExperimentParams& params) {
-  return follow(path, model, person, -1.0, params);
+  return follow(path, model, person, 1, params);
 }
 
 }  // namespace heel

@@ -30,6 +30,15 @@ std::optional<Eigen::Vector2d> TruthFrames::placeOf(const std::string& person,
   return std::nullopt;
 }
 
+std::size_t TruthFrames::firstFrameOfOthers(const std::string& person) const {
+  for (const auto& [frame, rows] : rows_) {
+    for (const TruthRow& row : rows) {
+      if (row.person != person) return frame;
+    }
+  }
+  return 0;
+}
+
 std::vector<std::size_t> TruthFrames::exactFrames(const std::string& person) const {
   std::vector<std::size_t> frames;
   for (const auto& [frame, rows] : rows_) {

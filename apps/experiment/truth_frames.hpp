@@ -32,6 +32,9 @@ class TruthFrames {
   /// Where someone is in a frame, if in view.
   std::optional<Eigen::Vector2d> placeOf(const std::string& person, std::size_t frame) const;
 
+  /// The first frame in which somebody besides `person` is in view; 0 if there is none.
+  std::size_t firstFrameOfOthers(const std::string& person) const;
+
   /// The frames in which someone's place is exact, in order.
   std::vector<std::size_t> exactFrames(const std::string& person) const;
 

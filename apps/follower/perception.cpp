@@ -169,10 +169,10 @@ void Perception::findCandidates(const Frame& frame) {
 
 double Perception::appearanceOf(const WorldBlob& blob, const Frame& frame) const {
   if (frame.image_bgr.empty()) {
-    return bodyAppearance(*step_.cloud, blob.position_m, bands_, params_.body);
+    return bodyAppearance(*step_.cloud, blob, bands_, params_.body);
   }
-  return bodyAppearance({frame.image_bgr, depth_m_, camera_.left, T_base_camera_}, blob.position_m,
-                        bands_, params_.body);
+  return bodyAppearance({frame.image_bgr, depth_m_, camera_.left, T_base_camera_}, blob, bands_,
+                        params_.body);
 }
 
 // Silence is what users of trackers complain of most: name the first stage that left nothing.

@@ -70,8 +70,10 @@ class BestView {
 
 void print(const LearnedPerson& learned) {
   const AcquisitionResult& acquisition = learned.acquisition;
-  std::printf("learned the person seen from %.1f to %.1f s; it ended as %s\n",
-              acquisition.first_seen_s, acquisition.last_seen_s, toText(acquisition.end));
+  std::printf("learned the person seen from %.1f to %.1f s; it ended %s%s\n",
+              acquisition.first_seen_s, acquisition.last_seen_s,
+              acquisition.end == AcquisitionEnd::kNotYet ? "with the recording" : "as ",
+              acquisition.end == AcquisitionEnd::kNotYet ? "" : toText(acquisition.end));
   std::printf(
       "  %d frames of the empty room, %d of the person (%.0f %% of those since they came)\n",
       acquisition.empty_frames, acquisition.person_frames, 100.0 * acquisition.confidence());

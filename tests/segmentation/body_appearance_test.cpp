@@ -32,6 +32,13 @@ pcl::PointXYZRGB point(float x, float y, float z, std::uint8_t red) {
   return p;
 }
 
+WorldBlob at(double x_m, double height_m = 1.8) {
+  WorldBlob blob;
+  blob.position_m = {x_m, 0.0};
+  blob.max_height_m = height_m;
+  return blob;
+}
+
 BodyAppearanceParams withoutPrior() {
   BodyAppearanceParams params;
   params.prior_points = 0.0;
@@ -45,7 +52,7 @@ TEST(BodyAppearance, IsTheShareOfTheBodysPointsThatPass) {
   cloud.push_back(point(2.5, 0, 1.5, 0));  // beside the body
   cloud.push_back(point(2, 0, 0.5, 0));    // under the band
   cloud.push_back(point(kNaN, kNaN, kNaN, 0));
-  EXPECT_DOUBLE_EQ(bodyAppearance(cloud, {2, 0}, {bandOf(1, 2, 100)}, withoutPrior()), 0.75);
+  EXPECT_DOUBLE_EQ(bodyAppearance(cloud, at(2), {bandOf(1, 2, 100)}, withoutPrior()), 0.75);
 }
 
 TEST(BodyAppearance, IsTheGeometricMeanOverTheBands) {
@@ -53,11 +60,11 @@ TEST(BodyAppearance, IsTheGeometricMeanOverTheBands) {
   for (int i = 0; i < 4; ++i) cloud.push_back(point(2, 0, 1.5, 255));
   for (int i = 0; i < 4; ++i) cloud.push_back(point(2, 0, 0.5, i == 0 ? 255 : 0));
   const std::vector<AppearanceBand> bands = {bandOf(1, 2, 100), bandOf(0.25, 0.9, 100)};
-  EXPECT_NEAR(bodyAppearance(cloud, {2, 0}, bands, withoutPrior()), std::sqrt(1.0 * 0.25), 1e-12);
+  EXPECT_NEAR(bodyAppearance(cloud, at(2), bands, withoutPrior()), std::sqrt(1.0 * 0.25), 1e-12);
 }
 
 TEST(BodyAppearance, SaysNothingEitherWayWithoutEvidence) {
-  EXPECT_DOUBLE_EQ(bodyAppearance(ColorCloud(), {2, 0}, {bandOf(1, 2, 100)}), 0.5);
+  EXPECT_DOUBLE_EQ(bodyAppearance(ColorCloud(), at(2), {bandOf(1, 2, 100)}), 0.5);
 }
 
 // A level camera 1.5 m up looks along x at an upright red board 0.4 m wide, 2 m away.
@@ -78,26 +85,36 @@ BodyView viewOfABoard(float depth_m) {
 TEST(BodyAppearance, OfAnImageCountsThePixelsInTheCylinder) {
   BodyAppearanceParams params = withoutPrior();
   params.board_half_width_m = 0.0001;
-  EXPECT_DOUBLE_EQ(bodyAppearance(viewOfABoard(2.0F), {2, 0}, {bandOf(1, 2, 100)}, params), 1.0);
+  EXPECT_DOUBLE_EQ(bodyAppearance(viewOfABoard(2.0F), at(2), {bandOf(1, 2, 100)}, params), 1.0);
 }
 
 TEST(BodyAppearance, OfAnImageLeavesOutWhatIsBehindTheBody) {
   BodyAppearanceParams params;
   params.board_half_width_m = 0.0001;
   // All red pixels are known to be 2 m behind: what is left is the prior.
-  EXPECT_NEAR(bodyAppearance(viewOfABoard(4.0F), {2, 0}, {bandOf(1, 2, 100)}, params), 0.5, 0.05);
+  EXPECT_NEAR(bodyAppearance(viewOfABoard(4.0F), at(2), {bandOf(1, 2, 100)}, params), 0.5, 0.05);
 }
 
 TEST(BodyAppearance, OfAnImageWithoutDepthCountsTheBoard) {
   BodyAppearanceParams params = withoutPrior();
   params.board_half_width_m = 0.4;  // twice as wide as the red board
-  EXPECT_NEAR(bodyAppearance(viewOfABoard(kNaN), {2, 0}, {bandOf(1, 2, 100)}, params), 0.5, 0.05);
+  EXPECT_NEAR(bodyAppearance(viewOfABoard(kNaN), at(2), {bandOf(1, 2, 100)}, params), 0.5, 0.05);
   params.board_half_width_m = 0.15;
-  EXPECT_NEAR(bodyAppearance(viewOfABoard(kNaN), {2, 0}, {bandOf(1, 2, 100)}, params), 1.0, 0.1);
+  EXPECT_NEAR(bodyAppearance(viewOfABoard(kNaN), at(2), {bandOf(1, 2, 100)}, params), 1.0, 0.1);
+}
+
+TEST(BodyAppearance, OfAnImageWithoutDepthEndsAtTheBlobsHeight) {
+  BodyAppearanceParams params = withoutPrior();
+  params.board_half_width_m = 0.15;
+  BodyView view = viewOfABoard(kNaN);
+  view.image_bgr.rowRange(0, 52).setTo(cv::Scalar(0, 0, 0));  // all that is above 1.65 m
+  const std::vector<AppearanceBand> bands = {bandOf(1, 2, 100)};
+  EXPECT_NEAR(bodyAppearance(view, at(2, 1.65), bands, params), 1.0, 0.1);
+  EXPECT_NEAR(bodyAppearance(view, at(2, 2.0), bands, params), 0.65, 0.05);
 }
 
 TEST(BodyAppearance, OfABodyBehindTheCameraSaysNothing) {
-  EXPECT_DOUBLE_EQ(bodyAppearance(viewOfABoard(2.0F), {-2, 0}, {bandOf(1, 2, 100)}), 0.5);
+  EXPECT_DOUBLE_EQ(bodyAppearance(viewOfABoard(2.0F), at(-2), {bandOf(1, 2, 100)}), 0.5);
 }
 
 TEST(BodyAppearance, LeavesOutABandOfWhichNothingWasLearned) {
@@ -105,7 +122,7 @@ TEST(BodyAppearance, LeavesOutABandOfWhichNothingWasLearned) {
   cloud.push_back(point(2, 0, 1.5, 255));
   AppearanceBand nothing;
   nothing.body = {"legs", 0.25, 0.9};
-  EXPECT_DOUBLE_EQ(bodyAppearance(cloud, {2, 0}, {bandOf(1, 2, 100), nothing}, withoutPrior()), 1);
+  EXPECT_DOUBLE_EQ(bodyAppearance(cloud, at(2), {bandOf(1, 2, 100), nothing}, withoutPrior()), 1);
 }
 
 }  // namespace
