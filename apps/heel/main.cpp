@@ -4,6 +4,7 @@
 #include "apps/heel/commands.hpp"
 
 #include <CLI/CLI.hpp>
+#include <pcl/console/print.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -35,9 +36,9 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   const std::string verbs = verbsOf(*called);
   std::string what = error.what();
   if (!verbs.empty() && error.get_name() == "RequiredError") {
-    what = called->remaining().empty() ? "name one of its verbs"
-                                       : "there is no '" + called->remaining().front() + "'";
-    what += ": " + verbs;
+    const auto others = called->remaining();
+    what = others.empty() ? "name a verb" : "there is no verb '" + others.front() + "'";
+    what += "; there are " + verbs;
   }
   return what + " ('" + name + " --help' tells more)";
 }
@@ -52,17 +53,22 @@ int fail(std::string sentence) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // we say ourselves what went wrong
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on a file's size is then an error like a full disk
   CLI::App app{
       "heel: a mobile robot follows one person.\n"
       "\n"
-      "  heel learn RECORDING --out person.yaml             who to follow (phase 1)\n"
-      "  heel track RECORDING --model person.yaml --out DIR where they are (phase 2)\n"
-      "\n"
+      "Phase 1, learn, finds out who to follow; phase 2, track, where they are.\n"
       "A RECORDING is a folder: stereo images with a calibration, RGB-D images in the TUM layout\n"
       "with a camera.yaml, or PCD files. 'heel VERB --help' tells more.\n",
       "heel"};
   app.set_version_flag("--version", std::string("heel ") + HEEL_VERSION);
+  app.footer(
+      "Example:\n"
+      "  heel simulate wardrobe --out recordings/wardrobe\n"
+      "  heel learn recordings/wardrobe --out person.yaml\n"
+      "  heel track recordings/wardrobe --model person.yaml --out out/wardrobe\n"
+      "  heel evaluate out/wardrobe/tracks.csv recordings/wardrobe/truth.csv");
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
   heel::addLearn(app);

@@ -50,7 +50,7 @@ void warn(const std::string& warning) {
 void print(const TrackOutput& output, const Options& options, std::size_t skipped) {
   std::printf("%zu frames, the target seen or predicted in %zu", output.frames(),
               output.framesWithTarget());
-  if (skipped > 0) std::printf("; %zu frames could not be read", skipped);
+  if (skipped > 0) std::printf("; %zu frame%s could not be read", skipped, skipped == 1 ? "" : "s");
   std::printf("\n");
   for (const auto& [state, frames] : output.framesByState()) {
     std::printf("  %-10s %6zu\n", state.c_str(), frames);

@@ -25,9 +25,8 @@ const std::vector<std::string> kTrackColumns = {"stamp_s", "track_id", "is_targe
 const std::vector<std::string> kTruthColumns = {"stamp_s", "frame", "person",
                                                 "x_m",     "y_m",   "exact"};
 const std::vector<std::string> kFrameColumns = {
-    "frame", "stamp_s",      "color_pixels", "color_points", "standing_points",
-    "blobs", "observations", "tracks",       "target_id",    "confidence",
-    "state", "reason"};
+    "frame",        "stamp_s", "color_pixels", "color_points", "standing_points", "blobs",
+    "observations", "tracks",  "target_id",    "confidence",   "state",           "reason"};
 
 std::vector<std::string> timingColumns(const std::vector<std::string>& stages) {
   std::vector<std::string> columns = {"frame"};
