@@ -43,7 +43,7 @@ class BestView {
     scene_.mask = step.labels >= AcquisitionStep::kTorso;
     scene_.frame = frame.number;
     scene_.stamp_s = frame.stamp_s;
-    SceneTrack person;
+    DrawnTrack person;
     person.position_m = blob.position_m;
     person.height_m = blob.max_height_m;
     person.is_target = true;
@@ -64,7 +64,7 @@ class BestView {
 
  private:
   const CameraSetup& setup_;
-  Scene scene_;
+  DrawnFrame scene_;
   double area_m2_ = 0.0;
 };
 

@@ -40,7 +40,7 @@ const cv::Scalar& colorOf(Tone tone) {
   return palette::kInkSoft;
 }
 
-void drawHeader(const Scene& scene, cv::Mat& header) {
+void drawHeader(const DrawnFrame& scene, cv::Mat& header) {
   const int row = header.rows / 2;
   const std::string time =
       "frame " + std::to_string(scene.frame) + "    " + fixedText(scene.stamp_s, 2) + " s";
@@ -89,7 +89,7 @@ cv::Size pictureSize(const AnnotateParams& params) {
           even(kHeader + image.height + kFooter)};
 }
 
-void annotate(const Scene& scene, const AnnotateParams& params, cv::Mat& picture) {
+void annotate(const DrawnFrame& scene, const AnnotateParams& params, cv::Mat& picture) {
   const bool fits = (scene.image_bgr.empty() || scene.image_bgr.type() == CV_8UC3) &&
                     (scene.mask.empty() ||
                      (scene.mask.type() == CV_8UC1 && scene.mask.size() == scene.image_bgr.size()));

@@ -38,15 +38,15 @@ void tint(const cv::Mat& mask, cv::Mat& image) {
 class Marker {
  public:
   /// @param scale  Pixels of `image` for one of the camera.
-  Marker(const Scene& scene, double scale, cv::Mat image)
+  Marker(const DrawnFrame& scene, double scale, cv::Mat image)
       : scene_(scene), scale_(scale), image_(std::move(image)) {}
 
-  void mark(const SceneBlob& blob) {
+  void mark(const DrawnBlob& blob) {
     drawOutline(image_, ring(blob.position_m, kBlobRadius_m), true,
                 blob.is_used ? palette::kBlob : palette::kGatedOut);
   }
 
-  void mark(const SceneTrack& track) {
+  void mark(const DrawnTrack& track) {
     const cv::Scalar& color = track.is_target ? palette::kTarget : palette::kTrack;
     const int thickness = track.is_target ? 2 : 1;
     const Outline feet = ring(track.position_m, kPersonRadius_m);
@@ -90,7 +90,7 @@ class Marker {
   }
 
   /// Left foot, left and right of the head, right foot, as the camera sees them.
-  Outline standingRectangle(const SceneTrack& track) const {
+  Outline standingRectangle(const DrawnTrack& track) const {
     const Vector2d eye_m = scene_.T_floor_camera.translation().head<2>();
     const Vector2d away = (track.position_m - eye_m).normalized();
     const Vector2d side_m = kPersonRadius_m * Vector2d(-away.y(), away.x());
@@ -110,7 +110,7 @@ class Marker {
   }
 
   /// The track's name over its head, kept within the image.
-  void label(const SceneTrack& track, cv::Point2d head, const cv::Scalar& color) {
+  void label(const DrawnTrack& track, cv::Point2d head, const cv::Scalar& color) {
     std::string text = std::to_string(track.id);
     if (track.is_target) {
       const auto percent = std::lround(100.0 * track.confidence);
@@ -130,14 +130,14 @@ class Marker {
     }
   }
 
-  const Scene& scene_;
+  const DrawnFrame& scene_;
   double scale_;
   cv::Mat image_;
 };
 
 }  // namespace
 
-void drawImage(const Scene& scene, cv::Mat& panel) {
+void drawImage(const DrawnFrame& scene, cv::Mat& panel) {
   panel.setTo(palette::kPanel);
   if (scene.image_bgr.empty()) {
     drawText(panel, "no image", {panel.cols / 2, panel.rows / 2}, palette::kInkSoft, kTextSizeLarge,

@@ -11,7 +11,7 @@ namespace heel {
 
 /// Draws the scene's image, fitted into `panel`: what the mask lets pass is tinted, the rest
 /// dimmed, and blobs and tracks are marked where they stand.
-void drawImage(const Scene& scene, cv::Mat& panel);
+void drawImage(const DrawnFrame& scene, cv::Mat& panel);
 
 /// Projects a point of the floor's frame into the image [px]; absent behind the camera.
 std::optional<cv::Point2d> projectToImage(const Eigen::Vector3d& point_m,

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/simulation/drive_base.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace heel {
+namespace {
+
+constexpr double kTwoPi = 6.283185307179586;
+
+double towards(double from, double to, double most) {
+  return from + std::clamp(to - from, -most, most);
+}
+
+}  // namespace
+
+Eigen::Isometry3d basePose(const FloorPose& pose) {
+  return Eigen::Translation3d(pose.position.x(), pose.position.y(), 0.0) *
+         Eigen::Isometry3d(Eigen::AngleAxisd(pose.yaw_rad, Eigen::Vector3d::UnitZ()));
+}
+
+FloorPose alongArc(const FloorPose& pose, double distance_m, double turn_rad) {
+  // The chord of an arc points along its middle heading.
+  const double half = turn_rad / 2.0;
+  const double chord = distance_m * (std::abs(half) < 1e-9 ? 1.0 : std::sin(half) / half);
+  const double heading = pose.yaw_rad + half;
+  return {pose.position + chord * Eigen::Vector2d(std::cos(heading), std::sin(heading)),
+          std::remainder(pose.yaw_rad + turn_rad, kTwoPi)};
+}
+
+DriveBase::DriveBase(const RobotParams& params)
+    : params_(params), pose_{params.start, params.start_yaw_rad} {}
+
+void DriveBase::accelerate(double dt_s, const VelocityCommand& command) {
+  const RobotParams& p = params_;
+  speed_.forward_mps = towards(speed_.forward_mps,
+                               std::clamp(command.forward_mps, -p.max_speed_mps, p.max_speed_mps),
+                               p.max_acceleration_mps2 * dt_s);
+  speed_.turn_radps = towards(speed_.turn_radps,
+                              std::clamp(command.turn_radps, -p.max_turn_radps, p.max_turn_radps),
+                              p.max_turn_acceleration_radps2 * dt_s);
+}
+
+FloorPose DriveBase::ahead(double dt_s) const {
+  return alongArc(pose_, speed_.forward_mps * dt_s, speed_.turn_radps * dt_s);
+}
+
+void DriveBase::go(double dt_s, bool free_ahead) {
+  if (!free_ahead) speed_.forward_mps = 0.0;
+  pose_ = ahead(dt_s);
+}
+
+WheelOdometry::WheelOdometry(const OdometryParams& params, std::uint64_t seed)
+    : params_(params), random_(seed) {}
+
+void WheelOdometry::add(double distance_m, double turn_rad) {
+  const double way = std::sqrt(std::abs(distance_m)), turn = std::sqrt(std::abs(turn_rad));
+  const double distance_error = params_.distance_noise * way * random_.gaussian();
+  const double turn_error = params_.turn_noise * turn * random_.gaussian() +
+                            params_.drift_noise * way * random_.gaussian();
+  pose_ = alongArc(pose_, distance_m + distance_error, turn_rad + turn_error);
+}
+
+}  // namespace heel

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// A differential-drive robot and what its wheels tell.
+#pragma once
+
+#include "apps/simulation/random.hpp"
+#include "apps/simulation/scene.hpp"
+
+#include <Eigen/Geometry>
+
+namespace heel {
+
+/// A place and a heading on the floor.
+struct FloorPose {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  double yaw_rad = 0.0;
+};
+
+/// What the robot is told to do.
+struct VelocityCommand {
+  double forward_mps = 0.0;
+  double turn_radps = 0.0;  ///< To the left is positive.
+};
+
+/// Base frame to world, for a robot that stands on the floor.
+Eigen::Isometry3d basePose(const FloorPose& pose);
+
+/// `pose` after `distance_m` along an arc that turns by `turn_rad`.
+FloorPose alongArc(const FloorPose& pose, double distance_m, double turn_rad);
+
+/// A robot that obeys its limits of speed and acceleration.
+class DriveBase {
+ public:
+  explicit DriveBase(const RobotParams& params);
+
+  /// Changes the speed towards the command for `dt_s`.
+  void accelerate(double dt_s, const VelocityCommand& command);
+
+  /// Moves for `dt_s` at the present speed, or only turns if something is in the way.
+  void go(double dt_s, bool free_ahead);
+
+  /// Where `go` would lead.
+  FloorPose ahead(double dt_s) const;
+
+  const FloorPose& pose() const { return pose_; }
+  const VelocityCommand& speed() const { return speed_; }
+
+ private:
+  RobotParams params_;
+  FloorPose pose_;
+  VelocityCommand speed_;
+};
+
+/// Dead reckoning with errors that grow with the way gone. Starts at 0, heading 0.
+///
+/// After a way of d metres and turns of a radians in all, the error of the heading is normally
+/// distributed with variance turn_noise^2 a + drift_noise^2 d, that of the way gone with variance
+/// distance_noise^2 d.
+class WheelOdometry {
+ public:
+  WheelOdometry(const OdometryParams& params, std::uint64_t seed);
+
+  void add(double distance_m, double turn_rad);
+  const FloorPose& pose() const { return pose_; }
+
+ private:
+  OdometryParams params_;
+  RandomStream random_;
+  FloorPose pose_;
+};
+
+}  // namespace heel

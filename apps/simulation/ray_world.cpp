@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/simulation/ray_world.hpp"
+
+#include "apps/simulation/embree.hpp"
+#include "apps/simulation/pillar_geometry.hpp"
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace heel {
+namespace {
+
+using Eigen::Vector3f;
+
+constexpr unsigned kFaceId = 0, kPillarId = 1, kBodyId = 2;
+
+/// One thread builds a tree of a few hundred shapes, so that the tree does not depend on how many
+/// threads there are.
+void commit(RTCScene scene) {
+  tbb::task_arena one_thread(1);
+  one_thread.execute([scene] { rtcCommitScene(scene); });
+}
+
+RTCGeometry makeFaceGeometry(RTCDevice device, const std::vector<Face>& faces) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
+  auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 4 * faces.size()));
+  auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 4 * sizeof(unsigned), faces.size()));
+  unsigned next = 0;
+  for (const Face& face : faces) {
+    for (const Vector3f& corner :
+         {face.origin, Vector3f(face.origin + face.edge_u),
+          Vector3f(face.origin + face.edge_u + face.edge_v), Vector3f(face.origin + face.edge_v)}) {
+      for (int i = 0; i < 3; ++i) *vertex++ = corner[i];
+      *index++ = next++;
+    }
+  }
+  rtcCommitGeometry(geometry);
+  return geometry;
+}
+
+/// Tapered capsules, each a curve of one straight segment.
+RTCGeometry makeBodyGeometry(RTCDevice device, const std::vector<BodyPart>& parts) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
+  auto* vertex = static_cast<float*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), 2 * parts.size()));
+  auto* index = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, sizeof(unsigned), parts.size()));
+  unsigned next = 0;
+  for (const BodyPart& part : parts) {
+    for (int i = 0; i < 3; ++i) *vertex++ = part.a[i];
+    *vertex++ = part.radius_a;
+    for (int i = 0; i < 3; ++i) *vertex++ = part.b[i];
+    *vertex++ = part.radius_b;
+    *index++ = next;
+    next += 2;
+  }
+  rtcCommitGeometry(geometry);
+  return geometry;
+}
+
+void attach(RTCScene scene, RTCGeometry geometry, unsigned id) {
+  rtcAttachGeometryByID(scene, geometry, id);
+  rtcReleaseGeometry(geometry);
+}
+
+RayHit makeHit(unsigned geometry, unsigned primitive, float distance, const Vector3f& normal,
+               const Vector3f& direction) {
+  RayHit hit;
+  if (geometry == RTC_INVALID_GEOMETRY_ID) return hit;
+  hit.kind = geometry == kFaceId     ? RayHit::Kind::kFace
+             : geometry == kPillarId ? RayHit::Kind::kPillar
+                                     : RayHit::Kind::kBody;
+  hit.index = static_cast<int>(primitive);
+  hit.distance = distance;
+  const Vector3f unit = normal.normalized();
+  hit.normal = unit.dot(direction) > 0.0F ? Vector3f(-unit) : unit;
+  return hit;
+}
+
+/// An upright cylinder around one person.
+struct Around {
+  Eigen::Vector2f center = Eigen::Vector2f::Zero();
+  float radius_m = 0.0F;
+  float top_m = 0.0F;
+};
+
+std::vector<Around> surround(const std::vector<BodyPart>& parts) {
+  std::vector<Around> out;
+  int person = -1;
+  for (const BodyPart& part : parts) {  // The first parts of a body are near its middle.
+    if (part.person != person) out.push_back({part.a.head<2>(), 0.0F, 0.0F});
+    person = part.person;
+    Around& around = out.back();
+    for (const auto& [end, radius] : {std::pair(part.a, part.radius_a), {part.b, part.radius_b}}) {
+      const float reach = (end.head<2>() - around.center).norm() + radius;
+      around.radius_m = std::max(around.radius_m, reach);
+      around.top_m = std::max(around.top_m, end.z() + radius);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+struct RayWorld::Scenes {
+  explicit Scenes(const Geometry& geometry) : device(rtcNewDevice(nullptr)) {
+    if (device == nullptr) throw std::runtime_error("Embree can't start on this machine");
+    still = rtcNewScene(device);
+    attach(still, makeFaceGeometry(device, geometry.faces), kFaceId);
+    if (!geometry.pillars.empty()) {
+      attach(still, makePillarGeometry(device, geometry.pillars), kPillarId);
+    }
+    commit(still);
+    people = rtcNewScene(device);
+    commit(people);
+  }
+  ~Scenes() {
+    rtcReleaseScene(people);
+    rtcReleaseScene(still);
+    rtcReleaseDevice(device);
+  }
+  Scenes(const Scenes&) = delete;
+  Scenes& operator=(const Scenes&) = delete;
+
+  RTCDevice device;
+  RTCScene still = nullptr;
+  RTCScene people = nullptr;
+  std::vector<BodyPart> parts;
+  std::vector<Around> around;
+};
+
+RayWorld::RayWorld(const Geometry& geometry) : scenes_(std::make_unique<Scenes>(geometry)) {}
+RayWorld::~RayWorld() = default;
+RayWorld::RayWorld(RayWorld&&) noexcept = default;
+RayWorld& RayWorld::operator=(RayWorld&&) noexcept = default;
+
+const std::vector<BodyPart>& RayWorld::bodyParts() const { return scenes_->parts; }
+
+void RayWorld::setPeople(std::vector<BodyPart> parts) {
+  scenes_->parts = std::move(parts);
+  scenes_->around = surround(scenes_->parts);
+  rtcReleaseScene(scenes_->people);
+  scenes_->people = rtcNewScene(scenes_->device);
+  if (!scenes_->parts.empty()) {
+    attach(scenes_->people, makeBodyGeometry(scenes_->device, scenes_->parts), kBodyId);
+  }
+  commit(scenes_->people);
+}
+
+RayHit RayWorld::trace(const Vector3f& origin, const Vector3f& direction, float max_distance,
+                       RayTarget target) const {
+  RTCRayHit ray{};
+  ray.ray.org_x = origin.x();
+  ray.ray.org_y = origin.y();
+  ray.ray.org_z = origin.z();
+  ray.ray.dir_x = direction.x();
+  ray.ray.dir_y = direction.y();
+  ray.ray.dir_z = direction.z();
+  ray.ray.tfar = max_distance;
+  ray.ray.mask = ~0U;
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  if (target != RayTarget::kPeople) intersect1(scenes_->still, ray);
+  if (target != RayTarget::kStill) intersect1(scenes_->people, ray);
+  return makeHit(ray.hit.geomID, ray.hit.primID, ray.ray.tfar,
+                 {ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z}, direction);
+}
+
+void RayWorld::trace(const Vector3f& origin, const Vector3f* directions, int count,
+                     std::array<RayHit, kPacket>& hits) const {
+  RTCRayHit8 rays{};
+  alignas(32) int valid[kPacket];
+  for (int i = 0; i < kPacket; ++i) {
+    valid[i] = i < count ? -1 : 0;
+    const Vector3f& direction = directions[i < count ? i : 0];
+    rays.ray.org_x[i] = origin.x();
+    rays.ray.org_y[i] = origin.y();
+    rays.ray.org_z[i] = origin.z();
+    rays.ray.dir_x[i] = direction.x();
+    rays.ray.dir_y[i] = direction.y();
+    rays.ray.dir_z[i] = direction.z();
+    rays.ray.tfar[i] = 1e9F;
+    rays.ray.mask[i] = ~0U;
+    rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  intersect8(valid, scenes_->still, rays);
+  if (!scenes_->parts.empty()) intersect8(valid, scenes_->people, rays);
+  for (int i = 0; i < count; ++i) {
+    hits[static_cast<std::size_t>(i)] =
+        makeHit(rays.hit.geomID[i], rays.hit.primID[i], rays.ray.tfar[i],
+                {rays.hit.Ng_x[i], rays.hit.Ng_y[i], rays.hit.Ng_z[i]}, directions[i]);
+  }
+}
+
+bool RayWorld::blocked(const Vector3f& from, const Vector3f& to, RayTarget target) const {
+  RTCRay ray{};
+  ray.org_x = from.x();
+  ray.org_y = from.y();
+  ray.org_z = from.z();
+  ray.dir_x = to.x() - from.x();
+  ray.dir_y = to.y() - from.y();
+  ray.dir_z = to.z() - from.z();
+  ray.tfar = 1.0F;
+  ray.mask = ~0U;
+  if (target != RayTarget::kPeople) occluded1(scenes_->still, ray);
+  if (target != RayTarget::kStill && ray.tfar >= 0.0F && !scenes_->parts.empty()) {
+    occluded1(scenes_->people, ray);
+  }
+  return ray.tfar < 0.0F;
+}
+
+unsigned RayWorld::blocked(const Vector3f& from, const Vector3f* to, int count,
+                           RayTarget target) const {
+  RTCRay8 rays;
+  alignas(32) int valid[kPacket];
+  alignas(32) int near_people[kPacket];
+  bool any_near = false;
+  for (int i = 0; i < kPacket; ++i) {
+    valid[i] = i < count ? -1 : 0;
+    const Vector3f direction = to[i < count ? i : 0] - from;
+    rays.org_x[i] = from.x();
+    rays.org_y[i] = from.y();
+    rays.org_z[i] = from.z();
+    rays.dir_x[i] = direction.x();
+    rays.dir_y[i] = direction.y();
+    rays.dir_z[i] = direction.z();
+    rays.tnear[i] = rays.time[i] = 0.0F;
+    rays.tfar[i] = 1.0F;
+    rays.mask[i] = ~0U;
+    rays.id[i] = rays.flags[i] = 0U;
+    const bool near = target != RayTarget::kStill && i < count && peopleNear(from, to[i], 0.0F);
+    near_people[i] = near ? -1 : 0;
+    any_near = any_near || near;
+  }
+  if (any_near) occluded8(near_people, scenes_->people, rays);
+  if (target != RayTarget::kPeople) {
+    for (int i = 0; i < count; ++i) valid[i] = rays.tfar[i] < 0.0F ? 0 : -1;
+    occluded8(valid, scenes_->still, rays);
+  }
+  unsigned hidden = 0;
+  for (int i = 0; i < count; ++i)
+    hidden |= rays.tfar[i] < 0.0F ? 1U << static_cast<unsigned>(i) : 0U;
+  return hidden;
+}
+
+bool RayWorld::peopleNear(const Vector3f& from, const Vector3f& to, float margin_m) const {
+  const Eigen::Vector2f start = from.head<2>(), along = to.head<2>() - start;
+  const float square = std::max(along.squaredNorm(), 1e-12F);
+  for (const Around& around : scenes_->around) {
+    const float reach = around.radius_m + margin_m;
+    const float t = std::clamp((around.center - start).dot(along) / square, 0.0F, 1.0F);
+    if ((start + t * along - around.center).squaredNorm() > reach * reach) continue;
+    // The lowest place where the line can be over the person.
+    const float spread = reach / std::sqrt(square);
+    const float low =
+        from.z() +
+        (to.z() - from.z()) * std::clamp(to.z() > from.z() ? t - spread : t + spread, 0.0F, 1.0F);
+    if (low < around.top_m + margin_m) return true;
+  }
+  return false;
+}
+
+}  // namespace heel

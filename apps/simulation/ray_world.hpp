@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Everything that a ray can hit: the still geometry, and the people of this moment.
+#pragma once
+
+#include "apps/simulation/body.hpp"
+#include "apps/simulation/geometry.hpp"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace heel {
+
+/// What a ray hit first.
+struct RayHit {
+  enum class Kind { kNothing, kFace, kPillar, kBody };
+  Kind kind = Kind::kNothing;
+  int index = 0;                                     ///< Of the face, pillar or body part.
+  float distance = 0.0F;                             ///< In lengths of the ray's direction.
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< Unit length, towards the ray's start.
+};
+
+/// The part of the world that a question is about.
+enum class RayTarget { kStill, kPeople, kAll };
+
+/// Ray queries by Embree. `const` members can be called from several threads at a time.
+class RayWorld {
+ public:
+  static constexpr int kPacket = 8;
+
+  /// @param geometry  Must outlive this.
+  explicit RayWorld(const Geometry& geometry);
+  ~RayWorld();
+  RayWorld(RayWorld&&) noexcept;
+  RayWorld& operator=(RayWorld&&) noexcept;
+
+  /// Replaces the people.
+  void setPeople(std::vector<BodyPart> parts);
+  const std::vector<BodyPart>& bodyParts() const;
+
+  RayHit trace(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
+               float max_distance = 1e9F, RayTarget target = RayTarget::kAll) const;
+
+  /// Traces up to 8 rays from one point.
+  void trace(const Eigen::Vector3f& origin, const Eigen::Vector3f* directions, int count,
+             std::array<RayHit, kPacket>& hits) const;
+
+  /// Whether anything is between two points. Give points a little off their surfaces.
+  bool blocked(const Eigen::Vector3f& from, const Eigen::Vector3f& to, RayTarget target) const;
+
+  /// Up to 8 such questions at once: bit i of the answer tells whether `to[i]` is hidden.
+  unsigned blocked(const Eigen::Vector3f& from, const Eigen::Vector3f* to, int count,
+                   RayTarget target) const;
+
+  /// Whether a person may be within `margin_m` of the line between two points; quick, and never
+  /// false where one is.
+  bool peopleNear(const Eigen::Vector3f& from, const Eigen::Vector3f& to, float margin_m) const;
+
+ private:
+  struct Scenes;
+  std::unique_ptr<Scenes> scenes_;
+};
+
+}  // namespace heel

@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/simulation/recording_writer.hpp"
+
+#include <opencv2/core.hpp>
+#include <opencv2/core/persistence.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <stdexcept>
+#include <vector>
+
+namespace heel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kDepthSteps = 10000.0;  // Of a metre, in 16-bit pictures.
+
+__attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...) {
+  std::array<char, 400> text{};
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(text.data(), text.size(), pattern, arguments);
+  va_end(arguments);
+  return text.data();
+}
+
+void writeFile(const fs::path& file, const std::vector<std::uint8_t>& bytes) {
+  std::ofstream out(file, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(bytes.data()),
+            static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  if (!out) throw std::runtime_error(file.string() + ": can't be written, is the disk full?");
+}
+
+cv::Mat packedDepth(const cv::Mat& depth_m) {
+  cv::Mat packed(depth_m.size(), CV_16UC1);
+  std::transform(depth_m.begin<float>(), depth_m.end<float>(), packed.begin<std::uint16_t>(),
+                 [](float z) {
+                   const double steps = std::round(static_cast<double>(z) * kDepthSteps);
+                   return steps > 0.0 && steps < 65536.0 ? static_cast<std::uint16_t>(steps)
+                                                         : std::uint16_t{0};
+                 });
+  return packed;
+}
+
+}  // namespace
+
+RecordingWriter::RecordingWriter(const fs::path& folder, const Simulator& simulator,
+                                 bool pixel_truth)
+    : folder_(folder),
+      partial_(folder.string() + ".partial"),
+      pixel_truth_(pixel_truth),
+      camera_(simulator.camera()),
+      T_base_camera_(simulator.T_base_camera()) {
+  std::error_code problem;
+  if (fs::exists(folder_, problem) && !fs::is_empty(folder_, problem)) {
+    throw std::runtime_error(folder_.string() + ": holds something already");
+  }
+  fs::remove_all(partial_, problem);
+  for (const char* name : {"left", "right", "truth/depth", "truth/people"}) {
+    if (!pixel_truth && std::string(name).rfind("truth", 0) == 0) continue;
+    fs::create_directories(partial_ / name, problem);
+    if (problem) {
+      throw std::runtime_error((partial_ / name).string() +
+                               ": can't be made: " + problem.message());
+    }
+  }
+  writeCameraFiles(simulator);
+}
+
+RecordingWriter::~RecordingWriter() {
+  try {
+    encoding_.wait();
+  } catch (const std::exception&) {
+    // Whoever gave up before finish() has been told why.
+  }
+  std::error_code ignored;
+  if (!finished_) fs::remove_all(partial_, ignored);
+}
+
+void RecordingWriter::writeCameraFiles(const Simulator& simulator) {
+  const PinholeCamera& c = camera_.left;
+  cv::FileStorage stereo((partial_ / "stereo.yaml").string(), cv::FileStorage::WRITE);
+  const cv::Matx34d P1(c.fx, 0, c.cx, 0, 0, c.fy, c.cy, 0, 0, 0, 1, 0);
+  cv::Matx34d P2 = P1;
+  P2(0, 3) = -c.fx * camera_.baseline_m;
+  stereo << "image_width" << c.width << "image_height" << c.height;
+  stereo << "P1" << cv::Mat(P1) << "P2" << cv::Mat(P2);
+
+  std::ofstream camera(partial_ / "camera.yaml");
+  camera << "# The left camera, rectified. Ground frame: the robot's base at the start (X forward, "
+            "Y left, Z up).\n"
+         << format("width: %d\nheight: %d\nfx: %.9g\nfy: %.9g\ncx: %.9g\ncy: %.9g\nrate_hz: %.9g\n",
+                   c.width, c.height, c.fx, c.fy, c.cx, c.cy,
+                   simulator.scene().robot.camera.rate_hz)
+         << format("baseline_m: %.9g\n", camera_.baseline_m) << "T_ground_camera: [";
+  for (int i = 0; i < 16; ++i) {
+    camera << format("%s%.9g", i == 0 ? "" : ", ", T_base_camera_.matrix()(i / 4, i % 4));
+  }
+  camera << "]\n";
+  if (!camera) throw std::runtime_error((partial_ / "camera.yaml").string() + ": can't be written");
+}
+
+std::ofstream& RecordingWriter::table(const std::string& name, const std::string& header) {
+  std::ofstream& file = tables_[name];
+  if (!file.is_open()) {
+    file.open(partial_ / name);
+    if (!header.empty()) file << header << '\n';
+  }
+  return file;
+}
+
+void RecordingWriter::writeLine(const std::string& name, const std::string& header,
+                                const std::string& line) {
+  table(name, header) << line << '\n';
+}
+
+void RecordingWriter::writeImage(const std::string& folder, const cv::Mat& image) {
+  const fs::path file = partial_ / folder / format("%06zu.png", frames_);
+  encoding_.run([file, image] {
+    std::vector<std::uint8_t> bytes;
+    if (!cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1})) {
+      throw std::runtime_error(file.string() + ": can't be encoded");
+    }
+    writeFile(file, bytes);
+  });
+}
+
+void RecordingWriter::add(const Readings& readings) {
+  if (frames_ == 0) T_ground_world_ = basePose(readings.truth.robot).inverse();
+  if (readings.stereo != nullptr) addFrame(readings);
+  addTruth(readings);
+  if (readings.laser != nullptr) {
+    std::string line = format("%.3f,%.6f,%.8f", readings.stamp_s, readings.laser->first_rad,
+                              readings.laser->step_rad);
+    for (const float range : readings.laser->ranges_m) line += format(",%.4f", range);
+    writeLine("scan.csv", "stamp_s,first_rad,step_rad,ranges_m", line);
+  }
+  if (readings.odometry) {
+    const FloorPose& pose = *readings.odometry;
+    writeLine("odometry.csv", "stamp_s,x_m,y_m,yaw_rad",
+              format("%.3f,%.5f,%.5f,%.6f", readings.stamp_s, pose.position.x(), pose.position.y(),
+                     pose.yaw_rad));
+  }
+}
+
+void RecordingWriter::addFrame(const Readings& readings) {
+  encoding_.wait();
+  ++frames_;
+  const StereoReading& stereo = *readings.stereo;
+  writeLine("times.txt", "", format("%.3f", readings.stamp_s));
+  writeImage("left", stereo.left_bgr.clone());
+  writeImage("right", stereo.right_bgr.clone());
+  if (pixel_truth_) {
+    writeImage("truth/depth", packedDepth(stereo.depth_m));
+    writeImage("truth/people", stereo.people.clone());
+  }
+  std::array<int, 256> seen{};
+  for (auto it = stereo.people.begin<std::uint8_t>(); it != stereo.people.end<std::uint8_t>(); ++it)
+    ++seen[*it];
+  const std::string header = "stamp_s,frame,person,x_m,y_m,exact";
+  table("truth.csv", header);
+  for (std::size_t i = 0; i < readings.truth.people.size() && i + 1 < seen.size(); ++i) {
+    const PersonTruth& person = readings.truth.people[i];
+    const Eigen::Vector3d in_world(person.position.x(), person.position.y(), 1.0);
+    const Eigen::Isometry3d T_camera_world =
+        T_base_camera_.inverse() * basePose(readings.truth.robot).inverse();
+    const double depth_m = std::max((T_camera_world * in_world).z(), 0.3);
+    const double body_px = 0.55 * camera_.left.fx * camera_.left.fy / (depth_m * depth_m);
+    const double share = seen[i + 1] / body_px;
+    if (seen[i + 1] < 12 || share < 0.05) continue;
+    const Eigen::Vector3d place =
+        T_ground_world_ * Eigen::Vector3d(in_world.x(), in_world.y(), 0.0);
+    writeLine("truth.csv", header,
+              format("%.3f,%zu,%s,%.4f,%.4f,%d", readings.stamp_s, frames_, person.name.c_str(),
+                     place.x(), place.y(), share >= 0.25 ? 1 : 0));
+  }
+}
+
+void RecordingWriter::addTruth(const Readings& readings) {
+  const WorldTruth& truth = readings.truth;
+  for (const PersonTruth& person : truth.people) {
+    writeLine("people.csv", "stamp_s,person,x_m,y_m,yaw_rad,vx_mps,vy_mps",
+              format("%.3f,%s,%.4f,%.4f,%.4f,%.4f,%.4f", readings.stamp_s, person.name.c_str(),
+                     person.position.x(), person.position.y(), person.yaw_rad, person.velocity.x(),
+                     person.velocity.y()));
+  }
+  writeLine(
+      "robot.csv", "stamp_s,x_m,y_m,yaw_rad,forward_mps,turn_radps,clearance_m,contact",
+      format("%.3f,%.5f,%.5f,%.6f,%.4f,%.4f,%.4f,%d", readings.stamp_s, truth.robot.position.x(),
+             truth.robot.position.y(), truth.robot.yaw_rad, truth.robot_speed.forward_mps,
+             truth.robot_speed.turn_radps, truth.clearance_m, truth.contact ? 1 : 0));
+}
+
+void RecordingWriter::finish() {
+  encoding_.wait();
+  for (auto& [name, file] : tables_) {
+    file.close();
+    if (!file) {
+      throw std::runtime_error((partial_ / name).string() +
+                               ": can't be written, is the disk full?");
+    }
+  }
+  std::error_code problem;
+  fs::remove(folder_, problem);  // An empty folder of that name may be there.
+  fs::rename(partial_, folder_, problem);
+  if (problem) throw std::runtime_error(folder_.string() + ": can't be made: " + problem.message());
+  finished_ = true;
+}
+
+}  // namespace heel

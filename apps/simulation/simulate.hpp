@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// A simulation as a recording that the other commands read.
+#pragma once
+
+#include "apps/simulation/scene.hpp"
+#include "apps/simulation/simulator.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+namespace heel {
+
+/// What to record, and where.
+struct SimulateOptions {
+  std::filesystem::path out;         ///< Folder; made here, and it must not hold anything yet.
+  std::optional<double> duration_s;  ///< Else the scene's own.
+  std::uint64_t seed = 1;
+  int threads = 0;                       ///< 0 = as many as the machine has.
+  bool write_pixel_truth = true;         ///< Depth and people's masks of every frame.
+  std::function<void(double)> progress;  ///< Called with the share that is done; may be empty.
+};
+
+/// What was recorded.
+struct SimulateResult {
+  std::size_t frames = 0;
+  double duration_s = 0.0;
+};
+
+/// Runs a scene with the robot on its own path (or still) and writes a recording:
+///
+/// | file | holds |
+/// | --- | --- |
+/// | `left/`, `right/` | rectified images, 000001.png and so on |
+/// | `times.txt` | their stamps, one a line |
+/// | `stereo.yaml` | projection matrices P1, P2, for OpenCV |
+/// | `camera.yaml` | intrinsics, and `T_ground_camera` at the start |
+/// | `truth.csv` | `stamp_s,frame,person,x_m,y_m,exact`: everyone in view, in the ground frame (the
+///   robot's base frame at the start); exact = 0 where less than a quarter of them is seen |
+/// | `people.csv`, `robot.csv` | everyone's and the robot's place in the world, seen or not |
+/// | `scan.csv`, `odometry.csv` | laser ranges and wheel odometry |
+/// | `truth/depth/`, `truth/people/` | 16-bit depth in 0.1 mm steps (0 = none); 0, or 1 + the
+///   number of the person |
+///
+/// Images and truth are written whole or not at all: the folder appears when all is done.
+/// @throws std::runtime_error  one sentence, if `out` holds something or can't be written.
+SimulateResult simulate(const Scene& scene, const SimulateOptions& options);
+
+}  // namespace heel

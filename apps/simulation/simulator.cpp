@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/simulation/simulator.hpp"
+
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace heel {
+namespace {
+
+constexpr double kTick_s = 0.01;
+constexpr int kTicksPerStride = 2;  // People decide where to step every other tick.
+
+Eigen::Isometry3d mountedCamera(const CameraParams& params) {
+  Eigen::Matrix3d optical;  // Columns: the optical axes in a frame that looks forward.
+  optical << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translation() = params.at;
+  T.linear() = Eigen::AngleAxisd(params.pitch_rad, Eigen::Vector3d::UnitY()) * optical;
+  return T;
+}
+
+/// Counts the measurements that a sensor should have made.
+class SensorClock {
+ public:
+  explicit SensorClock(double rate_hz) : rate_hz_(rate_hz) {}
+
+  /// Whether a measurement is due, at most one a call.
+  bool due(double time_s) {
+    const auto count = static_cast<std::int64_t>(std::floor(time_s * rate_hz_ + 1e-6));
+    if (count == count_) return false;
+    count_ = count;
+    return true;
+  }
+  std::uint64_t count() const { return static_cast<std::uint64_t>(count_); }
+
+ private:
+  double rate_hz_;
+  std::int64_t count_ = -1;
+};
+
+}  // namespace
+
+struct Simulator::State {
+  State(Scene scene_in, const SimulatorOptions& options_in)
+      : scene(std::move(scene_in)),
+        options(options_in),
+        arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic),
+        plan(scene),
+        geometry(makeGeometry(scene)),
+        world(geometry),
+        robot(scene.robot),
+        odometry(scene.robot.odometry, hashOf(options.seed, 1)),
+        camera_clock(scene.robot.camera.rate_hz),
+        laser_clock(scene.robot.laser.rate_hz),
+        odometry_clock(scene.robot.odometry.rate_hz) {
+    walkers.reserve(scene.people.size());
+    for (const ScenePerson& person : scene.people) walkers.emplace_back(person);
+    if (!options.render) return;
+    arena.execute([this] { lights = std::make_unique<LightMap>(scene, geometry, world); });
+    shader = std::make_unique<Shader>(scene, geometry, world, *lights);
+    camera_model = std::make_unique<CameraModel>(scene.robot.camera, hashOf(options.seed, 2));
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  void tick(const VelocityCommand& command);
+  void placeBodies();
+  void render();
+  void tellTruth();
+  double clearance(const Eigen::Vector2d& p) const;
+
+  Scene scene;
+  SimulatorOptions options;
+  tbb::task_arena arena;
+  FloorPlan plan;
+  Geometry geometry;
+  RayWorld world;
+  std::unique_ptr<LightMap> lights;
+  std::unique_ptr<Shader> shader;
+  std::unique_ptr<CameraModel> camera_model;
+  std::vector<Walker> walkers;
+  DriveBase robot;
+  WheelOdometry odometry;
+  SensorClock camera_clock, laser_clock, odometry_clock;
+  std::int64_t ticks = 0;
+  Readings readings;
+  StereoReading stereo;
+  LaserScan scan;
+  RenderedView left, right;
+};
+
+double Simulator::State::clearance(const Eigen::Vector2d& p) const {
+  double least = plan.clearance(p);
+  for (const Walker& walker : walkers) {
+    const Mover mover = walker.mover();
+    least = std::min(least, (mover.position - p).norm() - mover.radius_m);
+  }
+  return least - scene.robot.radius_m;
+}
+
+void Simulator::State::tick(const VelocityCommand& command) {
+  robot.accelerate(kTick_s, command);
+  // Something in the way stops the robot, but it may always back out of it.
+  const double now_m = clearance(robot.pose().position);
+  const double next_m = clearance(robot.ahead(kTick_s).position);
+  const bool blocked = next_m < 0.0 && next_m < now_m;
+  readings.truth.contact = readings.truth.contact || next_m < 0.0;
+  robot.go(kTick_s, !blocked);
+  odometry.add(robot.speed().forward_mps * kTick_s, robot.speed().turn_radps * kTick_s);
+  ++ticks;
+  if (ticks % kTicksPerStride != 0) return;
+  const Eigen::Vector2d robot_velocity =
+      robot.speed().forward_mps *
+      Eigen::Vector2d(std::cos(robot.pose().yaw_rad), std::sin(robot.pose().yaw_rad));
+  std::vector<Mover> others;
+  for (std::size_t i = 0; i < walkers.size(); ++i) {
+    others.clear();
+    for (std::size_t j = 0; j < walkers.size(); ++j) {
+      if (j != i) others.push_back(walkers[j].mover());
+    }
+    others.push_back({robot.pose().position, robot_velocity, scene.robot.radius_m + 0.05});
+    walkers[i].step(kTicksPerStride * kTick_s, plan, others, robot.pose().position);
+  }
+}
+
+void Simulator::State::placeBodies() {
+  std::vector<BodyPart> parts;
+  for (std::size_t i = 0; i < walkers.size(); ++i) {
+    appendBody(scene.people[i], static_cast<int>(i), walkers[i].pose(), parts);
+  }
+  world.setPeople(std::move(parts));
+}
+
+void Simulator::State::render() {
+  const CameraParams& params = scene.robot.camera;
+  const PinholeCamera pinhole = pinholeOf(params);
+  const Eigen::Isometry3d T_world_left = basePose(robot.pose()) * mountedCamera(params);
+  const Eigen::Isometry3d T_world_right =
+      T_world_left * Eigen::Translation3d(params.baseline_m, 0.0, 0.0);
+  const std::uint64_t picture = hashOf(options.seed, 3, camera_clock.count());
+  const float right_gain = 1.0F + 0.03F * static_cast<float>(uniformFrom(options.seed) - 0.5);
+  arena.execute([&] {
+    renderView(world, *shader, pinhole, T_world_left, left);
+    renderView(world, *shader, pinhole, T_world_right, right);
+    camera_model->develop(left.radiance, picture, 1.0F, stereo.left_bgr);
+    camera_model->develop(right.radiance, picture + 1, right_gain, stereo.right_bgr);
+  });
+  stereo.depth_m = left.depth_m;
+  stereo.people = left.people;
+  readings.stereo = &stereo;
+}
+
+void Simulator::State::tellTruth() {
+  WorldTruth& truth = readings.truth;
+  truth.robot = robot.pose();
+  truth.robot_speed = robot.speed();
+  truth.people.resize(walkers.size());
+  for (std::size_t i = 0; i < walkers.size(); ++i) {
+    const Mover mover = walkers[i].mover();
+    truth.people[i] = {scene.people[i].name, mover.position, mover.velocity,
+                       walkers[i].pose().yaw_rad};
+  }
+  truth.clearance_m = clearance(robot.pose().position);
+}
+
+Simulator::Simulator(Scene scene, const SimulatorOptions& options)
+    : state_(std::make_unique<State>(std::move(scene), options)) {}
+Simulator::~Simulator() = default;
+Simulator::Simulator(Simulator&&) noexcept = default;
+Simulator& Simulator::operator=(Simulator&&) noexcept = default;
+
+const Readings& Simulator::step(double dt_s, const VelocityCommand& command) {
+  State& s = *state_;
+  const double wanted_ticks = dt_s / kTick_s;
+  if (!(dt_s >= 0.0) || std::abs(wanted_ticks - std::round(wanted_ticks)) > 1e-6) {
+    throw std::invalid_argument("Simulator::step: dt_s must be a multiple of 0.01 s");
+  }
+  s.readings.truth.contact = false;
+  for (auto n = std::lround(wanted_ticks); n > 0; --n) s.tick(command);
+  const double now_s = static_cast<double>(s.ticks) * kTick_s;
+  s.readings.stamp_s = now_s;
+  s.readings.stereo = nullptr;
+  s.readings.laser = nullptr;
+  s.readings.odometry.reset();
+  s.tellTruth();
+  const bool camera_due = s.camera_clock.due(now_s) && s.options.render;
+  const bool laser_due = s.laser_clock.due(now_s);
+  if (camera_due || laser_due) s.placeBodies();
+  if (camera_due) s.render();
+  if (laser_due) {
+    measureLaser(s.world, s.scene.robot.laser, s.robot.pose(),
+                 hashOf(s.options.seed, 4, s.laser_clock.count()), s.scan);
+    s.readings.laser = &s.scan;
+  }
+  if (s.odometry_clock.due(now_s)) s.readings.odometry = s.odometry.pose();
+  return s.readings;
+}
+
+const Scene& Simulator::scene() const { return state_->scene; }
+
+StereoCamera Simulator::camera() const {
+  return {pinholeOf(state_->scene.robot.camera), state_->scene.robot.camera.baseline_m, 0.0};
+}
+
+Eigen::Isometry3d Simulator::T_base_camera() const {
+  return mountedCamera(state_->scene.robot.camera);
+}
+
+bool Simulator::everyoneIsDone() const {
+  return std::all_of(state_->walkers.begin(), state_->walkers.end(),
+                     [](const Walker& walker) { return walker.done(); });
+}
+
+}  // namespace heel

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/simulation/walker.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace heel {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kArrived_m = 0.08;
+constexpr double kTurnRate_radps = 3.0;
+constexpr double kAcceleration_mps2 = 2.0;
+constexpr double kForesight_s = 2.0;
+constexpr double kBodyToWall_m = 0.2;
+
+double wrapped(double angle) { return std::remainder(angle, 2.0 * kPi); }
+
+/// When two discs touch if both keep their velocity; infinite if never.
+double timeToTouch(const Vector2d& offset, const Vector2d& approach, double reach) {
+  const double c = offset.squaredNorm() - reach * reach;
+  const double b = offset.dot(approach);
+  if (c <= 0.0) return b < 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
+  const double a = approach.squaredNorm();
+  const double root = b * b - a * c;
+  if (b >= 0.0 || root <= 0.0) return std::numeric_limits<double>::infinity();
+  return (-b - std::sqrt(root)) / a;
+}
+
+}  // namespace
+
+Walker::Walker(const ScenePerson& person) : person_(&person) {
+  pose_.position = person.start;
+  pose_.yaw_rad = person.start_yaw_rad;
+}
+
+void Walker::finishStep() {
+  waited_s_ = 0.0;
+  ++step_;
+  if (done() && person_->repeat) step_ = 0;
+}
+
+void Walker::step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& others,
+                  const Vector2d& robot) {
+  pose_.time_s += dt_s;
+  Vector2d wanted = Vector2d::Zero();
+  if (!done()) {
+    const PathStep& now = person_->path[step_];
+    const Vector2d way = now.to - pose_.position;
+    switch (now.kind) {
+      case PathStep::Kind::kWalk:
+        wanted = way.normalized() * now.speed_mps;
+        if (way.norm() < std::max(kArrived_m, now.speed_mps * dt_s)) finishStep();
+        break;
+      case PathStep::Kind::kWait:
+        waited_s_ += dt_s;
+        if (waited_s_ >= now.wait_s - 1e-9) finishStep();
+        break;
+      case PathStep::Kind::kWaitForRobot:
+        if ((robot - pose_.position).norm() <= now.robot_within_m) finishStep();
+        break;
+      case PathStep::Kind::kFace: {
+        const double yaw = std::atan2(way.y(), way.x());
+        turnTo(yaw, dt_s);
+        if (std::abs(wrapped(yaw - pose_.yaw_rad)) < 0.02) finishStep();
+        break;
+      }
+    }
+  }
+  if (!wanted.isZero()) wanted = chooseVelocity(wanted, plan, others);
+  move(dt_s, wanted);
+}
+
+Vector2d Walker::chooseVelocity(const Vector2d& wanted, const FloorPlan& plan,
+                                const std::vector<Mover>& others) const {
+  static constexpr std::array<double, 11> kTurns = {0.0,  -0.3,  0.3,  -0.6, 0.6, -0.95,
+                                                    0.95, -1.35, 1.35, -1.8, 1.8};
+  const double speed = wanted.norm();
+  Vector2d best = Vector2d::Zero();
+  double least = std::numeric_limits<double>::infinity();
+  for (const double pace : {1.0, 0.55, 0.0}) {
+    for (const double turn : kTurns) {
+      if (pace == 0.0 && turn != 0.0) continue;
+      const Vector2d velocity = pace * (Eigen::Rotation2Dd(turn) * wanted);
+      // People keep right when they can: a little more is paid for a turn to the left.
+      double cost = (velocity - wanted).norm() / speed + (turn > 0.0 ? 0.08 : 0.0);
+      for (const Mover& other : others) {
+        const double touch = timeToTouch(other.position - pose_.position, other.velocity - velocity,
+                                         other.radius_m + kRadius_m);
+        if (touch < kForesight_s) cost += 3.0 * (1.0 - touch / kForesight_s) + 0.5;
+      }
+      if (cost >= least) continue;
+      const bool straight = turn == 0.0;
+      if (!straight && plan.clearance(pose_.position + 0.35 * velocity) < kBodyToWall_m) continue;
+      if (!straight && plan.clearance(pose_.position + 0.8 * velocity) < kBodyToWall_m) cost += 1.0;
+      if (cost >= least) continue;
+      least = cost;
+      best = velocity;
+      if (cost == 0.0) return best;  // Nobody is in the way.
+    }
+  }
+  return best;
+}
+
+void Walker::move(double dt_s, const Vector2d& wanted) {
+  const Vector2d change = wanted - velocity_;
+  const double most = kAcceleration_mps2 * dt_s;
+  velocity_ += change.norm() > most ? Vector2d(change.normalized() * most) : change;
+  pose_.position += velocity_ * dt_s;
+  const double speed = velocity_.norm();
+  if (speed > 0.05) turnTo(std::atan2(velocity_.y(), velocity_.x()), dt_s);
+  pose_.speed_mps = speed;
+  pose_.gait_rad = std::remainder(
+      pose_.gait_rad + 2.0 * kPi * speed * dt_s / strideLength(*person_, speed), 2.0 * kPi);
+}
+
+void Walker::turnTo(double yaw_rad, double dt_s) {
+  const double most = kTurnRate_radps * dt_s;
+  pose_.yaw_rad =
+      wrapped(pose_.yaw_rad + std::clamp(wrapped(yaw_rad - pose_.yaw_rad), -most, most));
+}
+
+}  // namespace heel

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// People who walk along their paths and step around each other and the robot.
+#pragma once
+
+#include "apps/simulation/body.hpp"
+#include "apps/simulation/floor_plan.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace heel {
+
+/// Someone or something that moves on the floor.
+struct Mover {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
+  double radius_m = 0.25;
+};
+
+/// One person of a scene, living.
+class Walker {
+ public:
+  /// @param person  Must outlive this.
+  explicit Walker(const ScenePerson& person);
+
+  /// Lives on for `dt_s` (a few hundredths of a second).
+  /// @param others  Everyone else, and the robot.
+  /// @param robot   Where the robot is, for those who wait for it.
+  void step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& others,
+            const Eigen::Vector2d& robot);
+
+  const BodyPose& pose() const { return pose_; }
+  Mover mover() const { return {pose_.position, velocity_, kRadius_m}; }
+  /// Whether the path has been walked to its end.
+  bool done() const { return step_ >= person_->path.size(); }
+
+ private:
+  static constexpr double kRadius_m = 0.25;
+
+  void finishStep();
+  Eigen::Vector2d chooseVelocity(const Eigen::Vector2d& wanted, const FloorPlan& plan,
+                                 const std::vector<Mover>& others) const;
+  void move(double dt_s, const Eigen::Vector2d& wanted);
+  void turnTo(double yaw_rad, double dt_s);
+
+  const ScenePerson* person_;
+  BodyPose pose_;
+  Eigen::Vector2d velocity_ = Eigen::Vector2d::Zero();
+  std::size_t step_ = 0;
+  double waited_s_ = 0.0;
+};
+
+}  // namespace heel
