@@ -10,8 +10,10 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <iostream>
 #include <string>
 
 namespace {
@@ -50,10 +52,17 @@ int fail(std::string sentence) {
   return 1;
 }
 
+/// Keeps libraries from writing to the console: what went wrong, we say ourselves, in a sentence.
+void silenceLibraries() {
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+  setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // FFmpeg's "quiet"
+  std::cerr.rdbuf(nullptr);                   // OpenCV's image readers; we use stderr
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // we say ourselves what went wrong
+  silenceLibraries();
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on a file's size is then an error like a full disk
   CLI::App app{
       "heel: a mobile robot follows one person.\n"

@@ -90,6 +90,14 @@ TEST_F(BadRecording, GoesOnWithoutAnImageThatIsNoImage) {
   expectOneSkipped(13, {"depth/0013.png", "cannot be decoded"});
 }
 
+TEST_F(BadRecording, GoesOnWithoutAnImageWhoseBytesEndTooSoon) {
+  const auto bitmap = folder_ / "image.bmp";
+  cv::imwrite(bitmap.string(), cv::Mat(120, 160, CV_8UC3, cv::Scalar(0)));
+  truncateBy(bitmap, 1000);
+  fs::rename(bitmap, colorImage(folder_ / "room", 7));
+  expectOneSkipped(7, {"rgb/0007.png", "cannot be decoded"});
+}
+
 TEST_F(BadRecording, GoesOnWithoutAnImageOfAnotherSize) {
   cv::imwrite(colorImage(folder_ / "room", 7).string(), cv::Mat(60, 80, CV_8UC3, cv::Scalar(0)));
   expectOneSkipped(7, {"rgb/0007.png", "80x60", "160x120"});

@@ -45,8 +45,13 @@ TEST_F(FullDisk, LeavesNoTable) {
   EXPECT_THAT(filesBelow(folder_ / "out"), ElementsAre());
 }
 
+TEST_F(FullDisk, LeavesNoStillAndNoTableWithoutThem) {
+  EXPECT_TRUE(failsWith(heel(track(), 30'000), {"frame_", ".png cannot be written"}));
+  EXPECT_THAT(filesBelow(folder_ / "out"), ElementsAre());
+}
+
 TEST_F(FullDisk, LeavesNoFilmAndNoTableWithoutIt) {
-  EXPECT_TRUE(failsWith(heel(track(), 30000), {"cannot be written"}));
+  EXPECT_TRUE(failsWith(heel(track(), 600'000), {"tracks.mp4 cannot be written"}));
   EXPECT_THAT(filesBelow(folder_ / "out"), ElementsAre());
 }
 
