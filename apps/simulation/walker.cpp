@@ -63,7 +63,10 @@ void Walker::step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& 
         if (waited_s_ >= now.wait_s - 1e-9) finishStep();
         break;
       case PathStep::Kind::kWaitForRobot:
-        if ((robot - pose_.position).norm() <= now.robot_within_m) finishStep();
+        waited_s_ += dt_s;
+        if ((robot - pose_.position).norm() <= now.robot_within_m || waited_s_ >= now.patience_s) {
+          finishStep();
+        }
         break;
       case PathStep::Kind::kFace: {
         const double yaw = std::atan2(way.y(), way.x());
