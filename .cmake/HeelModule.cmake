@@ -14,6 +14,9 @@ if(PROJECT_IS_TOP_LEVEL)
   target_compile_options(heel_flags INTERFACE -Werror)
 endif()
 if(HEEL_SANITIZE)
+  # Eigen allocates in its own way under a sanitizer, unlike in Debian's PCL, with which we exchange
+  # dynamic vectors; malloc's memory is aligned well enough.
+  target_compile_definitions(heel_flags INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
   target_compile_options(heel_flags INTERFACE
     -fsanitize=${HEEL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(heel_flags INTERFACE -fsanitize=${HEEL_SANITIZE})

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdlib>
+#include <stdexcept>
 
 namespace heel {
 namespace {
@@ -66,52 +67,65 @@ void MaskedSgm::prepare(int width) {
 
 void MaskedSgm::compute(const cv::Mat& left, const cv::Mat& right, const cv::Mat& wanted,
                         cv::Mat& disparity) {
-  const int radius = params_.block_size / 2;
+  if (left.type() != CV_8UC1 || right.type() != CV_8UC1 || wanted.type() != CV_8UC1 ||
+      left.size() != right.size() || left.size() != wanted.size()) {
+    throw std::invalid_argument("MaskedSgm: images and mask must be 8-bit and of one size");
+  }
   prepare(left.cols);
   disparity.create(left.size(), CV_16SC1);
   disparity.setTo(kNone);
   spans_.find(wanted);
-  if (spans_.bounds().empty()) return;
+  if (bounds().empty()) return;
+  if (bounds().x < params_.disparities) {
+    throw std::invalid_argument("MaskedSgm: the first columns have no disparity to be wanted");
+  }
   cv::dilate(wanted, wide_, block_column_);
   wide_spans_.find(wide_);
   cv::flip(right, mirrored_right_, 1);
 
-  const int last_row = left.rows - 1;
-  int summed = wide_spans_.bounds().y;  // the next row whose columns are to be summed
-  for (int y = spans_.bounds().y; y < spans_.bounds().br().y; ++y) {
-    for (; summed <= std::min(y + radius, last_row); ++summed) {
-      sumColumnsOfRow(left, summed, wide_spans_.row(summed));
+  const int radius = params_.block_size / 2;
+  int next_sum = wide_spans_.bounds().y;  // the next row whose columns are to be summed
+  for (int y = bounds().y; y < bounds().br().y; ++y) {
+    for (; next_sum <= std::min(y + radius, left.rows - 1); ++next_sum) {
+      sumColumnsOfRow(left, next_sum, wide_spans_.row(next_sum));
     }
-    std::array<const std::int16_t*, kMaxBlock> block_rows{};
-    for (int k = -radius; k <= radius; ++k) {
-      const int row = std::clamp(y + k, 0, last_row) % params_.block_size;
-      block_rows[static_cast<std::size_t>(k + radius)] =
-          column_sums_[static_cast<std::size_t>(row)].data();
-    }
-    sgm::PathRow row{};
-    row.disparities = params_.disparities;
-    row.p1 = static_cast<std::int16_t>(params_.p1);
-    row.p2 = static_cast<std::int16_t>(params_.p2);
-    row.above = y > 0 ? wanted.ptr<std::uint8_t>(y - 1) : nullptr;
-    row.width = left.cols;
-    row.costs = costs_.data();
-    row.totals = totals_.data();
-    row.from_above = paths_above_.data();
-    row.to_below = paths_here_.data();
-    row.minima_above = minima_above_.data();
-    row.minima_below = minima_here_.data();
-    for (const Span& span : spans_.row(y)) {
-      sgm::sumRows(block_rows.data(), params_.block_size, span.begin, span.end, params_.disparities,
-                   costs_.data());
-      sgm::forwardPass(row, span.begin, span.end);
-      sgm::backwardPass(row, span.begin, span.end, params_.uniqueness_percent, winners_.data());
-    }
-    chooseRow(y, spans_.row(y), disparity);
+    aggregateRow(y, wanted);
+    chooseRow(spans_.row(y), disparity.ptr<std::int16_t>(y));
     paths_above_.swap(paths_here_);
     minima_above_.swap(minima_here_);
   }
 }
 
+/// Block costs, paths and winners of a row.
+void MaskedSgm::aggregateRow(int y, const cv::Mat& wanted) {
+  const int radius = params_.block_size / 2;
+  std::array<const std::int16_t*, kMaxBlock> block{};
+  for (int k = -radius; k <= radius; ++k) {
+    const int row = std::clamp(y + k, 0, wanted.rows - 1) % params_.block_size;
+    block[static_cast<std::size_t>(k + radius)] =
+        column_sums_[static_cast<std::size_t>(row)].data();
+  }
+  sgm::PathRow row{};
+  row.disparities = params_.disparities;
+  row.p1 = static_cast<std::int16_t>(params_.p1);
+  row.p2 = static_cast<std::int16_t>(params_.p2);
+  row.above = y > 0 ? wanted.ptr<std::uint8_t>(y - 1) : nullptr;
+  row.width = wanted.cols;
+  row.costs = costs_.data();
+  row.totals = totals_.data();
+  row.from_above = paths_above_.data();
+  row.to_below = paths_here_.data();
+  row.minima_above = minima_above_.data();
+  row.minima_below = minima_here_.data();
+  for (const Span& span : spans_.row(y)) {
+    sgm::sumRows(block.data(), params_.block_size, span.begin, span.end, params_.disparities,
+                 costs_.data());
+    sgm::forwardPass(row, span.begin, span.end);
+    sgm::backwardPass(row, span.begin, span.end, params_.uniqueness_percent, winners_.data());
+  }
+}
+
+/// The costs of a row's pixels, summed over the columns of a block.
 void MaskedSgm::sumColumnsOfRow(const cv::Mat& left, int y, const RowSpans::Row& spans) {
   if (spans.empty()) return;
   const int radius = params_.block_size / 2, width = left.cols;
@@ -141,9 +155,8 @@ void MaskedSgm::sumColumnsOfRow(const cv::Mat& left, int y, const RowSpans::Row&
 }
 
 /// Takes each winner that is unique and that the right image's view confirms.
-void MaskedSgm::chooseRow(int y, const RowSpans::Row& spans, cv::Mat& disparity) {
+void MaskedSgm::chooseRow(const RowSpans::Row& spans, std::int16_t* out) {
   if (spans.empty()) return;
-  auto* out = disparity.ptr<std::int16_t>(y);
   std::fill(right_total_.begin(), right_total_.end(), INT16_MAX);
   std::fill(right_disparity_.begin(), right_disparity_.end(), std::int16_t{-1});
   for (const Span* span = spans.last; span-- != spans.first;) {

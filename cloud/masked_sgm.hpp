@@ -34,6 +34,7 @@ class MaskedSgm {
   ///                     columns that have none.
   /// @param disparity    Out: CV_16SC1 in 1/16 px, negative where there is none.
   ///                     Neither median nor speckle filter is applied.
+  /// @throws std::invalid_argument  if the images do not fit.
   void compute(const cv::Mat& left, const cv::Mat& right, const cv::Mat& wanted,
                cv::Mat& disparity);
 
@@ -49,7 +50,8 @@ class MaskedSgm {
 
   void prepare(int width);
   void sumColumnsOfRow(const cv::Mat& left, int y, const RowSpans::Row& spans);
-  void chooseRow(int y, const RowSpans::Row& spans, cv::Mat& disparity);
+  void aggregateRow(int y, const cv::Mat& wanted);
+  void chooseRow(const RowSpans::Row& spans, std::int16_t* out);
 
   StereoMatcherParams params_;
   cv::Mat block_column_;

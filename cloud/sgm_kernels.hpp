@@ -54,14 +54,13 @@ void sumColumns(const std::uint8_t* costs, int begin, int end, int first_column,
 /// What the passes along a row share.
 struct PathRow {
   int disparities;
-  std::int16_t p1, p2;               ///< Penalties of a disparity change by 1, and by more.
-  const std::uint8_t* here;          ///< Not 0 where this row's pixels are computed.
-  const std::uint8_t* above;         ///< The same of the row above; null for the first row.
-  int width;                         ///< Pixels in a row.
-  std::int16_t* costs;               ///< Block costs, pixel-major, stride `disparities`.
-  std::int16_t* totals;              ///< Sums over the paths, pixel-major, stride `disparities`.
-  const std::int16_t* from_above;    ///< Padded path costs of the row above, [x][path].
-  std::int16_t* to_below;            ///< The same of this row, written.
+  std::int16_t p1, p2;             ///< Penalties of a disparity change by 1, and by more.
+  const std::uint8_t* above;       ///< Not 0 where the row above was computed; null: there is none.
+  int width;                       ///< Pixels in a row.
+  std::int16_t* costs;             ///< Block costs, pixel-major, stride `disparities`.
+  std::int16_t* totals;            ///< Sums over the paths, pixel-major, stride `disparities`.
+  const std::int16_t* from_above;  ///< Padded path costs of the row above, [x][path].
+  std::int16_t* to_below;          ///< The same of this row, written.
   const std::int16_t* minima_above;  ///< [x][path], least of each vector of `from_above`.
   std::int16_t* minima_below;
 };

@@ -10,7 +10,7 @@
 #include <pcl/filters/filter_indices.h>
 #include <pcl/types.h>
 
-#include <string>
+#include <cstddef>
 
 namespace heel {
 
@@ -18,8 +18,9 @@ namespace heel {
 ///
 /// Behaves as any pcl::FilterIndices: honours setIndices, setNegative, setKeepOrganized,
 /// setUserFilterValue and getRemovedIndices. Points with non-finite x, y or z are always removed.
-/// Without a table it reports a PCL_ERROR and keeps nothing. Filtering one cloud after another
-/// allocates nothing once its lists have grown.
+/// Without a table it reports a PCL_ERROR and keeps nothing. `filter(Indices&)` on one cloud after
+/// another allocates nothing once its lists have grown; PCL's `filter(PointCloud&)` on top of it
+/// does.
 ///
 /// @tparam PointT  A PCL point with x, y, z, r, g, b. Instantiated for all of PCL's own; for
 /// another,
@@ -52,6 +53,10 @@ class AppearanceFilter : public pcl::FilterIndices<PointT> {
   void applyFilter(pcl::Indices& indices) override;
 
  private:
+  /// Fills kept_ (and removed_, if it is wanted); returns how many are kept.
+  template <bool kListRemoved>
+  std::size_t select();
+
   ColorTable table_;
   pcl::Indices kept_;     // Workspace: as long as the longest list so far.
   pcl::Indices removed_;  // The same.

@@ -29,32 +29,38 @@ void AppearanceFilter<PointT>::applyFilter(pcl::Indices& indices) {
     return;
   }
 
-  // The lists are built aside, for `indices` may be *indices_ itself. Every index is written to the
-  // end of a list, and only the end moves on: no branch depends on a noisy image, which halves the
-  // time.
+  // The lists are built aside, for `indices` may be *indices_ itself.
   const std::size_t n = indices_->size();
   if (kept_.size() < n) kept_.resize(n);
   if (extract_removed_indices_ && removed_.size() < n) removed_.resize(n);
-  auto kept_end = kept_.begin();
-  auto removed_end = removed_.begin();
+  const std::size_t n_kept = extract_removed_indices_ ? select<true>() : select<false>();
+  const std::size_t n_removed = extract_removed_indices_ ? n - n_kept : 0;
+  removed_indices_->assign(removed_.data(), removed_.data() + n_removed);
+  indices.assign(kept_.data(), kept_.data() + n_kept);
+}
+
+template <typename PointT>
+template <bool kListRemoved>
+std::size_t AppearanceFilter<PointT>::select() {
+  // Every index is written to the end of its list, and the end moves on if it belongs there: a
+  // branch would depend on a noisy image, and take twice the time.
+  const pcl::Indices& visited = *indices_;
   const PointCloud& cloud = *input_;
+  pcl::index_t* kept = kept_.data();
+  pcl::index_t* removed = removed_.data();
   const std::uint8_t* scores = table_.data();
   const std::uint8_t threshold = table_.threshold();
   const bool wanted = !negative_;
-  const bool list_removed = extract_removed_indices_;
-  for (const pcl::index_t i : *indices_) {
+  std::size_t n_kept = 0;
+  for (std::size_t n = 0; n < visited.size(); ++n) {
+    const pcl::index_t i = visited[n];
     const PointT& p = cloud[i];
     const bool passes = scores[ColorTable::cell(p.b, p.g, p.r)] > threshold;
-    const int keep = static_cast<int>(passes == wanted) & static_cast<int>(pcl::isFinite(p));
-    *kept_end = i;
-    kept_end += keep;
-    if (list_removed) {
-      *removed_end = i;
-      removed_end += 1 - keep;
-    }
+    kept[n_kept] = i;
+    if constexpr (kListRemoved) removed[n - n_kept] = i;
+    n_kept += static_cast<unsigned>(passes == wanted) & static_cast<unsigned>(pcl::isFinite(p));
   }
-  indices.assign(kept_.begin(), kept_end);
-  removed_indices_->assign(removed_.begin(), removed_end);
+  return n_kept;
 }
 
 }  // namespace heel

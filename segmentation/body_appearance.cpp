@@ -44,9 +44,10 @@ Board boardAt(const Eigen::Vector2d& position_m, const Eigen::Isometry3d& T_base
 }
 
 /// Where the part of the board between two heights lies in the image; nothing if it crosses the
-/// camera's plane.
+/// camera's plane, or if the heights leave nothing.
 cv::Rect pixelsOf(const Board& board, double min_height_m, double max_height_m,
                   const BodyView& view) {
+  if (max_height_m <= min_height_m) return {};
   const Eigen::Isometry3d T_camera_base = view.T_base_camera.inverse();
   double u_min = 1e9, u_max = -1e9, v_min = 1e9, v_max = -1e9;
   for (const Eigen::Vector3d& foot : {board.left_foot, board.right_foot}) {
@@ -74,31 +75,37 @@ bool isInCylinder(const Eigen::Vector3f& p, const Eigen::Vector2d& position_m,
   const double dx = static_cast<double>(p.x()) - position_m.x();
   const double dy = static_cast<double>(p.y()) - position_m.y();
   return dx * dx + dy * dy <= radius_m * radius_m &&
-         static_cast<double>(p.z()) >= band.min_height_m &&
-         static_cast<double>(p.z()) <= band.max_height_m;
+         static_cast<double>(p.z()) >= band.body.min_height_m &&
+         static_cast<double>(p.z()) <= band.body.max_height_m;
 }
 
-/// Geometric mean of the bands' shares.
+/// Geometric mean of the shares of the bands that were learned.
 template <typename ShareOfBand>
-double meanOverBands(const AppearanceBands& bands, const ShareOfBand& share_of) {
+double meanOverBands(const std::vector<AppearanceBand>& bands, const ShareOfBand& share_of) {
   double log_sum = 0.0;
+  int learned = 0;
   for (const AppearanceBand& band : bands) {
+    if (band.table.empty()) continue;
     log_sum += std::log(std::max(share_of(band), 1e-6));
+    ++learned;
   }
-  return bands.empty() ? 0.5 : std::exp(log_sum / static_cast<double>(bands.size()));
+  return learned == 0 ? 0.5 : std::exp(log_sum / learned);
 }
 
 }  // namespace
 
-double bodyAppearance(const BodyView& view, const Eigen::Vector2d& position_m,
-                      const AppearanceBands& bands, const BodyAppearanceParams& params) {
+double bodyAppearance(const BodyView& view, const WorldBlob& blob,
+                      const std::vector<AppearanceBand>& bands,
+                      const BodyAppearanceParams& params) {
   const Eigen::Isometry3f T = view.T_base_camera.cast<float>();
-  const Board narrow = boardAt(position_m, view.T_base_camera, params.board_half_width_m);
-  const Board wide = boardAt(position_m, view.T_base_camera, params.radius_m);
+  const Board narrow = boardAt(blob.position_m, view.T_base_camera, params.board_half_width_m);
+  const Board wide = boardAt(blob.position_m, view.T_base_camera, params.radius_m);
   return meanOverBands(bands, [&](const AppearanceBand& band) {
     Coverage coverage(params.prior_points);
-    const cv::Rect board = pixelsOf(narrow, band.min_height_m, band.max_height_m, view);
-    const cv::Rect body = pixelsOf(wide, band.min_height_m, band.max_height_m, view) | board;
+    const cv::Rect board = pixelsOf(narrow, band.body.min_height_m,
+                                    std::min(band.body.max_height_m, blob.max_height_m), view);
+    const cv::Rect body =
+        pixelsOf(wide, band.body.min_height_m, band.body.max_height_m, view) | board;
     for (int v = body.y; v < body.y + body.height; ++v) {
       const auto* bgr = view.image_bgr.ptr<cv::Vec3b>(v);
       const auto* depth = view.depth_m.ptr<float>(v);
@@ -112,7 +119,7 @@ double bodyAppearance(const BodyView& view, const Eigen::Vector2d& position_m,
                                    (static_cast<float>(v) - static_cast<float>(view.camera.cy)) /
                                        static_cast<float>(view.camera.fy) * z,
                                    z),
-                           position_m, band, params.radius_m)
+                           blob.position_m, band, params.radius_m)
                      : board.contains(cv::Point(u, v));
         if (is_body) coverage.add(band.table.passes(bgr[u][0], bgr[u][1], bgr[u][2]));
       }
@@ -121,12 +128,13 @@ double bodyAppearance(const BodyView& view, const Eigen::Vector2d& position_m,
   });
 }
 
-double bodyAppearance(const ColorCloud& cloud, const Eigen::Vector2d& position_m,
-                      const AppearanceBands& bands, const BodyAppearanceParams& params) {
+double bodyAppearance(const ColorCloud& cloud, const WorldBlob& blob,
+                      const std::vector<AppearanceBand>& bands,
+                      const BodyAppearanceParams& params) {
   return meanOverBands(bands, [&](const AppearanceBand& band) {
     Coverage coverage(params.prior_points);
     for (const auto& p : cloud) {
-      if (isInCylinder(p.getVector3fMap(), position_m, band, params.radius_m)) {
+      if (isInCylinder(p.getVector3fMap(), blob.position_m, band, params.radius_m)) {
         coverage.add(band.table.passes(p.b, p.g, p.r));
       }
     }

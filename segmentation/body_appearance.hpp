@@ -6,10 +6,13 @@
 #pragma once
 
 #include "cloud/color_cloud.hpp"
-#include "segmentation/appearance_band.hpp"
+#include "segmentation/appearance_model.hpp"
+#include "segmentation/world_blobs.hpp"
 
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>
+
+#include <vector>
 
 namespace heel {
 
@@ -33,16 +36,19 @@ struct BodyView {
 };
 
 /// The share of a body's pixels whose colour passes the table of their height's band, as the
-/// geometric mean over the bands, in (0, 1); 0.5 says nothing either way.
+/// geometric mean over the bands, in (0, 1); 0.5 says nothing either way. A person in other clothes
+/// lets some pixels pass too; what gives them away is all the rest of them.
 ///
-/// A pixel belongs to the body if its point lies in the cylinder around `position_m` and in the
-/// band; without a depth, if it lies on the board.
-/// @param position_m  The body's place on the floor, in the base frame.
-double bodyAppearance(const BodyView& view, const Eigen::Vector2d& position_m,
-                      const AppearanceBands& bands, const BodyAppearanceParams& params = {});
+/// A pixel belongs to the body if its point lies in the cylinder around the blob's place and in the
+/// band; without a depth, if it lies on the board, which ends at the blob's height.
+/// @param blob  Where the body is, in the base frame, and how high.
+double bodyAppearance(const BodyView& view, const WorldBlob& blob,
+                      const std::vector<AppearanceBand>& bands,
+                      const BodyAppearanceParams& params = {});
 
 /// The same over the points of a cloud in the base frame.
-double bodyAppearance(const ColorCloud& cloud, const Eigen::Vector2d& position_m,
-                      const AppearanceBands& bands, const BodyAppearanceParams& params = {});
+double bodyAppearance(const ColorCloud& cloud, const WorldBlob& blob,
+                      const std::vector<AppearanceBand>& bands,
+                      const BodyAppearanceParams& params = {});
 
 }  // namespace heel

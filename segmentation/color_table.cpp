@@ -13,7 +13,7 @@ std::array<std::uint8_t, ColorTable::kLevels> middles() {
   std::array<std::uint8_t, ColorTable::kLevels> values{};
   for (int v = 0; v < 256; ++v) {
     const auto value = static_cast<std::uint8_t>(v);
-    values[detail::kColorLevels[value]] = ColorTable::middle(value);
+    values[ColorTable::cell(value, 0, 0)] = ColorTable::middle(value);
   }
   return values;
 }

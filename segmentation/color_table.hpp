@@ -16,16 +16,25 @@ namespace heel {
 
 namespace detail {
 
-/// Channel value -> level: one value wide below 32, two below 64, four from there on.
-constexpr std::array<std::uint8_t, 256> makeColorLevels() {
-  std::array<std::uint8_t, 256> levels{};
-  for (std::size_t v = 0; v < levels.size(); ++v) {
-    levels[v] = static_cast<std::uint8_t>(v < 32 ? v : v < 64 ? 16 + v / 2 : 32 + v / 4);
-  }
-  return levels;
+inline constexpr std::size_t kColorLevels = 96;
+
+/// The level of a channel's value: one value wide below 32, two below 64, four from there on.
+constexpr std::uint32_t colorLevel(std::uint32_t v) {
+  return v < 32 ? v : v < 64 ? 16 + v / 2 : 32 + v / 4;
 }
 
-inline constexpr std::array<std::uint8_t, 256> kColorLevels = makeColorLevels();
+/// What a channel's value adds to the number of the cell, for b, g and r.
+constexpr std::array<std::array<std::uint32_t, 256>, 3> makeCellParts() {
+  std::array<std::array<std::uint32_t, 256>, 3> parts{};
+  std::uint32_t stride = 1;
+  for (auto& part : parts) {
+    for (std::uint32_t v = 0; v < 256; ++v) part[v] = stride * colorLevel(v);
+    stride *= static_cast<std::uint32_t>(kColorLevels);
+  }
+  return parts;
+}
+
+inline constexpr auto kCellParts = makeCellParts();
 
 }  // namespace detail
 
@@ -46,7 +55,7 @@ class ColorTable {
  public:
   using Score = std::function<std::uint8_t(std::uint8_t b, std::uint8_t g, std::uint8_t r)>;
 
-  static constexpr std::size_t kLevels = 96;                          ///< Levels a channel.
+  static constexpr std::size_t kLevels = detail::kColorLevels;        ///< Levels a channel.
   static constexpr std::size_t kCells = kLevels * kLevels * kLevels;  ///< Scores in a table.
   static constexpr std::uint8_t kDefaultThreshold = 127;
 
@@ -78,8 +87,7 @@ class ColorTable {
   const std::uint8_t* data() const { return empty() ? nullptr : scores_->data(); }
 
   static constexpr std::size_t cell(std::uint8_t b, std::uint8_t g, std::uint8_t r) {
-    const auto& level = detail::kColorLevels;
-    return level[b] + kLevels * (level[g] + kLevels * level[r]);
+    return detail::kCellParts[0][b] + detail::kCellParts[1][g] + detail::kCellParts[2][r];
   }
 
   /// The channel value that stands for all values of `value`'s level; differs by at most 2.

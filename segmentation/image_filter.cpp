@@ -84,7 +84,7 @@ void filterImage(const cv::Mat& image_bgr, const ColorTable& table, cv::Mat& mas
   const std::size_t n = one_row ? image.total() : static_cast<std::size_t>(image.cols);
   for (int row = 0; row < rows; ++row) {
     // Scores first, then marks: comparing each score as it comes would take twice as long.
-    std::uint8_t* marks = mask.ptr<std::uint8_t>(row);
+    auto* marks = mask.ptr<std::uint8_t>(row);
     look_up(image.ptr<std::uint8_t>(row), n, table.data(), marks);
     for (std::size_t i = 0; i < n; ++i) marks[i] = marks[i] > threshold ? 255 : 0;
   }

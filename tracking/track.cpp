@@ -32,6 +32,7 @@ void checkParams(const TrackerParams& p) {
           "score_weight must not be negative");
   require(p.log_appearance_sigma > 0.0, "log_appearance_sigma must be positive");
   require(p.max_unlikeness >= 0.0, "max_unlikeness must not be negative");
+  require(p.max_log_change_unseen >= 0.0, "max_log_change_unseen must not be negative");
   require(positive(p.appearance_memory_s), "appearance_memory_s must be positive");
   require(std::isfinite(p.birth_clearance_m) && p.birth_clearance_m >= 0.0,
           "birth_clearance_m must not be negative");

@@ -35,6 +35,10 @@ struct TrackerParams {
   /// The most that unlike appearance costs. People turn, and step into the shade: their looks alone
   /// must not part them from their track.
   double max_unlikeness = 6.0;
+  /// While a track is seen, its motion says who it is. Where it was not, in the frame before, its
+  /// looks must: an observation whose appearance differs by more than this factor (as a natural
+  /// logarithm) is somebody else, who came in as it went out.
+  double max_log_change_unseen = 1.1;
   /// Time over which a track's appearance is averaged: it forgets 1 - 1/e of its past in this time.
   double appearance_memory_s = 0.7;
   double birth_clearance_m = 0.4;  ///< Closer to a track in view, what is left is its fragment.

@@ -156,6 +156,7 @@ void Tracker::associate(const std::vector<Observation>& observations, bool tenta
 }
 
 void Tracker::fillCosts(int row, const Track& track, const std::vector<Observation>& observations) {
+  const bool was_unseen = track.status == TrackStatus::kCoasting && track.hits > 0;
   double best_score = 0.0;
   for (int column = 0; column < costs_.columns(); ++column) {
     const Observation& o = observations[at(free_[at(column)])];
@@ -164,7 +165,9 @@ void Tracker::fillCosts(int row, const Track& track, const std::vector<Observati
     if (distance2 > gate_limit_ || seen.residual_m.norm() > params_.max_residual_m) {
       continue;
     }
-    const double unlike = (logAppearance(o) - track.log_appearance) / params_.log_appearance_sigma;
+    const double change = logAppearance(o) - track.log_appearance;
+    if (was_unseen && std::abs(change) > params_.max_log_change_unseen) continue;
+    const double unlike = change / params_.log_appearance_sigma;
     costs_(row, column) = base_cost_ + distance2 +
                           std::min(unlike * unlike, params_.max_unlikeness) +
                           std::log(kTwoPi * kTwoPi * seen.covariance_m2.determinant());

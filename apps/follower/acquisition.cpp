@@ -80,32 +80,41 @@ void Acquisition::findPerson(double stamp_s) {
   };
   const auto& people = step_.view->people;
   const bool entered = result_.state == AcquisitionState::kPerson;
-  if (people.size() > 1) return end(AcquisitionEnd::kSecondPerson);
+  if (somebodyElseIsThere(stamp_s)) {
+    if (++frames_with_others_ >= params_.confirm_frames) end(AcquisitionEnd::kSecondPerson);
+    return;
+  }
+  frames_with_others_ = 0;
   if (entered && stamp_s - result_.first_seen_s > params_.person_s + kSameTime_s) {
     return end(AcquisitionEnd::kTimeIsUp);
   }
+  step_.usable = true;
   if (people.empty()) {
     ++(entered ? result_.missed_frames : result_.waiting_frames);
-    step_.usable = true;
-    if (entered && stamp_s - result_.last_seen_s > params_.max_missing_s + kSameTime_s) {
-      end(AcquisitionEnd::kPersonLeft);
-    }
+    if (!entered || stamp_s - result_.last_seen_s <= params_.max_missing_s + kSameTime_s) return;
+    if (result_.person_frames >= params_.confirm_frames) return end(AcquisitionEnd::kPersonLeft);
+    result_.state = AcquisitionState::kWaiting;  // it was noise: nobody has entered yet
+    result_.person_frames = result_.missed_frames = 0;
     return;
   }
-  const auto& place = step_.view->blobs[static_cast<std::size_t>(people.front())].position_m;
-  if (entered) {
-    const double reach_m =
-        params_.max_jump_m + params_.max_speed_mps * (stamp_s - result_.last_seen_s);
-    if ((place - last_place_m_).norm() > reach_m) return end(AcquisitionEnd::kSecondPerson);
-  } else {
+  if (!entered) {
     result_.state = AcquisitionState::kPerson;
     result_.first_seen_s = stamp_s;
   }
-  last_place_m_ = place;
+  last_place_m_ = step_.view->blobs[static_cast<std::size_t>(people.front())].position_m;
   result_.last_seen_s = stamp_s;
   ++result_.person_frames;
   step_.person = people.front();
-  step_.usable = true;
+}
+
+// Several people, or one who can't have come there from the person's last place.
+bool Acquisition::somebodyElseIsThere(double stamp_s) const {
+  const auto& people = step_.view->people;
+  if (people.size() != 1 || result_.state != AcquisitionState::kPerson) return people.size() > 1;
+  const auto& place = step_.view->blobs[static_cast<std::size_t>(people.front())].position_m;
+  const double reach_m =
+      params_.max_jump_m + params_.max_speed_mps * (stamp_s - result_.last_seen_s);
+  return (place - last_place_m_).norm() > reach_m;
 }
 
 void Acquisition::labelPixels() {

@@ -15,6 +15,7 @@ namespace heel {
 struct AcquisitionParams {
   double background_s = 5.0;   ///< Empty scene at the start.
   double person_s = 10.0;      ///< The acquisition ends this long after the person entered.
+  int confirm_frames = 2;      ///< Somebody is there when seen in so many: depth is noisy.
   double max_missing_s = 1.0;  ///< Not seen for longer: the person has left.
   double max_speed_mps = 3.0;  ///< With max_jump_m: how far the person may be from the last place.
   double max_jump_m = 0.3;
@@ -37,7 +38,7 @@ enum class AcquisitionState {
 enum class AcquisitionEnd {
   kNotYet,
   kTimeIsUp,      ///< As planned.
-  kSecondPerson,  ///< Somebody else came into view; their frame is not used.
+  kSecondPerson,  ///< Somebody else came into view; frames with them are not used.
   kPersonLeft,    ///< Not seen for max_missing_s.
 };
 
@@ -100,6 +101,7 @@ class Acquisition {
 
  private:
   void findPerson(double stamp_s);
+  bool somebodyElseIsThere(double stamp_s) const;
   void labelPixels();
   bool looksLikeTheWall() const;
 
@@ -112,6 +114,7 @@ class Acquisition {
   bool started_ = false;
   double start_s_ = 0.0;
   double stamp_s_ = 0.0;
+  int frames_with_others_ = 0;  // in a row
   Eigen::Vector2d last_place_m_ = Eigen::Vector2d::Zero();
 };
 

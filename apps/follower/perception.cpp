@@ -9,6 +9,9 @@
 #include <opencv2/core.hpp>
 #include <pcl/common/transforms.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace heel {
 namespace {
 
@@ -16,6 +19,13 @@ GeometricGate gateOf(const PerceptionParams& params) {
   std::vector<GeometricGate> gates = {tooClose(params.candidates.min_distance_m)};
   if (params.gate) gates.push_back(params.gate);
   return allOf(std::move(gates));
+}
+
+std::vector<AppearanceBand> learnedBands(const AppearanceModel& model) {
+  std::vector<AppearanceBand> bands;
+  std::copy_if(model.bands().begin(), model.bands().end(), std::back_inserter(bands),
+               [](const AppearanceBand& band) { return !band.table.empty(); });
+  return bands;
 }
 
 bool isCandidate(const WorldBlob& blob, const CandidateParams& params) {
@@ -41,13 +51,13 @@ const char* toText(Stage stage) {
   return "unknown";
 }
 
-Perception::Perception(const CameraSetup& setup, AppearanceBands bands,
+Perception::Perception(const CameraSetup& setup, const AppearanceModel& model,
                        const PerceptionParams& params)
     : sensor_(setup.sensor),
       camera_(setup.camera),
       T_base_camera_(setup.T_base_camera),
-      bands_(std::move(bands)),
-      any_band_(anyBand(bands_)),
+      bands_(learnedBands(model)),
+      any_band_(model.filterTable()),
       params_(params),
       matcher_(params.stereo),
       whole_cloud_(new ColorCloud),
@@ -59,7 +69,7 @@ Perception::Perception(const CameraSetup& setup, AppearanceBands bands,
       finder_(params.blobs),
       tracker_(params.target, params.tracker, gateOf(params)) {
   for (const AppearanceBand& band : bands_) {
-    height_crops_.emplace_back(HeightCropParams{band.min_height_m, band.max_height_m});
+    height_crops_.emplace_back(HeightCropParams{band.body.min_height_m, band.body.max_height_m});
   }
 }
 
@@ -159,10 +169,10 @@ void Perception::findCandidates(const Frame& frame) {
 
 double Perception::appearanceOf(const WorldBlob& blob, const Frame& frame) const {
   if (frame.image_bgr.empty()) {
-    return bodyAppearance(*step_.cloud, blob.position_m, bands_, params_.body);
+    return bodyAppearance(*step_.cloud, blob, bands_, params_.body);
   }
-  return bodyAppearance({frame.image_bgr, depth_m_, camera_.left, T_base_camera_}, blob.position_m,
-                        bands_, params_.body);
+  return bodyAppearance({frame.image_bgr, depth_m_, camera_.left, T_base_camera_}, blob, bands_,
+                        params_.body);
 }
 
 // Silence is what users of trackers complain of most: name the first stage that left nothing.

@@ -9,8 +9,8 @@
 #include "apps/recording/frame.hpp"
 #include "cloud/color_cloud.hpp"
 #include "cloud/stereo_matcher.hpp"
-#include "segmentation/appearance_band.hpp"
 #include "segmentation/appearance_filter.hpp"
+#include "segmentation/appearance_model.hpp"
 #include "segmentation/body_appearance.hpp"
 #include "segmentation/height_crop.hpp"
 #include "segmentation/plan_view.hpp"
@@ -72,8 +72,9 @@ class Perception {
   /// Told after each stage, so that the caller, who has the clock, can time them.
   using StageDone = std::function<void(Stage)>;
 
-  /// @throws std::invalid_argument  if there is no band or a parameter is out of its range.
-  Perception(const CameraSetup& setup, AppearanceBands bands, const PerceptionParams& params = {});
+  /// @throws std::invalid_argument  if a parameter is out of its range.
+  Perception(const CameraSetup& setup, const AppearanceModel& model,
+             const PerceptionParams& params = {});
 
   /// The target is at this place in the next frame (after phase 1, say).
   void startAt(const Eigen::Vector2d& position_m) { tracker_.startAt(position_m); }
@@ -96,8 +97,8 @@ class Perception {
   SensorKind sensor_;
   StereoCamera camera_;
   Eigen::Isometry3d T_base_camera_;
-  AppearanceBands bands_;
-  ColorTable any_band_;
+  std::vector<AppearanceBand> bands_;  // those that were learned
+  ColorTable any_band_;                // for pixels whose height is not known yet
   PerceptionParams params_;
 
   StereoMatcher matcher_;

@@ -43,7 +43,7 @@ class BestView {
     scene_.mask = step.labels >= AcquisitionStep::kTorso;
     scene_.frame = frame.number;
     scene_.stamp_s = frame.stamp_s;
-    SceneTrack person;
+    DrawnTrack person;
     person.position_m = blob.position_m;
     person.height_m = blob.max_height_m;
     person.is_target = true;
@@ -64,14 +64,16 @@ class BestView {
 
  private:
   const CameraSetup& setup_;
-  Scene scene_;
+  DrawnFrame scene_;
   double area_m2_ = 0.0;
 };
 
 void print(const LearnedPerson& learned) {
   const AcquisitionResult& acquisition = learned.acquisition;
-  std::printf("learned the person seen from %.1f to %.1f s; it ended as %s\n",
-              acquisition.first_seen_s, acquisition.last_seen_s, toText(acquisition.end));
+  std::printf("learned the person seen from %.1f to %.1f s; it ended %s%s\n",
+              acquisition.first_seen_s, acquisition.last_seen_s,
+              acquisition.end == AcquisitionEnd::kNotYet ? "with the recording" : "as ",
+              acquisition.end == AcquisitionEnd::kNotYet ? "" : toText(acquisition.end));
   std::printf(
       "  %d frames of the empty room, %d of the person (%.0f %% of those since they came)\n",
       acquisition.empty_frames, acquisition.person_frames, 100.0 * acquisition.confidence());

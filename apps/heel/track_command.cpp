@@ -60,7 +60,7 @@ void print(const TrackOutput& output, const Options& options, std::size_t skippe
 }
 
 void run(const Options& options) {
-  const AppearanceModel model = readAppearanceModel(options.model);
+  const AppearanceModel model = loadAppearance(options.model);
   const CameraSetup setup = findCameraSetup(*openRecording(options.recording));
   for (const std::string& warning : setup.warnings) warn(warning);
 
@@ -73,7 +73,7 @@ void run(const Options& options) {
     params.gate = insideBounds(lowest, highest);
     output_params.bounds_m = Eigen::AlignedBox2d(lowest, highest);
   }
-  Perception perception(setup, model.bands(), params);
+  Perception perception(setup, model, params);
   if (!options.start_m.empty()) perception.startAt({options.start_m[0], options.start_m[1]});
 
   const auto recording = openRecording(options.recording);

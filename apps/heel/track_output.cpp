@@ -135,7 +135,7 @@ void TrackOutput::draw(const Frame& frame, const Perception& perception,
       height_m = std::max(height_m, step.blobs[static_cast<std::size_t>(blob)].max_height_m);
     }
     trails_.add(track.id, frame.stamp_s, track.motion.position_m());
-    SceneTrack drawn;
+    DrawnTrack drawn;
     drawn.id = track.id;
     drawn.position_m = track.motion.position_m();
     drawn.velocity_mps = track.motion.velocity_mps();

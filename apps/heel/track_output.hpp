@@ -61,7 +61,7 @@ class TrackOutput {
   ResultFiles files_;
   std::optional<FilmWriter> film_;
   cv::Mat picture_;
-  Scene scene_;
+  DrawnFrame scene_;
   Trails trails_;
   std::map<int, double> heights_m_;  // of tracks that are alive
   struct Still {

@@ -3,10 +3,9 @@
 
 #include "apps/recording/indexed_recording.hpp"
 
-#include "apps/recording/stamps.hpp"
-
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace heel {
@@ -45,9 +44,9 @@ void IndexedRecording::checkStamp(std::size_t index) {
   const double stamp_s = stamps_s_[index];
   if (!(stamp_s > last_stamp_s_)) {
     const bool stalls = stamp_s == last_stamp_s_;
-    throw std::runtime_error(frameName(index) + ": the time " +
-                             (stalls ? "stands still" : "runs backwards") + ", from " +
-                             stampText(last_stamp_s_) + " s to " + stampText(stamp_s) + " s");
+    throw std::runtime_error(
+        frameName(index) + ": the time " + (stalls ? "stands still" : "runs backwards") +
+        ", from " + std::to_string(last_stamp_s_) + " s to " + std::to_string(stamp_s) + " s");
   }
   last_stamp_s_ = stamp_s;
 }

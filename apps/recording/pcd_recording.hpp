@@ -14,18 +14,11 @@
 
 namespace heel {
 
-/// Reads a PCD file with colours (XYZRGB or XYZRGBA, organized or not, ascii, binary or
-/// compressed).
-/// @throws std::runtime_error  with one sentence that names the file, if it is missing, truncated,
-///         or not PCD, has no colours, no points, or none with finite coordinates.
-void readColorCloud(const std::filesystem::path& file, ColorCloud& cloud);
-
 /// A sequence of coloured clouds. A file's points are in the camera's optical frame; the file's
 /// viewpoint is not used. Organized clouds give an image too.
 ///
 /// Times come from times.txt, or from the file names (see stampOfName), or are nominal. A
-/// camera.yaml in the folder may give the rate, the mounting and the intrinsics; without it the
-/// intrinsics are those of the first organized cloud, where its points tell them.
+/// camera.yaml in the folder may give the rate, the mounting and the intrinsics.
 class PcdRecording final : public IndexedRecording {
  public:
   static constexpr const char* kLayout = "PCD files";
@@ -41,14 +34,10 @@ class PcdRecording final : public IndexedRecording {
   PcdRecording(const std::filesystem::path& path, RecordingInfo info, std::vector<double> stamps_s,
                std::vector<std::filesystem::path> files);
 
-  /// Reads clouds until one is of use, for its camera.
-  void findCamera();
-
   std::string frameName(std::size_t index) const override;
   void read(std::size_t index, Frame& frame) override;
 
   std::vector<std::filesystem::path> files_;
-  ColorCloud::Ptr cloud_;
 };
 
 }  // namespace heel

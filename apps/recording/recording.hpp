@@ -26,7 +26,7 @@ struct RecordingInfo {
   std::string name;    ///< The folder's or the file's name.
   std::string layout;  ///< How it is stored, for people to read: "RGB-D folder, TUM layout".
   SensorKind sensor = SensorKind::kRgbd;
-  StereoCamera camera;  ///< `left` for RGB-D and clouds too (baseline 0); zeros if not known.
+  StereoCamera camera;  ///< `left` for RGB-D too (baseline 0); zeros for clouds, unless known.
   std::size_t frame_count = 0;
   double duration_s = 0.0;      ///< From the first stamp to the last.
   bool nominal_stamps = false;  ///< No times are stored: they are made from the assumed rate.

@@ -67,7 +67,7 @@ void RgbdRecording::read(std::size_t index, Frame& frame) {
   const Pair& pair = pairs_[index];
   if (!pair.depth) {
     throw std::runtime_error(pair.color.string() + ": there is no depth image within " +
-                             stampText(max_stamp_difference_s_) + " s of it");
+                             std::to_string(max_stamp_difference_s_) + " s of it");
   }
   frame.right_bgr.release();
   frame.cloud.reset();

@@ -4,7 +4,6 @@
 #include "apps/recording/stamps.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -149,14 +148,6 @@ std::vector<double> stampsOfFiles(const std::filesystem::path& times,
     }
   }
   return stamps_s;
-}
-
-std::string stampText(double stamp_s) {
-  std::array<char, 400> text{};
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), stamp_s, std::chars_format::fixed, 6)
-          .ptr;
-  return {text.data(), end};
 }
 
 }  // namespace heel

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace heel {
@@ -45,8 +44,5 @@ std::optional<double> stampOfName(const std::filesystem::path& file);
 std::vector<double> stampsOfFiles(const std::filesystem::path& times,
                                   const std::vector<std::filesystem::path>& files, double rate_hz,
                                   bool& nominal);
-
-/// A stamp as text, to the microsecond.
-std::string stampText(double stamp_s);
 
 }  // namespace heel

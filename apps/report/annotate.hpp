@@ -18,14 +18,14 @@
 namespace heel {
 
 /// A world blob to draw.
-struct SceneBlob {
+struct DrawnBlob {
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
   int points = 0;       ///< Points that it rests on; more points, a larger mark.
   bool is_used = true;  ///< False if the geometric gate threw it out.
 };
 
 /// A track to draw.
-struct SceneTrack {
+struct DrawnTrack {
   int id = 0;
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d velocity_mps = Eigen::Vector2d::Zero();
@@ -41,13 +41,13 @@ enum class Tone { kNeutral, kGood, kWarning, kBad };
 
 /// All that one picture shows. Places are on the floor, in a frame with Z up whose z = 0 is the
 /// floor.
-struct Scene {
+struct DrawnFrame {
   cv::Mat image_bgr;  ///< CV_8UC3; may be empty.
   cv::Mat mask;       ///< CV_8UC1 of the same size, not 0 where the colour passed; may be empty.
   PinholeCamera camera;
   Eigen::Isometry3d T_floor_camera = Eigen::Isometry3d::Identity();
-  std::vector<SceneBlob> blobs;
-  std::vector<SceneTrack> tracks;
+  std::vector<DrawnBlob> blobs;
+  std::vector<DrawnTrack> tracks;
   std::optional<Eigen::AlignedBox2d> bounds_m;  ///< Outside of it nobody is looked for.
 
   std::size_t frame = 0;
@@ -74,11 +74,6 @@ cv::Size pictureSize(const AnnotateParams& params = {});
 ///
 /// @param picture  Out: CV_8UC3 of pictureSize(); its memory is reused.
 /// @throws std::invalid_argument  if the mask's size is not the image's, or a type is wrong.
-void annotate(const Scene& scene, const AnnotateParams& params, cv::Mat& picture);
-
-/// Projects a point of the floor's frame into the image [px]; absent behind the camera.
-std::optional<cv::Point2d> projectToImage(const Eigen::Vector3d& point_m,
-                                          const PinholeCamera& camera,
-                                          const Eigen::Isometry3d& T_floor_camera);
+void annotate(const DrawnFrame& scene, const AnnotateParams& params, cv::Mat& picture);
 
 }  // namespace heel

@@ -82,7 +82,7 @@ void drawCamera(const PlanView& plan, const Eigen::Isometry3d& T_floor_camera, c
   fillOutline(panel, plan(wedge), palette::kInk, 1.0);
 }
 
-void drawBlob(const PlanView& plan, const SceneBlob& blob, cv::Mat& panel) {
+void drawBlob(const PlanView& plan, const DrawnBlob& blob, cv::Mat& panel) {
   // The area of the mark follows the number of points: 0.1 m at none, 0.35 m at 4000 and more.
   const double share = std::min(1.0, std::sqrt(std::max(0, blob.points) / 4000.0));
   const double radius = plan.pixels(0.1 + 0.25 * share);
@@ -96,7 +96,7 @@ void drawBlob(const PlanView& plan, const SceneBlob& blob, cv::Mat& panel) {
   }
 }
 
-void drawTrail(const PlanView& plan, const SceneTrack& track, const cv::Scalar& color,
+void drawTrail(const PlanView& plan, const DrawnTrack& track, const cv::Scalar& color,
                cv::Mat& panel) {
   const Outline trail = plan(track.trail_m);
   const auto n = static_cast<double>(trail.size());
@@ -107,7 +107,7 @@ void drawTrail(const PlanView& plan, const SceneTrack& track, const cv::Scalar& 
   }
 }
 
-void drawTrack(const PlanView& plan, const SceneTrack& track, cv::Mat& panel) {
+void drawTrack(const PlanView& plan, const DrawnTrack& track, cv::Mat& panel) {
   const cv::Scalar& color = track.is_target ? palette::kTarget : palette::kTrack;
   drawTrail(plan, track, color, panel);
   const cv::Point2d at = plan(track.position_m);
@@ -154,7 +154,7 @@ std::vector<Vector2d> visibleFloor(const PinholeCamera& camera,
   return floor_m;
 }
 
-void drawPlan(const Scene& scene, double ahead_m, cv::Mat& panel) {
+void drawPlan(const DrawnFrame& scene, double ahead_m, cv::Mat& panel) {
   panel.setTo(palette::kPanel);
   const PlanView plan(panel.size(), scene.T_floor_camera.translation().head<2>(), ahead_m);
   fillOutline(panel, plan(visibleFloor(scene.camera, scene.T_floor_camera, 2.0 * ahead_m)),

@@ -12,7 +12,7 @@ namespace heel {
 
 /// Draws the scene as seen from above into `panel`, the camera below, looking up.
 /// @param ahead_m  How far the drawing reaches in front of the camera.
-void drawPlan(const Scene& scene, double ahead_m, cv::Mat& panel);
+void drawPlan(const DrawnFrame& scene, double ahead_m, cv::Mat& panel);
 
 /// The part of the floor within `range_m` of the camera that lies in its image; empty without a
 /// camera. Its places are in the floor's frame.

@@ -107,9 +107,11 @@ TEST_F(AcquisitionTest, EndsWhenItsTimeIsUp) {
   EXPECT_EQ(result.confidence(), 1.0);
 }
 
-TEST_F(AcquisitionTest, EndsAsSoonAsASecondPersonComes) {
+TEST_F(AcquisitionTest, EndsWhenASecondPersonIsSeenTwiceAndUsesNeitherFrame) {
   act(ActedScene().person(2.5, 0.5));
   const long points = acquisition.result().points;
+  EXPECT_FALSE(act(ActedScene().person(3.5, -1.0).person(2.5, 0.6)).usable);
+  EXPECT_EQ(acquisition.result().end, AcquisitionEnd::kNotYet);
   const AcquisitionStep& step = act(ActedScene().person(3.5, -1.0).person(2.5, 0.6));
   EXPECT_FALSE(step.usable);
   EXPECT_EQ(step.person, -1);
@@ -121,8 +123,24 @@ TEST_F(AcquisitionTest, EndsAsSoonAsASecondPersonComes) {
 
 TEST_F(AcquisitionTest, SomebodyElsewhereIsASecondPersonToo) {
   act(ActedScene().person(2.5, 0.9));
-  act(ActedScene().person(3.5, -1.0));  // 2.1 m away after 0.2 s
+  act(ActedScene().person(3.5, -2.0));  // 3.1 m away, twice
+  act(ActedScene().person(3.5, -2.0));
   EXPECT_EQ(acquisition.result().end, AcquisitionEnd::kSecondPerson);
+}
+
+TEST_F(AcquisitionTest, BearsAFrameOfNoiseThatLooksLikeASecondPerson) {
+  act(ActedScene().person(2.5, 0.5));
+  act(ActedScene().person(3.5, -1.0).person(2.5, 0.5));
+  EXPECT_TRUE(act(ActedScene().person(2.5, 0.5)).usable);
+  act(ActedScene().person(3.5, -1.0).person(2.5, 0.5));
+  EXPECT_EQ(acquisition.result().state, AcquisitionState::kPerson);
+}
+
+TEST_F(AcquisitionTest, AFrameOfNoiseIsNotThePerson) {
+  act(ActedScene().person(2.5, 0.5));
+  for (int i = 0; i < 7; ++i) act(ActedScene());
+  EXPECT_EQ(acquisition.result().state, AcquisitionState::kWaiting);
+  EXPECT_EQ(acquisition.result().person_frames, 0);
 }
 
 TEST_F(AcquisitionTest, BearsShortGapsAndEndsWhenThePersonHasLeft) {

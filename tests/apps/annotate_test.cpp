@@ -4,6 +4,7 @@
 #include "apps/report/annotate.hpp"
 
 #include "apps/report/drawing.hpp"
+#include "apps/report/image_picture.hpp"
 #include "apps/report/plan_picture.hpp"
 
 #include <gmock/gmock.h>
@@ -13,8 +14,8 @@
 
 namespace {
 
-using heel::Scene;
-using heel::SceneTrack;
+using heel::DrawnFrame;
+using heel::DrawnTrack;
 namespace palette = heel::palette;
 
 /// A camera 1.5 m over the floor that looks ahead along x, level.
@@ -25,8 +26,8 @@ Eigen::Isometry3d levelMount() {
   return T;
 }
 
-Scene someScene() {
-  Scene scene;
+DrawnFrame someScene() {
+  DrawnFrame scene;
   scene.image_bgr = cv::Mat(480, 640, CV_8UC3, cv::Scalar(90, 90, 90));
   scene.camera = {640, 480, 500.0, 500.0, 319.5, 239.5};
   scene.T_floor_camera = levelMount();
@@ -36,8 +37,8 @@ Scene someScene() {
   return scene;
 }
 
-SceneTrack someTrack(bool is_target, Eigen::Vector2d position_m) {
-  SceneTrack track;
+DrawnTrack someTrack(bool is_target, Eigen::Vector2d position_m) {
+  DrawnTrack track;
   track.id = 3;
   track.is_target = is_target;
   track.position_m = position_m;
@@ -45,13 +46,13 @@ SceneTrack someTrack(bool is_target, Eigen::Vector2d position_m) {
   return track;
 }
 
-cv::Mat draw(const Scene& scene) {
+cv::Mat draw(const DrawnFrame& scene) {
   cv::Mat picture;
   heel::annotate(scene, {}, picture);
   return picture;
 }
 
-/// The share of the region's pixels that have just this colour.
+/// How many pixels have just this colour.
 int countOf(const cv::Mat& picture, const cv::Scalar& color) {
   cv::Mat same;
   cv::inRange(picture, color, color, same);
@@ -84,7 +85,7 @@ TEST(VisibleFloor, IsWhereTheImagesRaysMeetTheFloor) {
 }
 
 TEST(Annotate, PictureIsOfTheStatedEvenSizeAndOfTheSameBytes) {
-  const Scene scene = someScene();
+  const DrawnFrame scene = someScene();
   const cv::Mat first = draw(scene);
   EXPECT_EQ(first.size(), heel::pictureSize());
   EXPECT_EQ(first.cols % 2, 0);
@@ -99,7 +100,7 @@ TEST(Annotate, PictureIsOfTheStatedEvenSizeAndOfTheSameBytes) {
 }
 
 TEST(Annotate, OnlyTheTargetIsOrange) {
-  Scene scene = someScene();
+  DrawnFrame scene = someScene();
   scene.tracks = {someTrack(false, {4.0, 0.5})};
   const cv::Mat without = draw(scene);
   scene.tracks = {someTrack(true, {4.0, 0.5})};
@@ -111,7 +112,7 @@ TEST(Annotate, OnlyTheTargetIsOrange) {
 }
 
 TEST(Annotate, TargetIsDrawnWhereItStandsInThePlan) {
-  Scene scene = someScene();
+  DrawnFrame scene = someScene();
   scene.tracks = {someTrack(true, {4.0, 1.0})};
   const cv::Mat picture = draw(scene);
   // 600 pixels for 8.5 m ahead and 0.6 m behind; the plan's middle is y = 0, left is positive.
@@ -122,7 +123,7 @@ TEST(Annotate, TargetIsDrawnWhereItStandsInThePlan) {
 }
 
 TEST(Annotate, MaskIsTintedAndTheRestDimmed) {
-  Scene scene = someScene();
+  DrawnFrame scene = someScene();
   scene.mask = cv::Mat::zeros(480, 640, CV_8UC1);
   scene.mask(cv::Rect(0, 0, 320, 480)) = 255;
   const cv::Mat picture = draw(scene);
@@ -133,7 +134,7 @@ TEST(Annotate, MaskIsTintedAndTheRestDimmed) {
 }
 
 TEST(Annotate, DrawsWhatIsOutOfSightWithoutHarm) {
-  Scene scene = someScene();
+  DrawnFrame scene = someScene();
   scene.tracks = {someTrack(true, {-3.0, 0.0}), someTrack(false, {0.0, 0.0}),
                   someTrack(true, {1e6, 1e7}), someTrack(false, {0.15, 40.0})};
   scene.blobs = {{{-1.0, 0.0}, 10, true}, {{1e8, -1e8}, 1000000, false}};
@@ -144,7 +145,7 @@ TEST(Annotate, DrawsWhatIsOutOfSightWithoutHarm) {
 }
 
 TEST(Annotate, RefusesAMaskOfAnotherSize) {
-  Scene scene = someScene();
+  DrawnFrame scene = someScene();
   scene.mask = cv::Mat::zeros(48, 64, CV_8UC1);
   EXPECT_THROW(draw(scene), std::invalid_argument);
 }

@@ -3,7 +3,7 @@
 
 #include "apps/recording/pcd_recording.hpp"
 
-#include "apps/recording/cloud_camera.hpp"
+#include "apps/recording/pcd_file.hpp"
 #include "tests/apps/temp_folder.hpp"
 #include "tests/support/data.hpp"
 
@@ -61,7 +61,7 @@ void save(const std::filesystem::path& file, const pcl::PointCloud<PointT>& clou
 
 std::string readMessage(const std::filesystem::path& file) {
   heel::ColorCloud cloud;
-  return messageOf([&] { heel::readColorCloud(file, cloud); });
+  return messageOf([&] { heel::readPcd(file); });
 }
 
 class PcdForms : public testing::TestWithParam<Form> {
@@ -73,7 +73,7 @@ TEST_P(PcdForms, GiveTheSamePointsAndColours) {
   const auto expectSame = [&](const auto& written) {
     save(folder / "a.pcd", written, GetParam());
     heel::ColorCloud read;
-    heel::readColorCloud(folder / "a.pcd", read);
+    read = heel::readPcd(folder / "a.pcd").cloud;
     ASSERT_EQ(read.width, written.width);
     ASSERT_EQ(read.height, written.height);
     EXPECT_FALSE(pcl::isFinite(read[0]));
@@ -189,53 +189,6 @@ TEST(PcdFolder, ACloudThatTheCallerKeepsIsNotOverwritten) {
   ASSERT_TRUE(recording->next(frame));
   EXPECT_THAT(*kept, SizeIs(48));
   EXPECT_THAT(*frame.cloud, SizeIs(12));
-}
-
-/// What a camera sees of a tilted wall with a hole in it.
-heel::ColorCloud seenBy(const heel::PinholeCamera& camera) {
-  heel::ColorCloud cloud(static_cast<std::uint32_t>(camera.width),
-                         static_cast<std::uint32_t>(camera.height));
-  for (int v = 0; v < camera.height; ++v) {
-    for (int u = 0; u < camera.width; ++u) {
-      auto& p = cloud.at(u, v);
-      p.z = 2.0F + 0.01F * static_cast<float>(u + 2 * v);
-      if (u % 5 == 0) p.z = std::numeric_limits<float>::quiet_NaN();
-      p.x = static_cast<float>((u - camera.cx) / camera.fx) * p.z;
-      p.y = static_cast<float>((v - camera.cy) / camera.fy) * p.z;
-    }
-  }
-  return cloud;
-}
-
-TEST(CameraOfCloud, IsFoundFromWhereThePointsLie) {
-  heel::ColorCloud cloud = seenBy({64, 48, 52.0, 53.0, 30.0, 25.5});
-  const auto camera = heel::cameraOfCloud(cloud);
-  ASSERT_TRUE(camera.has_value());
-  EXPECT_EQ(camera->width, 64);
-  EXPECT_EQ(camera->height, 48);
-  EXPECT_NEAR(camera->fx, 52.0, 1e-3);
-  EXPECT_NEAR(camera->fy, 53.0, 1e-3);
-  EXPECT_NEAR(camera->cx, 30.0, 1e-3);
-  EXPECT_NEAR(camera->cy, 25.5, 1e-3);
-
-  for (auto& p : cloud) {  // to a frame with x ahead: not the optical frame any more
-    const Eigen::Vector3f optical = p.getVector3fMap();
-    p.getVector3fMap() << optical.z(), -optical.x(), -optical.y();
-  }
-  EXPECT_FALSE(heel::cameraOfCloud(cloud).has_value());
-  EXPECT_FALSE(heel::cameraOfCloud(someCloud<pcl::PointXYZRGB>(48, 1)).has_value());
-  EXPECT_FALSE(heel::cameraOfCloud(heel::ColorCloud(4, 4)).has_value());
-}
-
-TEST(RealClouds, TellTheirCamera) {
-  HEEL_NEED_DATA("clouds");
-  const auto recording = openRecording(heel::test::dataFolder() / "clouds/five_people.pcd");
-  const heel::PinholeCamera& camera = recording->info().camera.left;
-  EXPECT_EQ(camera.width, 640);
-  EXPECT_NEAR(camera.fx, 525.0, 0.1);
-  EXPECT_NEAR(camera.fy, 525.0, 0.1);
-  EXPECT_NEAR(camera.cx, 319.5, 0.1);
-  EXPECT_NEAR(camera.cy, 239.5, 0.1);
 }
 
 TEST(RealClouds, AreToldApartByTheirColour) {

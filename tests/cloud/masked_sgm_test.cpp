@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include <cstdint>
+#include <stdexcept>
 
 namespace heel {
 namespace {
@@ -62,6 +63,19 @@ TEST(MaskedSgm, GivesNothingOutsideOfTheMask) {
   MaskedSgm(StereoMatcherParams()).compute(left, right, wanted, disparity);
   EXPECT_EQ(cv::countNonZero((disparity >= 0) & (wanted == 0)), 0);
   EXPECT_GT(cv::countNonZero(disparity >= 0), cv::countNonZero(wanted) / 2);
+}
+
+TEST(MaskedSgm, RefusesWhatDoesNotFit) {
+  MaskedSgm matcher{StereoMatcherParams()};
+  cv::Mat out;
+  const cv::Mat1b image(48, 100, std::uint8_t{9});
+  cv::Mat1b wanted(48, 100, std::uint8_t{0});
+  EXPECT_THROW(matcher.compute(image, image.rowRange(0, 40), wanted, out), std::invalid_argument);
+  EXPECT_THROW(matcher.compute(image, image, wanted.colRange(0, 50), out), std::invalid_argument);
+  EXPECT_THROW(matcher.compute(cv::Mat(48, 100, CV_8UC3), image, wanted, out),
+               std::invalid_argument);
+  wanted(10, 63) = 1;  // disparities up to 63 need 64 columns
+  EXPECT_THROW(matcher.compute(image, image, wanted, out), std::invalid_argument);
 }
 
 TEST(MaskedSgm, ForgetsThePreviousPair) {

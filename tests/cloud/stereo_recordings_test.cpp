@@ -4,6 +4,7 @@
 /// @file
 /// Matching on the real pairs, against their truth and against dense matching.
 
+#include "cloud/setup_check.hpp"
 #include "cloud/stereo_matcher.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/middlebury.hpp"
@@ -48,6 +49,16 @@ TEST(RealStereoPairs, AreMatchedNoWorseThanByOpenCv) {
     EXPECT_GE(q.density, kOpenCv[i].density) << name;
     EXPECT_LE(q.bad2_percent, kOpenCv[i].bad2_percent) << name;
     EXPECT_LE(q.median_depth_error_mm, kOpenCvWorstMedian_mm) << name;
+  }
+}
+
+TEST(RealStereoPairs, AreKnownToBeExchanged) {
+  HEEL_NEED_DATA("stereo_pairs");
+  for (const char* name : test::kMiddleburyPairs) {
+    const auto pair = test::readMiddleburyPair(test::dataFolder() / "stereo_pairs" / name);
+    StereoMatcher matcher = matcherFor(pair);
+    EXPECT_FALSE(looksSwapped(pair.left, pair.right, matcher)) << name;
+    EXPECT_TRUE(looksSwapped(pair.right, pair.left, matcher)) << name;
   }
 }
 

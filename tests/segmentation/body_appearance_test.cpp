@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace heel {
 namespace {
@@ -15,9 +14,12 @@ namespace {
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
 AppearanceBand bandOf(double min_m, double max_m, std::uint8_t red_over) {
-  return {min_m, max_m, ColorTable([=](std::uint8_t, std::uint8_t, std::uint8_t r) {
-            return static_cast<std::uint8_t>(r > red_over ? 255 : 0);
-          })};
+  AppearanceBand band;
+  band.body = {"band", min_m, max_m};
+  band.table = ColorTable([=](std::uint8_t, std::uint8_t, std::uint8_t r) {
+    return static_cast<std::uint8_t>(r > red_over ? 255 : 0);
+  });
+  return band;
 }
 
 pcl::PointXYZRGB point(float x, float y, float z, std::uint8_t red) {
@@ -28,6 +30,13 @@ pcl::PointXYZRGB point(float x, float y, float z, std::uint8_t red) {
   p.r = red;
   p.g = p.b = 0;
   return p;
+}
+
+WorldBlob at(double x_m, double height_m = 1.8) {
+  WorldBlob blob;
+  blob.position_m = {x_m, 0.0};
+  blob.max_height_m = height_m;
+  return blob;
 }
 
 BodyAppearanceParams withoutPrior() {
@@ -43,19 +52,19 @@ TEST(BodyAppearance, IsTheShareOfTheBodysPointsThatPass) {
   cloud.push_back(point(2.5, 0, 1.5, 0));  // beside the body
   cloud.push_back(point(2, 0, 0.5, 0));    // under the band
   cloud.push_back(point(kNaN, kNaN, kNaN, 0));
-  EXPECT_DOUBLE_EQ(bodyAppearance(cloud, {2, 0}, {bandOf(1, 2, 100)}, withoutPrior()), 0.75);
+  EXPECT_DOUBLE_EQ(bodyAppearance(cloud, at(2), {bandOf(1, 2, 100)}, withoutPrior()), 0.75);
 }
 
 TEST(BodyAppearance, IsTheGeometricMeanOverTheBands) {
   ColorCloud cloud;
   for (int i = 0; i < 4; ++i) cloud.push_back(point(2, 0, 1.5, 255));
   for (int i = 0; i < 4; ++i) cloud.push_back(point(2, 0, 0.5, i == 0 ? 255 : 0));
-  const AppearanceBands bands = {bandOf(1, 2, 100), bandOf(0.25, 0.9, 100)};
-  EXPECT_NEAR(bodyAppearance(cloud, {2, 0}, bands, withoutPrior()), std::sqrt(1.0 * 0.25), 1e-12);
+  const std::vector<AppearanceBand> bands = {bandOf(1, 2, 100), bandOf(0.25, 0.9, 100)};
+  EXPECT_NEAR(bodyAppearance(cloud, at(2), bands, withoutPrior()), std::sqrt(1.0 * 0.25), 1e-12);
 }
 
 TEST(BodyAppearance, SaysNothingEitherWayWithoutEvidence) {
-  EXPECT_DOUBLE_EQ(bodyAppearance(ColorCloud(), {2, 0}, {bandOf(1, 2, 100)}), 0.5);
+  EXPECT_DOUBLE_EQ(bodyAppearance(ColorCloud(), at(2), {bandOf(1, 2, 100)}), 0.5);
 }
 
 // A level camera 1.5 m up looks along x at an upright red board 0.4 m wide, 2 m away.
@@ -76,33 +85,44 @@ BodyView viewOfABoard(float depth_m) {
 TEST(BodyAppearance, OfAnImageCountsThePixelsInTheCylinder) {
   BodyAppearanceParams params = withoutPrior();
   params.board_half_width_m = 0.0001;
-  EXPECT_DOUBLE_EQ(bodyAppearance(viewOfABoard(2.0F), {2, 0}, {bandOf(1, 2, 100)}, params), 1.0);
+  EXPECT_DOUBLE_EQ(bodyAppearance(viewOfABoard(2.0F), at(2), {bandOf(1, 2, 100)}, params), 1.0);
 }
 
 TEST(BodyAppearance, OfAnImageLeavesOutWhatIsBehindTheBody) {
   BodyAppearanceParams params;
   params.board_half_width_m = 0.0001;
   // All red pixels are known to be 2 m behind: what is left is the prior.
-  EXPECT_NEAR(bodyAppearance(viewOfABoard(4.0F), {2, 0}, {bandOf(1, 2, 100)}, params), 0.5, 0.05);
+  EXPECT_NEAR(bodyAppearance(viewOfABoard(4.0F), at(2), {bandOf(1, 2, 100)}, params), 0.5, 0.05);
 }
 
 TEST(BodyAppearance, OfAnImageWithoutDepthCountsTheBoard) {
   BodyAppearanceParams params = withoutPrior();
   params.board_half_width_m = 0.4;  // twice as wide as the red board
-  EXPECT_NEAR(bodyAppearance(viewOfABoard(kNaN), {2, 0}, {bandOf(1, 2, 100)}, params), 0.5, 0.05);
+  EXPECT_NEAR(bodyAppearance(viewOfABoard(kNaN), at(2), {bandOf(1, 2, 100)}, params), 0.5, 0.05);
   params.board_half_width_m = 0.15;
-  EXPECT_NEAR(bodyAppearance(viewOfABoard(kNaN), {2, 0}, {bandOf(1, 2, 100)}, params), 1.0, 0.1);
+  EXPECT_NEAR(bodyAppearance(viewOfABoard(kNaN), at(2), {bandOf(1, 2, 100)}, params), 1.0, 0.1);
+}
+
+TEST(BodyAppearance, OfAnImageWithoutDepthEndsAtTheBlobsHeight) {
+  BodyAppearanceParams params = withoutPrior();
+  params.board_half_width_m = 0.15;
+  BodyView view = viewOfABoard(kNaN);
+  view.image_bgr.rowRange(0, 52).setTo(cv::Scalar(0, 0, 0));  // all that is above 1.65 m
+  const std::vector<AppearanceBand> bands = {bandOf(1, 2, 100)};
+  EXPECT_NEAR(bodyAppearance(view, at(2, 1.65), bands, params), 1.0, 0.1);
+  EXPECT_NEAR(bodyAppearance(view, at(2, 2.0), bands, params), 0.65, 0.05);
 }
 
 TEST(BodyAppearance, OfABodyBehindTheCameraSaysNothing) {
-  EXPECT_DOUBLE_EQ(bodyAppearance(viewOfABoard(2.0F), {-2, 0}, {bandOf(1, 2, 100)}), 0.5);
+  EXPECT_DOUBLE_EQ(bodyAppearance(viewOfABoard(2.0F), at(-2), {bandOf(1, 2, 100)}), 0.5);
 }
 
-TEST(AnyBand, PassesWhatOneOfTheBandsPasses) {
-  const ColorTable table = anyBand({bandOf(1, 2, 200), bandOf(0, 1, 100)});
-  EXPECT_TRUE(table.passes(0, 0, 150));
-  EXPECT_FALSE(table.passes(0, 0, 50));
-  EXPECT_THROW(anyBand({}), std::invalid_argument);
+TEST(BodyAppearance, LeavesOutABandOfWhichNothingWasLearned) {
+  ColorCloud cloud;
+  cloud.push_back(point(2, 0, 1.5, 255));
+  AppearanceBand nothing;
+  nothing.body = {"legs", 0.25, 0.9};
+  EXPECT_DOUBLE_EQ(bodyAppearance(cloud, at(2), {bandOf(1, 2, 100), nothing}, withoutPrior()), 1);
 }
 
 }  // namespace

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// What the README's tables about real people are made with.
+#pragma once
+
+#include "apps/follower/learn_person.hpp"
+#include "apps/follower/perception.hpp"
+#include "tracking/clear_mot.hpp"
+#include "tracking/target_metrics.hpp"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace heel {
+
+/// A still camera's recording with truth.csv, whose first seconds are empty.
+struct ExperimentParams {
+  double background_s = 5.0;          ///< How long it is empty.
+  double detector_distance_m = 0.75;  ///< How far a detection may be from a person.
+  double tracker_distance_m = 0.5;    ///< How far the target's estimate may be from them.
+  double learn_radius_m = 0.35;       ///< Points this near to a person's true place are theirs.
+  AppearanceParams appearance;        ///< The model that is learned.
+};
+
+/// Told before each piece of work that is timed, and after it.
+struct WorkTimer {
+  std::function<void()> start = [] {};
+  std::function<void()> stop = [] {};
+};
+
+/// Phase 1 as a detector of everyone in view: the background from the empty frames, people in all
+/// the others.
+/// @throws std::runtime_error  as openRecording() and readTruth(); so do the others.
+ClearMot runDetectorExperiment(const std::filesystem::path& recording,
+                               const ExperimentParams& params, const WorkTimer& timer = {});
+
+/// The paper's protocol: the first person to enter is learned while alone, and then followed by
+/// appearance.
+struct ProtocolResult {
+  LearnedPerson learned;
+  std::string person;       ///< Whose model it is, by the truth.
+  TargetMetrics following;  ///< From when others come into view to the person's last true place.
+};
+ProtocolResult runProtocolExperiment(const std::filesystem::path& recording,
+                                     const ExperimentParams& params);
+
+/// A model followed by appearance alone through all of another recording.
+TargetMetrics runFollowingExperiment(const std::filesystem::path& recording,
+                                     const AppearanceModel& model, const std::string& person,
+                                     const ExperimentParams& params);
+
+/// One person as the target: learned from the first half of the frames where their place is exact,
+/// looked for in the second half.
+struct TargetResult {
+  std::string person;
+  TargetMetrics best_blob;  ///< The blob of the best appearance in each frame; no track.
+  TargetMetrics started;    ///< Tracked, started at the person's true place.
+  TargetMetrics cold;       ///< Tracked, found by looks.
+};
+std::vector<TargetResult> runTargetsExperiment(const std::filesystem::path& recording,
+                                               const ExperimentParams& params);
+
+}  // namespace heel

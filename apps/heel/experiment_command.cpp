@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/experiment/experiments.hpp"
+#include "apps/heel/commands.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace heel {
+namespace {
+
+struct Options {
+  std::filesystem::path recording;
+  std::filesystem::path other;
+  ExperimentParams params;
+};
+
+void runDetector(const Options& options) {
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point begin;
+  double total_ms = 0.0;
+  WorkTimer timer;
+  timer.start = [&] { begin = Clock::now(); };
+  timer.stop = [&] {
+    total_ms += std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  };
+  const ClearMot result = runDetectorExperiment(options.recording, options.params, timer);
+  std::printf("phase 1 as a people detector, match within %.2f m, %d frames\n",
+              options.params.detector_distance_m, result.frames);
+  std::printf("  MODA %.3f  recall %.3f  precision %.3f  (%d of %d found, %d false)\n",
+              result.moda(), result.recall(), result.precision(), result.matches, result.truths,
+              result.false_positives);
+  std::printf("  mean distance %.3f m, %.2f ms a frame\n", result.motp_m(),
+              total_ms / result.frames);
+}
+
+/// A model that the experiments compare.
+struct OfferedModel {
+  const char* name;
+  AppearanceParams params;
+};
+
+std::vector<OfferedModel> offeredModels() {
+  const auto make = [](ColorModel model, int colors, std::vector<BodyBand> bands) {
+    AppearanceParams params;
+    params.model = model;
+    params.principal_colors.count = colors;
+    params.bands = std::move(bands);
+    return params;
+  };
+  return {{"paper, k = 1", make(ColorModel::kPrincipalColors, 1, upperBody())},
+          {"paper, k from the data", make(ColorModel::kPrincipalColors, 0, upperBody())},
+          {"paper, k = 1, torso + head", make(ColorModel::kPrincipalColors, 1, torsoAndHead())},
+          {"paper, k = 1, + legs", make(ColorModel::kPrincipalColors, 1, wholeBody())},
+          {"ratio to the room", make(ColorModel::kColorRatio, 1, upperBody())},
+          {"ratio, torso + head (default)", AppearanceParams()},
+          {"ratio, torso + head + legs", make(ColorModel::kColorRatio, 1, wholeBody())}};
+}
+
+void printRow(const char* name, const TargetMetrics& m) {
+  std::printf("  %-32s recall %.3f  wrong person %.3f  (%d frames)\n", name, m.recall(),
+              m.wrongPersonShare(), m.frames_in_view);
+}
+
+void runProtocol(const Options& options) {
+  std::printf("the paper's protocol: learned alone, then followed by appearance alone\n");
+  for (const OfferedModel& offered : offeredModels()) {
+    ExperimentParams params = options.params;
+    params.appearance = offered.params;
+    const ProtocolResult result = runProtocolExperiment(options.recording, params);
+    std::printf("%s: %s learned in %d frames\n", offered.name, result.person.c_str(),
+                result.learned.acquisition.person_frames);
+    printRow(options.recording.filename().c_str(), result.following);
+    if (!options.other.empty()) {
+      printRow(options.other.filename().c_str(),
+               runFollowingExperiment(options.other, result.learned.model, result.person, params));
+    }
+  }
+}
+
+/// Sums over people: each frame counts the same.
+struct Sum {
+  int frames = 0, right = 0, wrong = 0;
+  void add(const TargetMetrics& m) {
+    frames += m.frames_in_view;
+    right += m.right;
+    wrong += m.wrong_person;
+  }
+  void print() const {
+    std::printf("  %.2f %.2f ", static_cast<double>(right) / frames,
+                static_cast<double>(wrong) / frames);
+  }
+};
+
+void runTargets(const Options& options) {
+  std::printf("each person as the target: recall and share of frames on a wrong person\n");
+  for (const OfferedModel& offered : offeredModels()) {
+    ExperimentParams params = options.params;
+    params.appearance = offered.params;
+    std::printf("%s\n  %-26s %5s   best blob   started   found by looks\n", offered.name, "person",
+                "n");
+    Sum best, started, cold;
+    for (const TargetResult& result : runTargetsExperiment(options.recording, params)) {
+      Sum one_best, one_started, one_cold;
+      one_best.add(result.best_blob);
+      one_started.add(result.started);
+      one_cold.add(result.cold);
+      std::printf("  %-26s %5d ", result.person.c_str(), result.started.frames_in_view);
+      one_best.print();
+      one_started.print();
+      one_cold.print();
+      std::printf("\n");
+      best.add(result.best_blob);
+      started.add(result.started);
+      cold.add(result.cold);
+    }
+    std::printf("  %-26s %5d ", "all", started.frames);
+    best.print();
+    started.print();
+    cold.print();
+    std::printf("\n");
+  }
+}
+
+}  // namespace
+
+void addExperiment(CLI::App& app) {
+  CLI::App* verb = app.add_subcommand("experiment", "Repeat the README's measurements");
+  verb->require_subcommand(1);
+  verb->footer(
+      "Recordings: a still camera, empty at first, with people's true places in truth.csv.");
+  const auto add = [verb](const char* name, const char* what, void (*run)(const Options&)) {
+    auto options = std::make_shared<Options>();
+    CLI::App* experiment = verb->add_subcommand(name, what);
+    experiment->add_option("RECORDING", options->recording, "folder with truth.csv")->required();
+    experiment
+        ->add_option("--background", options->params.background_s,
+                     "how long the room is empty at the beginning [s]")
+        ->capture_default_str();
+    experiment->callback([options, run] { run(*options); });
+    return std::make_pair(experiment, options);
+  };
+  add("detector", "Phase 1 as a detector of everyone in view", runDetector);
+  add("targets", "Each person as the target, learned in one half and looked for in the other",
+      runTargets);
+  auto [protocol, options] =
+      add("protocol", "The first person learned while alone, then followed", runProtocol);
+  protocol->add_option("OTHER", options->other, "another recording of the same person");
+}
+
+}  // namespace heel

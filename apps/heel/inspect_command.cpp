@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/follower/camera_setup.hpp"
+#include "apps/follower/depth_images.hpp"
+#include "apps/heel/commands.hpp"
+#include "apps/report/drawing.hpp"
+#include "apps/report/video_writer.hpp"
+#include "segmentation/appearance_model_io.hpp"
+#include "segmentation/appearance_picture.hpp"
+
+#include <CLI/CLI.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace heel {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  fs::path what;
+  fs::path out = "inspect.png";
+};
+
+constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+
+cv::Mat inspectModel(const fs::path& file) {
+  const AppearanceModel model = loadAppearance(file);
+  std::printf("appearance model (%s), %zu band%s\n",
+              model.params().model == ColorModel::kPrincipalColors
+                  ? "principal colours, the paper's"
+                  : "colours against the room's",
+              model.bands().size(), model.bands().size() == 1 ? "" : "s");
+  for (const AppearanceBand& band : model.bands()) {
+    std::printf(
+        "  %-10s %.2f to %.2f m: %llu points, delta %.4f, expected false positives %.1f %% "
+        "of the room, false negatives %.1f %% of the person\n",
+        band.body.name.c_str(), band.body.min_height_m, band.body.max_height_m,
+        static_cast<unsigned long long>(band.person.total()), band.delta(),
+        100.0 * band.errors.false_positive_share, 100.0 * band.errors.false_negative_share);
+  }
+  const Separability separability = model.separability();
+  if (!separability.advice.empty()) std::printf("  warning: %s\n", separability.advice.c_str());
+  return drawAppearance(model);
+}
+
+/// Depth as colours, from red (near) to blue (6 m and more); black where there is none.
+cv::Mat paintDepth(const cv::Mat& depth_m) {
+  cv::Mat scaled, painted;
+  depth_m.convertTo(scaled, CV_8UC1, -255.0 / 6.0, 255.0);
+  cv::applyColorMap(scaled, painted, cv::COLORMAP_TURBO);
+  painted.setTo(cv::Scalar::all(0), ~(depth_m > 0.0F));
+  return painted;
+}
+
+void printSetup(const CameraSetup& setup) {
+  const Mounting mounting = mountingOf(setup.T_base_camera);
+  std::printf("  camera %.2f m over the floor, pitch %.1f deg, roll %.1f deg (%s)\n",
+              mounting.height_m, mounting.pitch_rad * kDegrees, mounting.roll_rad * kDegrees,
+              setup.is_configured ? "as configured" : "from the floor");
+  if (setup.ground) {
+    const Mounting& floor = setup.ground->mounting;
+    std::printf(
+        "  floor seen: camera %.2f m over it, pitch %.1f deg, roll %.1f deg; %.0f %% of the "
+        "points lie on it within %.0f mm (root mean square)\n",
+        floor.height_m, floor.pitch_rad * kDegrees, floor.roll_rad * kDegrees,
+        100.0 * setup.ground->inlier_share, 1000.0 * setup.ground->spread_m);
+  }
+  const SetupReport& report = setup.report;
+  std::printf("  depth at %.0f %% of the pixels; %.1f %% quite black, %.1f %% quite white\n",
+              100.0 * report.found_share, 100.0 * report.black_share, 100.0 * report.white_share);
+}
+
+cv::Mat inspectRecording(const fs::path& path) {
+  const auto recording = openRecording(path);
+  const RecordingInfo& info = recording->info();
+  std::printf("%s: %s, %zu frames", info.name.c_str(), info.layout.c_str(), info.frame_count);
+  if (info.duration_s > 0.0) std::printf(" over %.1f s", info.duration_s);
+  std::printf("%s\n", info.nominal_stamps ? " (nominal: no times are stored)" : "");
+  const PinholeCamera& camera = info.camera.left;
+  if (camera.width > 0) {
+    std::printf("  %dx%d, fx %.1f fy %.1f cx %.1f cy %.1f", camera.width, camera.height, camera.fx,
+                camera.fy, camera.cx, camera.cy);
+    if (info.camera.baseline_m > 0.0) std::printf(", baseline %.3f m", info.camera.baseline_m);
+    std::printf("\n");
+  }
+  Frame frame;
+  if (!recording->next(frame)) throw std::runtime_error(nothingReadMessage(*recording));
+  const CameraSetup setup = findCameraSetup(*openRecording(path));
+  printSetup(setup);
+  for (const std::string& warning : setup.warnings) std::printf("  warning: %s\n", warning.c_str());
+  if (frame.image_bgr.empty()) {
+    std::printf("  %zu points, not organized\n", frame.cloud->size());
+    return {};
+  }
+  DepthImages depths(setup.sensor, setup.camera);
+  cv::Mat picture;
+  cv::hconcat(frame.image_bgr, paintDepth(depths.of(frame)), picture);
+  return picture;
+}
+
+void run(const Options& options) {
+  if (!fs::exists(options.what)) {
+    throw std::runtime_error(options.what.string() + ": there is no such file or folder");
+  }
+  const fs::path extension = options.what.extension();
+  const bool is_model = extension == ".yaml" || extension == ".yml";
+  const cv::Mat picture = is_model ? inspectModel(options.what) : inspectRecording(options.what);
+  if (picture.empty()) return;
+  writePicture(options.out, picture);
+  std::printf("wrote %s\n", options.out.string().c_str());
+}
+
+}  // namespace
+
+void addInspect(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = app.add_subcommand("inspect", "Tell what is in a model or a recording");
+  verb->footer(
+      "Examples:\n"
+      "  heel inspect person.yaml\n"
+      "  heel inspect recordings/kitchen\n"
+      "  heel inspect scene.pcd --out scene.png");
+  verb->add_option("WHAT", options->what, "model (.yaml), recording (folder), or PCD file")
+      ->required();
+  verb->add_option("--out", options->out, "where to write the picture")->capture_default_str();
+  verb->callback([options] { run(*options); });
+}
+
+}  // namespace heel

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/heel/commands.hpp"
+#include "apps/report/progress_bar.hpp"
+#include "apps/simulation/simulate.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace heel {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string scene;
+  SimulateOptions simulate;
+};
+
+/// A scene's file: the path itself, or the name of a scene that comes with Heel.
+fs::path sceneFile(const std::string& scene) {
+  if (fs::exists(scene)) return scene;
+  const fs::path shipped = fs::path(HEEL_SCENES) / (scene + ".yaml");
+  if (fs::exists(shipped)) return shipped;
+  throw std::runtime_error(scene + ": there is no such scene, neither as a file nor in " +
+                           std::string(HEEL_SCENES));
+}
+
+void run(Options& options) {
+  const Scene scene = loadScene(sceneFile(options.scene).string());
+  ProgressBar progress("simulating", 100);
+  options.simulate.progress = [&](double share) {
+    progress.show(static_cast<std::size_t>(100.0 * share));
+  };
+  const SimulateResult result = simulate(scene, options.simulate);
+  std::printf("%zu frames over %.1f s; wrote %s\n", result.frames, result.duration_s,
+              options.simulate.out.string().c_str());
+}
+
+}  // namespace
+
+void addSimulate(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = app.add_subcommand("simulate", "Make a recording of a scene, with its truth");
+  verb->footer(
+      "Example:\n"
+      "  heel simulate wardrobe --out recordings/wardrobe\n"
+      "  heel learn recordings/wardrobe --out person.yaml\n"
+      "Writes what 'heel learn' and 'heel track' read, and truth.csv: where everyone really was.");
+  verb->add_option("SCENE", options->scene, "a scene's name (wardrobe, pair) or its YAML file")
+      ->required();
+  verb->add_option("--out", options->simulate.out, "folder for the recording; must be empty")
+      ->required();
+  verb->add_option("--duration", options->simulate.duration_s, "instead of the scene's own [s]");
+  verb->add_option("--seed", options->simulate.seed, "of noise and of people's ways")
+      ->capture_default_str();
+  verb->callback([options] { run(*options); });
+}
+
+}  // namespace heel

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Collects the colours of phase 1 and makes the target's appearance of them (paper, section 2).
+#pragma once
+
+#include "cloud/color_cloud.hpp"
+#include "segmentation/appearance_model.hpp"
+
+#include <opencv2/core/mat.hpp>
+#include <pcl/types.h>
+
+#include <vector>
+
+namespace heel {
+
+/// Feed it the frames of phase 1, then ask for the model. Memory does not grow with their number.
+class AppearanceLearner {
+ public:
+  /// @throws std::invalid_argument  if `params` has no band.
+  explicit AppearanceLearner(const AppearanceParams& params = {});
+
+  /// Counts the colours of the room, which false positives are counted on.
+  /// @param image_bgr  CV_8UC3.
+  /// @param mask       CV_8UC1 of the same size, not 0 where the room is seen; empty: everywhere.
+  /// @throws std::invalid_argument  if sizes or types do not fit.
+  void addRoom(const cv::Mat& image_bgr, const cv::Mat& mask = cv::Mat());
+
+  /// Counts the colours of the person's points, each for the bands that hold its height.
+  /// @param cloud    In a frame whose z is the height over the floor.
+  /// @param indices  The person's points, of any height; those without position are left out.
+  void addPerson(const ColorCloud& cloud, const pcl::Indices& indices);
+
+  const ColorHistogram& room() const { return room_; }
+
+  /// Counts of each band.
+  const std::vector<ColorHistogram>& person() const { return person_; }
+
+  /// @throws std::invalid_argument  if nothing of the person, or of the room, has been added.
+  AppearanceModel learn() const { return AppearanceModel(params_, person_, room_); }
+
+ private:
+  AppearanceParams params_;
+  std::vector<ColorHistogram> person_;
+  ColorHistogram room_;
+};
+
+}  // namespace heel

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "segmentation/appearance_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+#include <utility>
+
+namespace heel {
+namespace {
+
+void check(const AppearanceParams& params) {
+  if (params.bands.empty()) throw std::invalid_argument("an appearance needs at least one band");
+  for (const BodyBand& band : params.bands) {
+    if (!(std::isfinite(band.min_height_m) && std::isfinite(band.max_height_m) &&
+          band.min_height_m < band.max_height_m)) {
+      throw std::invalid_argument("the heights of band '" + band.name + "' are not in order");
+    }
+  }
+  if (!(params.max_error_share >= 0.0)) {
+    throw std::invalid_argument("the greatest share of errors must not be negative");
+  }
+}
+
+ColorScore makeScore(const AppearanceParams& params, const ColorHistogram& person,
+                     const ColorHistogram& room) {
+  switch (params.model) {
+    case ColorModel::kPrincipalColors:
+      return principalColorScore(person, params.principal_colors);
+    case ColorModel::kColorRatio:
+      return colorRatioScore(person, room, params.color_ratio);
+  }
+  throw std::invalid_argument("there is no such colour model");
+}
+
+/// Tabulates the band's scores, stretched so that the person's best colour has 255: the paper's
+/// scores are small, for they are shares of many bins.
+void tabulate(const ColorScore& score, AppearanceBand& band) {
+  double best = 0.0;
+  band.person.forEach([&](Bgr c, std::uint64_t) { best = std::max(best, score(c.b, c.g, c.r)); });
+  band.score_per_level = best / 255.0;
+  band.table = ColorTable([&](std::uint8_t b, std::uint8_t g, std::uint8_t r) {
+    const double level = std::round(score(b, g, r) / band.score_per_level);
+    return static_cast<std::uint8_t>(std::clamp(level, 0.0, 255.0));
+  });
+}
+
+double errorShare(const AppearanceBand& band) {
+  return band.errors.false_negative_share + band.errors.false_positive_share;
+}
+
+std::string percent(double share) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%.0f %%", 100.0 * share);
+  return text;
+}
+
+}  // namespace
+
+std::vector<BodyBand> upperBody() { return {{"upper body", 1.0, 2.2}}; }
+
+std::vector<BodyBand> torsoAndHead() { return {{"torso", 1.0, 1.45}, {"head", 1.45, 2.2}}; }
+
+std::vector<BodyBand> wholeBody() {
+  return {{"torso", 1.0, 1.45}, {"head", 1.45, 2.2}, {"legs", 0.25, 0.9}};
+}
+
+AppearanceModel::AppearanceModel(AppearanceParams params, std::vector<ColorHistogram> person,
+                                 ColorHistogram room)
+    : params_(std::move(params)), room_(std::move(room)) {
+  check(params_);
+  if (person.size() != params_.bands.size()) {
+    throw std::invalid_argument("each band of an appearance needs its counts of the person");
+  }
+  if (room_.empty()) throw std::invalid_argument("there are no colours of the room");
+  bool has_points = false;
+  for (std::size_t i = 0; i < person.size(); ++i) {
+    AppearanceBand band;
+    band.body = params_.bands[i];
+    band.person = std::move(person[i]);
+    bands_.push_back(std::move(band));
+    if (bands_[i].person.empty()) continue;
+    has_points = true;
+    tabulate(makeScore(params_, bands_[i].person, room_), bands_[i]);
+    const ErrorCurve curve = countColorErrors(bands_[i].table, bands_[i].person, room_);
+    setThreshold(i, chooseThreshold(curve, params_.threshold));
+  }
+  if (!has_points) throw std::invalid_argument("there are no colours of the person");
+}
+
+ColorTable AppearanceModel::filterTable() const {
+  return ColorTable([this](std::uint8_t b, std::uint8_t g, std::uint8_t r) {
+    const bool passes = std::any_of(bands_.begin(), bands_.end(), [&](const AppearanceBand& band) {
+      return band.table.passes(b, g, r);
+    });
+    return static_cast<std::uint8_t>(passes ? 255 : 0);
+  });
+}
+
+void AppearanceModel::setThreshold(std::size_t band, std::uint8_t threshold) {
+  AppearanceBand& b = bands_.at(band);
+  if (b.table.empty()) return;
+  b.table = b.table.withThreshold(threshold);
+  b.errors = countColorErrors(b.table, b.person, room_)[threshold];
+}
+
+Separability AppearanceModel::separability() const {
+  Separability result;
+  const AppearanceBand* best = nullptr;
+  for (const AppearanceBand& band : bands_) {
+    if (band.person.total() < params_.min_points || band.table.empty()) continue;
+    if (best == nullptr || errorShare(band) < errorShare(*best)) best = &band;
+  }
+  if (best == nullptr) {
+    result.doubt = AppearanceDoubt::kTooFewPoints;
+    result.advice =
+        "The model rests on too few points of the person: let the person stay in view longer, or "
+        "come nearer.";
+    return result;
+  }
+  result.error_share = errorShare(*best);
+  if (result.error_share > params_.max_error_share) {
+    result.doubt = AppearanceDoubt::kLikeTheRoom;
+    result.advice = "The person's colours are the room's: even the " + best->body.name +
+                    " keeps only " + percent(1.0 - best->errors.false_negative_share) +
+                    " of the person while " + percent(best->errors.false_positive_share) +
+                    " of the room passes. Let the person wear another colour, learn the legs too, "
+                    "or improve the light.";
+  }
+  return result;
+}
+
+AppearanceModel mergeAppearances(const AppearanceModel& a, const AppearanceModel& b) {
+  const auto same = [](const AppearanceBand& x, const AppearanceBand& y) {
+    return x.body.min_height_m == y.body.min_height_m && x.body.max_height_m == y.body.max_height_m;
+  };
+  if (!std::equal(a.bands().begin(), a.bands().end(), b.bands().begin(), b.bands().end(), same)) {
+    throw std::invalid_argument("only models with the same bands of height can be merged");
+  }
+  std::vector<ColorHistogram> person;
+  for (std::size_t i = 0; i < a.bands().size(); ++i) {
+    person.push_back(a.bands()[i].person);
+    person.back().merge(b.bands()[i].person);
+  }
+  ColorHistogram room = a.room();
+  room.merge(b.room());
+  return AppearanceModel(a.params(), std::move(person), std::move(room));
+}
+
+}  // namespace heel

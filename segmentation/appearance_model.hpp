@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// The target's appearance: what phase 1 leaves for phase 2 (paper, section 2).
+#pragma once
+
+#include "segmentation/appearance_threshold.hpp"
+#include "segmentation/color_histogram.hpp"
+#include "segmentation/color_score.hpp"
+#include "segmentation/color_table.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace heel {
+
+/// Which of the offered models scores a colour.
+enum class ColorModel {
+  kPrincipalColors,  ///< The paper's.
+  kColorRatio,       ///< The person's colours against the room's.
+};
+
+/// Heights over the floor that share their colours.
+struct BodyBand {
+  std::string name;
+  double min_height_m = 1.0;
+  double max_height_m = 2.2;
+
+  bool contains(double height_m) const {
+    return height_m >= min_height_m && height_m < max_height_m;
+  }
+};
+
+/// The paper's: all that is higher than 1 m.
+std::vector<BodyBand> upperBody();
+/// Higher than 1 m, the head by itself.
+std::vector<BodyBand> torsoAndHead();
+/// The head, the torso, and the legs: trousers tell people in similar jumpers apart. Goes beyond
+/// the paper, for it learns from points below 1 m too.
+std::vector<BodyBand> wholeBody();
+
+/// How an appearance is modelled. The defaults did best on real recordings of all that learn from
+/// points higher than 1 m only.
+struct AppearanceParams {
+  ColorModel model = ColorModel::kColorRatio;
+  std::vector<BodyBand> bands = torsoAndHead();
+  ThresholdParams threshold;
+  ColorRatioParams color_ratio;
+  PrincipalColorParams principal_colors;
+  double max_error_share = 0.6;    ///< Over it, a band does not tell the person from the room.
+  std::uint64_t min_points = 500;  ///< A band needs that many points to be relied on.
+};
+
+/// What is known of one band.
+struct AppearanceBand {
+  BodyBand body;
+  ColorHistogram person;       ///< Of all the target's points in the band, over time.
+  ColorTable table;            ///< With its threshold; empty if the band has no points.
+  double score_per_level = 0;  ///< The model's score at level 1 of the table.
+  ColorErrors errors;          ///< Of the table, on what was learned from.
+
+  /// The threshold in the model's own unit: the paper's delta.
+  double delta() const { return table.threshold() * score_per_level; }
+};
+
+/// Whether a model can tell its person from the room.
+enum class AppearanceDoubt {
+  kNone,
+  kTooFewPoints,  ///< No band has enough of them.
+  kLikeTheRoom,   ///< In each band that has, most is lost or most of the room passes.
+};
+
+struct Separability {
+  AppearanceDoubt doubt = AppearanceDoubt::kNone;
+  double error_share = 1.0;  ///< Of the best band: both error shares together; 0 is perfect.
+  std::string advice;        ///< A sentence for people, what is wrong and what to do; may be empty.
+};
+
+/// The appearance of one person: counted colours, and the tables that follow from them.
+///
+/// A value type. It keeps the counts, so that two models of a person can be merged, and errors be
+/// counted, long after phase 1.
+class AppearanceModel {
+ public:
+  /// @param person  Counts of each of `params.bands`, in their order.
+  /// @param room    Counts of what is not the person.
+  /// @throws std::invalid_argument  if a parameter is out of range, all of `person` is empty, or
+  ///                                `room` is.
+  AppearanceModel(AppearanceParams params, std::vector<ColorHistogram> person, ColorHistogram room);
+
+  const AppearanceParams& params() const { return params_; }
+  const std::vector<AppearanceBand>& bands() const { return bands_; }
+  const ColorHistogram& room() const { return room_; }
+
+  /// The paper's filter: passes what passes the table of any band. Its scores are 0 and 255.
+  ColorTable filterTable() const;
+
+  /// Sets a band's threshold by hand; its errors follow.
+  /// @throws std::out_of_range  if there is no such band.
+  void setThreshold(std::size_t band, std::uint8_t threshold);
+
+  Separability separability() const;
+
+ private:
+  AppearanceParams params_;
+  std::vector<AppearanceBand> bands_;
+  ColorHistogram room_;
+};
+
+/// The model of all that either was learned from, with thresholds chosen anew.
+/// @throws std::invalid_argument  if they do not have the same bands; `a`'s parameters are used.
+AppearanceModel mergeAppearances(const AppearanceModel& a, const AppearanceModel& b);
+
+}  // namespace heel

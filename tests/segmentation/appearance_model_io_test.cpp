@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "segmentation/appearance_model_io.hpp"
+
+#include "tests/segmentation/painted_person.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace heel {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+
+class AppearanceFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "heel-appearance-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder_ = name;
+    file_ = folder_ / "person.yaml";
+  }
+
+  void TearDown() override { fs::remove_all(folder_); }
+
+  static AppearanceModel makeModel() {
+    AppearanceParams params;
+    params.model = ColorModel::kPrincipalColors;
+    params.principal_colors.count = 2;
+    params.threshold.rule = ThresholdRule::kMostSelective;
+    params.threshold.max_false_negative_share = 0.1234567;
+    AppearanceModel model(params, test::paintPerson(), test::paintRoom());
+    model.setThreshold(1, 77);
+    return model;
+  }
+
+  std::string text() const {
+    std::ifstream in(file_);
+    return (std::ostringstream() << in.rdbuf()).str();
+  }
+
+  void write(const std::string& text) const { std::ofstream(file_) << text; }
+
+  /// Saves a good model with one piece of its text replaced.
+  void saveWith(const std::string& what, const std::string& instead) const {
+    saveAppearance(makeModel(), file_);
+    std::string changed = text();
+    const auto at = changed.find(what);
+    ASSERT_NE(at, std::string::npos) << what;
+    write(changed.replace(at, what.size(), instead));
+  }
+
+  std::string complaint() const {
+    try {
+      loadAppearance(file_);
+    } catch (const std::runtime_error& e) {
+      return e.what();
+    }
+    return "no complaint";
+  }
+
+  fs::path folder_;
+  fs::path file_;
+};
+
+TEST_F(AppearanceFile, GivesBackTheModel) {
+  const AppearanceModel model = makeModel();
+  saveAppearance(model, file_);
+  const AppearanceModel loaded = loadAppearance(file_);
+  ASSERT_EQ(loaded.bands().size(), model.bands().size());
+  for (std::size_t i = 0; i < model.bands().size(); ++i) {
+    const AppearanceBand& a = model.bands()[i];
+    const AppearanceBand& b = loaded.bands()[i];
+    EXPECT_EQ(a.body.name, b.body.name);
+    EXPECT_EQ(a.body.min_height_m, b.body.min_height_m);
+    EXPECT_EQ(a.body.max_height_m, b.body.max_height_m);
+    EXPECT_TRUE(test::sameColors(a.person, b.person));
+    EXPECT_TRUE(std::equal(a.table.data(), a.table.data() + ColorTable::kCells, b.table.data()));
+    EXPECT_EQ(a.table.threshold(), b.table.threshold());
+    EXPECT_EQ(a.errors.false_positives, b.errors.false_positives);
+    EXPECT_EQ(a.errors.false_negatives, b.errors.false_negatives);
+  }
+  EXPECT_TRUE(test::sameColors(model.room(), loaded.room()));
+  EXPECT_EQ(loaded.params().principal_colors.count, 2);
+  EXPECT_EQ(loaded.params().threshold.max_false_negative_share, 0.1234567);
+}
+
+TEST_F(AppearanceFile, IsTheSameWhenWrittenAgain) {
+  saveAppearance(makeModel(), file_);
+  const std::string first = text();
+  saveAppearance(loadAppearance(file_), file_);
+  EXPECT_EQ(text(), first);
+}
+
+TEST_F(AppearanceFile, KeepsABandWithoutPoints) {
+  saveAppearance(
+      AppearanceModel({}, {test::paint(test::kRed, 600), ColorHistogram()}, test::paintRoom()),
+      file_);
+  EXPECT_TRUE(loadAppearance(file_).bands()[1].table.empty());
+}
+
+TEST_F(AppearanceFile, TakesAThresholdSetByHand) {
+  saveWith("threshold: 77", "threshold: 99");
+  EXPECT_EQ(loadAppearance(file_).bands()[1].table.threshold(), 99);
+}
+
+TEST_F(AppearanceFile, ThatIsMissingIsNamed) {
+  EXPECT_THAT(complaint(), AllOf(HasSubstr("person.yaml"), HasSubstr("no such file")));
+}
+
+TEST_F(AppearanceFile, OfTheFutureIsRefused) {
+  saveWith("heel_appearance: 1", "heel_appearance: 2");
+  EXPECT_THAT(complaint(), AllOf(HasSubstr("person.yaml"), HasSubstr("format version 2"),
+                                 HasSubstr("only versions up to 1")));
+}
+
+TEST_F(AppearanceFile, NamesAMissingField) {
+  saveWith("hue_bins", "other_bins");
+  EXPECT_THAT(complaint(), HasSubstr("it has no field 'principal_colors.hue_bins'"));
+  saveWith("max_height_m", "height_m");
+  EXPECT_THAT(complaint(), HasSubstr("it has no field 'bands[0].max_height_m'"));
+  saveWith("room:", "hall:");
+  EXPECT_THAT(complaint(), HasSubstr("it has no field 'room'"));
+}
+
+TEST_F(AppearanceFile, NamesAFieldThatIsWrong) {
+  saveWith("value_bins: 32", "value_bins: many");
+  EXPECT_THAT(complaint(), HasSubstr("'principal_colors.value_bins' is not a whole number"));
+  saveWith("model: principal_colors", "model: magic");
+  EXPECT_THAT(complaint(), HasSubstr("'model' is 'magic', which is not known"));
+  saveWith("threshold: 77", "threshold: 256");
+  EXPECT_THAT(complaint(), HasSubstr("'bands[1].threshold' is not in 0 to 255"));
+  saveWith("hue_bins: 36", "hue_bins: 0");
+  EXPECT_THAT(complaint(), HasSubstr("not a valid appearance model: hue and value need"));
+}
+
+TEST_F(AppearanceFile, NamesAColourThatIsWrong) {
+  saveWith("colors: |\n", "colors: |\n      1 2 3\n");
+  EXPECT_THAT(complaint(), HasSubstr("'bands[0].colors' has a line that is not 'blue green red"));
+  saveWith("colors: |\n", "colors: |\n      1 2 256 4\n");
+  EXPECT_THAT(complaint(), HasSubstr("'bands[0].colors' has a colour out of range: '1 2 256 4'"));
+}
+
+TEST_F(AppearanceFile, OfAnotherKindIsRefused) {
+  write("camera: {fx: 500}\n");
+  EXPECT_THAT(complaint(), HasSubstr("person.yaml is not an appearance model"));
+  write("");
+  EXPECT_THAT(complaint(), HasSubstr("person.yaml is not an appearance model"));
+  write("a: [1, 2\nb: }");
+  EXPECT_THAT(complaint(), HasSubstr("person.yaml is not YAML: line"));
+}
+
+TEST_F(AppearanceFile, IsLeftAloneWhenItCannotBeWritten) {
+  const fs::path nowhere = folder_ / "none" / "person.yaml";
+  try {
+    saveAppearance(makeModel(), nowhere);
+    FAIL() << "no complaint";
+  } catch (const std::runtime_error& e) {
+    EXPECT_THAT(e.what(), AllOf(HasSubstr("person.yaml cannot be written"),
+                                HasSubstr("No such file or directory")));
+  }
+}
+
+TEST_F(AppearanceFile, LeavesNothingBesideIt) {
+  saveAppearance(makeModel(), file_);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+TEST_F(AppearanceFile, SaysThatTheDiskIsFull) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full here";
+  fs::create_symlink("/dev/full", file_.string() + ".part");
+  try {
+    saveAppearance(makeModel(), file_);
+    FAIL() << "no complaint";
+  } catch (const std::runtime_error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("No space left on device"));
+  }
+  EXPECT_FALSE(fs::exists(file_));
+  EXPECT_FALSE(fs::exists(file_.string() + ".part"));
+}
+
+}  // namespace
+}  // namespace heel
