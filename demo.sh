@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds the heel command, and follows a person through real recordings.
-#   ./demo.sh [DATA]     DATA: the folder that holds six_people and one_person
-#                        (default: $HEEL_DATA, else ../shared/data)
+# Installs what is missing, builds the heel command, and follows people.
+#   ./demo.sh [DATA]     DATA: the folder that holds the recordings six_people and one_person, which
+#                        are tracked as well where they are (default: $HEEL_DATA, else ../shared/data)
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -9,25 +9,31 @@ cd "$(dirname "$0")"
 [ -f build/release/build.ninja ] || cmake --preset release --log-level=WARNING
 cmake --build --preset release --target heel_command
 heel=build/release/apps/heel/heel
-
 data=${1:-${HEEL_DATA:-../shared/data}}
+
+echo
+echo "== A simulated room: who is Anna, and where does she go?"
+[ -f out/wardrobe/truth.csv ] || { rm -rf out/wardrobe; "$heel" simulate wardrobe --out out/wardrobe; }
+"$heel" learn out/wardrobe --out out/anna.yaml
+"$heel" track out/wardrobe --model out/anna.yaml --out out/anna_in_wardrobe
+"$heel" evaluate out/anna_in_wardrobe/tracks.csv out/wardrobe/truth.csv
+
 if [ ! -d "$data/six_people" ]; then
   cat <<EOT
-heel is built: $heel --help
 
-No recording in $data. To try it, record one (or take any RGB-D sequence in the TUM layout):
-a still camera, 5 seconds of empty room, then one person who walks in and about. A folder with
-  rgb.txt, depth.txt    "stamp filename" a line
+No real recording in $data. To make one: a still stereo or RGB-D camera, 5 seconds of empty room, then
+one person who walks in and about. As RGB-D, a folder with
+  rgb.txt, depth.txt    "stamp filename" a line (the layout of the TUM RGB-D data sets)
   camera.yaml           width, height, fx, fy, cx, cy, depth_scale
-Then:
-  $heel learn FOLDER --out person.yaml
-  $heel track FOLDER --model person.yaml --out out/
+Then: $heel learn FOLDER --out person.yaml && $heel track FOLDER --model person.yaml --out out/person
 EOT
   exit 0
 fi
 
-"$heel" learn "$data/six_people" --out out/person.yaml
+echo
+echo "== Real people: the first to enter is learned, and followed"
+"$heel" learn "$data/six_people" --out out/first.yaml
 for recording in six_people one_person; do
   [ -d "$data/$recording" ] || continue
-  "$heel" track "$data/$recording" --model out/person.yaml --out "out/$recording"
+  "$heel" track "$data/$recording" --model out/first.yaml --out "out/first_in_$recording"
 done

@@ -96,16 +96,16 @@ void drawColors(cv::Mat panel, const ColorHistogram& colors) {
   }
 }
 
-/// Hue along x, value along y; left half of each hue's column greyish, right half saturated.
-/// Colours that do not pass are paper.
+/// Pale, dull and vivid colours beside each other; in each, hue along x and value along y. Colours
+/// that do not pass are paper.
 void drawPassing(cv::Mat panel, const ColorTable& table) {
+  constexpr std::array<uchar, 3> kSaturations = {30, 110, 220};
   cv::Mat3b hsv(panel.size());
-  constexpr int kHues = 23;
   for (int v = 0; v < hsv.rows; ++v) {
     for (int u = 0; u < hsv.cols; ++u) {
-      const int step = u * kHues * 3 / hsv.cols;
-      hsv(v, u) = {static_cast<uchar>(step / 3 * 180 / kHues),
-                   static_cast<uchar>(40 + 80 * (step % 3)),
+      const int third = u * 3 / hsv.cols;
+      const int hue = (u * 3 - third * hsv.cols) * 180 / hsv.cols;
+      hsv(v, u) = {static_cast<uchar>(hue), kSaturations[static_cast<std::size_t>(third)],
                    static_cast<uchar>(255 - v * 255 / hsv.rows)};
     }
   }
@@ -116,6 +116,9 @@ void drawPassing(cv::Mat panel, const ColorTable& table) {
       const cv::Vec3b c = bgr(v, u);
       if (table.passes(c[0], c[1], c[2])) panel.at<cv::Vec3b>(v, u) = c;
     }
+  }
+  for (const int third : {1, 2}) {
+    panel.col(third * panel.cols / 3).setTo(kFrame);
   }
 }
 
@@ -200,7 +203,7 @@ cv::Mat drawAppearance(const AppearanceModel& model) {
     if (!band.table.empty()) {
       drawColors(panel(0, "the person's colours"), band.person);
       drawColors(panel(1, "the room's colours"), model.room());
-      drawPassing(panel(2, "passes (hue x value)"), band.table);
+      drawPassing(panel(2, "passes: pale, dull, vivid"), band.table);
       drawDistributions(panel(3, "hue and value (D_H, D_V)"), band.person);
       drawErrors(panel(4, "errors: room blue, person red"), band, model.room());
     }

@@ -53,8 +53,12 @@ void print(const Evaluation& result) {
   std::printf("  wrong person          %6.3f   for %.1f s in all\n", person.wrongPersonShare(),
               person.wrong_target_s);
   std::printf("  mean error            %6.3f m\n", person.meanError_m());
-  std::printf("  re-acquired           %6zu   times, after %.1f s on average\n",
-              person.reacquisition_delays_s.size(), person.meanReacquisitionDelay_s());
+  if (person.reacquisition_delays_s.empty()) {
+    std::printf("  never lost and found again\n");
+  } else {
+    std::printf("  found again           %6zu   times, after %.1f s on average\n",
+                person.reacquisition_delays_s.size(), person.meanReacquisitionDelay_s());
+  }
   std::printf("all tracks against all people (CLEAR MOT)\n");
   std::printf("  MOTA                  %6.3f   %d of %d found, %d false, %d switches\n",
               people.mota(), people.matches, people.truths, people.false_positives,

@@ -20,6 +20,7 @@ using Eigen::Vector3f;
 constexpr float kPi = 3.14159265F;
 constexpr float kDirectCell_m = 0.08F;  // Sharp enough for the shadow of a table's leg.
 constexpr float kBounceCell_m = 0.3F;
+constexpr float kNearCell_m = 1.0F;
 constexpr float kProbeStep_m = 0.5F;
 constexpr float kProbeHeight_m = 1.1F;
 constexpr float kOffSurface_m = 0.002F;
@@ -71,6 +72,7 @@ LightMap::LightMap(const Scene& scene, const Geometry& geometry, const RayWorld&
     bounced_.push_back(gridOver<Rgb>(face, kBounceCell_m, Rgb::Zero()));
   }
   bakeDirect(geometry, world);
+  noteSources(geometry);
   bakeBounce(geometry, world);
   bakeBounce(geometry, world);
   bakeProbes(geometry, world, FloorPlan(scene), floorBounds(scene));
@@ -91,9 +93,40 @@ void LightMap::bakeDirect(const Geometry& geometry, const RayWorld& world) {
         }
         greatest = std::max(greatest, value);
       });
-      if (greatest > kNegligible) direct_[f].push_back(std::move(light));
+      if (greatest > kNegligible && direct_[f].size() < 64) direct_[f].push_back(std::move(light));
     }
   });
+}
+
+void LightMap::noteSources(const Geometry& geometry) {
+  for (std::size_t f = 0; f < geometry.faces.size(); ++f) {
+    near_.push_back(gridOver(geometry.faces[f], kNearCell_m, std::uint64_t{0}));
+    FaceGrid<std::uint64_t>& near = near_.back();
+    for (std::size_t place = 0; place < direct_[f].size(); ++place) {
+      const FaceGrid<float>& white = direct_[f][place].white;
+      for (int j = 0; j < white.rows; ++j) {
+        for (int i = 0; i < white.columns; ++i) {
+          if (white.values[static_cast<std::size_t>(j * white.columns + i)] < kNegligible) continue;
+          // Cells beside this one are lit too, where values are interpolated.
+          for (int side = 0; side < 9; ++side) {
+            const int x = std::clamp(i + side % 3 - 1, 0, white.columns - 1);
+            const int y = std::clamp(j + side / 3 - 1, 0, white.rows - 1);
+            const int column = x * near.columns / white.columns, row = y * near.rows / white.rows;
+            near.values[static_cast<std::size_t>(row * near.columns + column)] |= std::uint64_t{1}
+                                                                                  << place;
+          }
+        }
+      }
+    }
+  }
+}
+
+std::uint64_t LightMap::sourcesAt(int face, float a, float b) const {
+  const FaceGrid<std::uint64_t>& near = near_[static_cast<std::size_t>(face)];
+  const int column =
+      std::clamp(static_cast<int>(a * static_cast<float>(near.columns)), 0, near.columns - 1);
+  const int row = std::clamp(static_cast<int>(b * static_cast<float>(near.rows)), 0, near.rows - 1);
+  return near.values[static_cast<std::size_t>(row * near.columns + column)];
 }
 
 void LightMap::bakeBounce(const Geometry& geometry, const RayWorld& world) {
@@ -166,7 +199,11 @@ Rgb LightMap::radianceFrom(const Geometry& geometry, const RayHit& hit,
   const float a = from.dot(face.edge_u) / face.edge_u.squaredNorm();
   const float b = from.dot(face.edge_v) / face.edge_v.squaredNorm();
   Rgb light = bounced(hit.index, a, b);
+  std::uint64_t lit = sourcesAt(hit.index, a, b);
   for (const SourceOnFace& s : sourcesOn(hit.index)) {
+    const bool reaches = (lit & 1U) != 0U;
+    lit >>= 1U;
+    if (!reaches) continue;
     light += s.white.at(a, b) * sources_[static_cast<std::size_t>(s.source)].color();
   }
   // Windows and lamps shine through `sources_`; their own glow would count twice.

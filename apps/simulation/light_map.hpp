@@ -51,6 +51,8 @@ class LightMap {
   const std::vector<SourceOnFace>& sourcesOn(int face) const {
     return direct_[static_cast<std::size_t>(face)];
   }
+  /// Which of `sourcesOn(face)` reach the neighbourhood of a place on it, one bit each.
+  std::uint64_t sourcesAt(int face, float a, float b) const;
   /// Light that other surfaces throw on a face.
   Rgb bounced(int face, float a, float b) const {
     return bounced_[static_cast<std::size_t>(face)].at(a, b);
@@ -66,6 +68,7 @@ class LightMap {
     RoomLight light;
   };
 
+  void noteSources(const Geometry& geometry);
   void bakeDirect(const Geometry& geometry, const RayWorld& world);
   void bakeBounce(const Geometry& geometry, const RayWorld& world);
   void bakeProbes(const Geometry& geometry, const RayWorld& world, const FloorPlan& plan,
@@ -76,6 +79,7 @@ class LightMap {
 
   std::vector<LightSource> sources_;
   std::vector<std::vector<SourceOnFace>> direct_;
+  std::vector<FaceGrid<std::uint64_t>> near_;  // Coarse: bits of the sources that reach a square.
   std::vector<FaceGrid<Rgb>> bounced_;
   std::vector<Probe> probes_;
   Eigen::Vector2f probe_low_ = Eigen::Vector2f::Zero();

@@ -48,7 +48,9 @@ float LightSource::irradiance(std::size_t i, const Vector3f& p, const Vector3f& 
   const float square = std::max(to.squaredNorm(), 0.01F);
   const float distance = std::sqrt(square);
   float share = 1.0F / (4.0F * static_cast<float>(kPi));
-  if (!facing_.isZero()) {  // A window shines most straight into the room.
+  if (facing_.isZero()) {  // A lamp's shade keeps its light from the ceiling.
+    share *= std::clamp(0.3F + 4.0F * to.z() / distance, 0.0F, 1.0F);
+  } else {  // A window shines most straight into the room.
     share *= 4.0F * std::max(0.0F, -facing_.dot(to) / distance);
   }
   return power_ * share * cosine / (distance * square);

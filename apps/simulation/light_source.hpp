@@ -22,6 +22,8 @@ class LightSource {
   const std::vector<Eigen::Vector3f>& points() const { return points_; }
   /// How many of the points, from the first on, tell nearly as much as all.
   int firstPoints() const { return static_cast<int>(points_.size()) / 2; }
+  /// How many will do where shapes are round and small: one of a lamp, two of a window.
+  std::size_t pointsForBodies() const { return points_.size() / 3; }
   const Rgb& color() const { return color_; }
   const Eigen::Vector3f& center() const { return center_; }
   /// No point is further from the centre.
@@ -35,7 +37,7 @@ class LightSource {
   std::vector<Eigen::Vector3f> points_;
   Eigen::Vector3f center_;
   float reach_m_ = 0.0F;
-  Eigen::Vector3f facing_ = Eigen::Vector3f::Zero();  // Zero: shines to all sides.
+  Eigen::Vector3f facing_ = Eigen::Vector3f::Zero();  // Zero: a lamp.
   float power_ = 0.0F;                                // Of one point.
   Rgb color_;
 };

@@ -71,8 +71,8 @@ void attach(RTCScene scene, RTCGeometry geometry, unsigned id) {
   rtcReleaseGeometry(geometry);
 }
 
-RayHit makeHit(unsigned geometry, unsigned primitive, float distance, const Vector3f& normal,
-               const Vector3f& direction) {
+RayHit makeHit(const std::vector<Face>& faces, unsigned geometry, unsigned primitive,
+               float distance, const Vector3f& normal, const Vector3f& direction) {
   RayHit hit;
   if (geometry == RTC_INVALID_GEOMETRY_ID) return hit;
   hit.kind = geometry == kFaceId     ? RayHit::Kind::kFace
@@ -80,25 +80,20 @@ RayHit makeHit(unsigned geometry, unsigned primitive, float distance, const Vect
                                      : RayHit::Kind::kBody;
   hit.index = static_cast<int>(primitive);
   hit.distance = distance;
-  const Vector3f unit = normal.normalized();
+  // The normal of a face is known; those of round shapes come from the hit.
+  const Vector3f unit =
+      hit.kind == RayHit::Kind::kFace ? faces[primitive].normal : Vector3f(normal.normalized());
   hit.normal = unit.dot(direction) > 0.0F ? Vector3f(-unit) : unit;
   return hit;
 }
 
-/// An upright cylinder around one person.
-struct Around {
-  Eigen::Vector2f center = Eigen::Vector2f::Zero();
-  float radius_m = 0.0F;
-  float top_m = 0.0F;
-};
-
-std::vector<Around> surround(const std::vector<BodyPart>& parts) {
-  std::vector<Around> out;
+std::vector<PersonBounds> surround(const std::vector<BodyPart>& parts) {
+  std::vector<PersonBounds> out;
   int person = -1;
   for (const BodyPart& part : parts) {  // The first parts of a body are near its middle.
     if (part.person != person) out.push_back({part.a.head<2>(), 0.0F, 0.0F});
     person = part.person;
-    Around& around = out.back();
+    PersonBounds& around = out.back();
     for (const auto& [end, radius] : {std::pair(part.a, part.radius_a), {part.b, part.radius_b}}) {
       const float reach = (end.head<2>() - around.center).norm() + radius;
       around.radius_m = std::max(around.radius_m, reach);
@@ -108,12 +103,30 @@ std::vector<Around> surround(const std::vector<BodyPart>& parts) {
   return out;
 }
 
+/// Whether rays from `origin`, seen from above between `first` and `last`, may meet a person.
+bool mayMeet(const std::vector<PersonBounds>& people, const Vector3f& origin, const Vector3f& first,
+             const Vector3f& last) {
+  const Eigen::Vector2f a = first.head<2>(), b = last.head<2>();
+  if (a.squaredNorm() < 0.01F * first.squaredNorm()) return true;  // Nearly straight up or down.
+  const Eigen::Vector2f middle = (a.normalized() + b.normalized()).normalized();
+  const float half = (a.normalized() - middle).norm() * 1.1F;
+  if (half > 0.5F) return true;
+  for (const PersonBounds& person : people) {
+    const Eigen::Vector2f to = person.center - origin.head<2>();
+    const float reach = person.radius_m + half * to.norm();
+    const float ahead = to.dot(middle), beside = middle.x() * to.y() - middle.y() * to.x();
+    if (ahead > -reach && std::abs(beside) < reach) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 struct RayWorld::Scenes {
-  explicit Scenes(const Geometry& geometry) : device(rtcNewDevice(nullptr)) {
+  explicit Scenes(const Geometry& geometry) : faces(geometry.faces), device(rtcNewDevice(nullptr)) {
     if (device == nullptr) throw std::runtime_error("Embree can't start on this machine");
     still = rtcNewScene(device);
+    rtcSetSceneBuildQuality(still, RTC_BUILD_QUALITY_HIGH);
     attach(still, makeFaceGeometry(device, geometry.faces), kFaceId);
     if (!geometry.pillars.empty()) {
       attach(still, makePillarGeometry(device, geometry.pillars), kPillarId);
@@ -130,11 +143,12 @@ struct RayWorld::Scenes {
   Scenes(const Scenes&) = delete;
   Scenes& operator=(const Scenes&) = delete;
 
+  const std::vector<Face>& faces;
   RTCDevice device;
   RTCScene still = nullptr;
   RTCScene people = nullptr;
   std::vector<BodyPart> parts;
-  std::vector<Around> around;
+  std::vector<PersonBounds> around;
 };
 
 RayWorld::RayWorld(const Geometry& geometry) : scenes_(std::make_unique<Scenes>(geometry)) {}
@@ -169,7 +183,7 @@ RayHit RayWorld::trace(const Vector3f& origin, const Vector3f& direction, float 
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   if (target != RayTarget::kPeople) intersect1(scenes_->still, ray);
   if (target != RayTarget::kStill) intersect1(scenes_->people, ray);
-  return makeHit(ray.hit.geomID, ray.hit.primID, ray.ray.tfar,
+  return makeHit(scenes_->faces, ray.hit.geomID, ray.hit.primID, ray.ray.tfar,
                  {ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z}, direction);
 }
 
@@ -191,10 +205,12 @@ void RayWorld::trace(const Vector3f& origin, const Vector3f* directions, int cou
     rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
   }
   intersect8(valid, scenes_->still, rays);
-  if (!scenes_->parts.empty()) intersect8(valid, scenes_->people, rays);
+  if (mayMeet(scenes_->around, origin, directions[0], directions[count - 1])) {
+    intersect8(valid, scenes_->people, rays);
+  }
   for (int i = 0; i < count; ++i) {
     hits[static_cast<std::size_t>(i)] =
-        makeHit(rays.hit.geomID[i], rays.hit.primID[i], rays.ray.tfar[i],
+        makeHit(scenes_->faces, rays.hit.geomID[i], rays.hit.primID[i], rays.ray.tfar[i],
                 {rays.hit.Ng_x[i], rays.hit.Ng_y[i], rays.hit.Ng_z[i]}, directions[i]);
   }
 }
@@ -250,10 +266,16 @@ unsigned RayWorld::blocked(const Vector3f& from, const Vector3f* to, int count,
   return hidden;
 }
 
-bool RayWorld::peopleNear(const Vector3f& from, const Vector3f& to, float margin_m) const {
+const std::vector<PersonBounds>& RayWorld::people() const { return scenes_->around; }
+
+bool RayWorld::peopleNear(const Vector3f& from, const Vector3f& to, float margin_m,
+                          std::uint64_t who) const {
   const Eigen::Vector2f start = from.head<2>(), along = to.head<2>() - start;
   const float square = std::max(along.squaredNorm(), 1e-12F);
-  for (const Around& around : scenes_->around) {
+  for (const PersonBounds& around : scenes_->around) {
+    const bool counts = (who & 1U) != 0U;
+    who = who >> 1U | (who & std::uint64_t{1} << 63U);
+    if (!counts) continue;
     const float reach = around.radius_m + margin_m;
     const float t = std::clamp((around.center - start).dot(along) / square, 0.0F, 1.0F);
     if ((start + t * along - around.center).squaredNorm() > reach * reach) continue;

@@ -9,6 +9,7 @@
 #include "apps/simulation/geometry.hpp"
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -25,6 +26,13 @@ struct RayHit {
 
 /// The part of the world that a question is about.
 enum class RayTarget { kStill, kPeople, kAll };
+
+/// An upright cylinder around one person.
+struct PersonBounds {
+  Eigen::Vector2f center = Eigen::Vector2f::Zero();
+  float radius_m = 0.0F;
+  float top_m = 0.0F;
+};
 
 /// Ray queries by Embree. `const` members can be called from several threads at a time.
 class RayWorld {
@@ -44,7 +52,7 @@ class RayWorld {
   RayHit trace(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
                float max_distance = 1e9F, RayTarget target = RayTarget::kAll) const;
 
-  /// Traces up to 8 rays from one point.
+  /// Traces up to 8 rays from one point, neighbours in order from one side to the other.
   void trace(const Eigen::Vector3f& origin, const Eigen::Vector3f* directions, int count,
              std::array<RayHit, kPacket>& hits) const;
 
@@ -56,8 +64,12 @@ class RayWorld {
                    RayTarget target) const;
 
   /// Whether a person may be within `margin_m` of the line between two points; quick, and never
-  /// false where one is.
-  bool peopleNear(const Eigen::Vector3f& from, const Eigen::Vector3f& to, float margin_m) const;
+  /// false where one is. Only the people in `who` count: bit i is the i-th of those in the world.
+  bool peopleNear(const Eigen::Vector3f& from, const Eigen::Vector3f& to, float margin_m,
+                  std::uint64_t who = ~std::uint64_t{0}) const;
+
+  /// Upright cylinders around the people, in the order of their first parts.
+  const std::vector<PersonBounds>& people() const;
 
  private:
   struct Scenes;

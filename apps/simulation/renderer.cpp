@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -73,30 +74,62 @@ void renderRow(const RayWorld& world, const Shader& shader, const Lens& lens, in
   }
 }
 
+/// Whether two pixels show different surfaces, and light that a person could tell apart.
+bool isEdge(int key, int other_key, const cv::Vec3f& light, const cv::Vec3f& other_light) {
+  if (key == other_key) return false;
+  float difference = 0.0F, sum = 0.0F;
+  for (int i = 0; i < 3; ++i) {
+    difference = std::max(difference, std::abs(light[i] - other_light[i]));
+    sum = std::max(sum, light[i] + other_light[i]);
+  }
+  return difference > 0.12F * sum;
+}
+
+/// Marks the pixels of a row at which surfaces meet.
+void findEdges(const RenderedView& view, int v, std::vector<int>& edges) {
+  const int last_u = view.depth_m.cols - 1, last_v = view.depth_m.rows - 1;
+  const int rows[3] = {std::max(v - 1, 0), v, std::min(v + 1, last_v)};
+  const int* keys[3];
+  const cv::Vec3f* light[3];
+  for (int i = 0; i < 3; ++i) {
+    keys[i] = view.surface.ptr<int>(rows[i]);
+    light[i] = view.radiance.ptr<cv::Vec3f>(rows[i]);
+  }
+  edges.clear();
+  for (int u = 0; u <= last_u; ++u) {
+    const int before = std::max(u - 1, 0), after = std::min(u + 1, last_u);
+    const int key = keys[1][u];
+    const cv::Vec3f& here = light[1][u];
+    if (isEdge(key, keys[1][before], here, light[1][before]) ||
+        isEdge(key, keys[1][after], here, light[1][after]) ||
+        isEdge(key, keys[0][u], here, light[0][u]) || isEdge(key, keys[2][u], here, light[2][u])) {
+      edges.push_back(u);
+    }
+  }
+}
+
 /// Where surfaces meet, a pixel is the average of its centre and two more rays.
 void smoothRow(const RayWorld& world, const Shader& shader, const Lens& lens, int v,
-               RenderedView& view) {
+               const std::vector<int>& edges, RenderedView& view) {
   static constexpr float kOffsets[2][2] = {{-0.34F, -0.17F}, {0.34F, 0.17F}};
-  const int last_u = view.depth_m.cols - 1, last_v = view.depth_m.rows - 1;
-  const auto* above = view.surface.ptr<int>(std::max(v - 1, 0));
-  const auto* here = view.surface.ptr<int>(v);
-  const auto* below = view.surface.ptr<int>(std::min(v + 1, last_v));
+  constexpr std::size_t kPixels = RayWorld::kPacket / 2;
   auto* radiance = view.radiance.ptr<cv::Vec3f>(v);
-  for (int u = 0; u <= last_u; ++u) {
-    const int key = here[u];
-    if (above[u] == key && below[u] == key && here[std::max(u - 1, 0)] == key &&
-        here[std::min(u + 1, last_u)] == key) {
-      continue;
+  std::array<Vector3f, RayWorld::kPacket> directions;
+  std::array<RayHit, RayWorld::kPacket> hits;
+  NearbyShadow shadow;
+  for (std::size_t first = 0; first < edges.size(); first += kPixels) {
+    const std::size_t pixels = std::min(kPixels, edges.size() - first);
+    for (std::size_t i = 0; i < 2 * pixels; ++i) {
+      directions[i] = lens.direction(static_cast<float>(edges[first + i / 2]) + kOffsets[i % 2][0],
+                                     static_cast<float>(v) + kOffsets[i % 2][1]);
     }
-    Rgb sum = Rgb::Zero();
-    NearbyShadow shadow;
-    for (const auto& offset : kOffsets) {
-      const Vector3f direction =
-          lens.direction(static_cast<float>(u) + offset[0], static_cast<float>(v) + offset[1]);
-      sum +=
-          shader.radiance(lens.ray(direction), world.trace(lens.origin, direction), shadow, true);
+    world.trace(lens.origin, directions.data(), static_cast<int>(2 * pixels), hits);
+    for (std::size_t i = 0; i < 2 * pixels; i += 2) {
+      const Rgb sum = shader.radiance(lens.ray(directions[i]), hits[i], shadow, false) +
+                      shader.radiance(lens.ray(directions[i + 1]), hits[i + 1], shadow, true);
+      cv::Vec3f& pixel = radiance[edges[first + i / 2]];
+      pixel = (pixel + toBgr(sum)) / 3.0F;
     }
-    radiance[u] = (radiance[u] + toBgr(sum)) / 3.0F;
   }
 }
 
@@ -120,7 +153,13 @@ void renderView(const RayWorld& world, const Shader& shader, const PinholeCamera
       renderRow(world, shader, lens, v, shadows, view);
     }
   });
-  tbb::parallel_for(0, camera.height, [&](int v) { smoothRow(world, shader, lens, v, view); });
+  // First all edges, then their smoothing: rows must not see neighbours that are smoothed already.
+  std::vector<std::vector<int>> edges(static_cast<std::size_t>(camera.height));
+  tbb::parallel_for(0, camera.height,
+                    [&](int v) { findEdges(view, v, edges[static_cast<std::size_t>(v)]); });
+  tbb::parallel_for(0, camera.height, [&](int v) {
+    smoothRow(world, shader, lens, v, edges[static_cast<std::size_t>(v)], view);
+  });
 }
 
 }  // namespace heel

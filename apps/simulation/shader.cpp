@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace heel {
 namespace {
@@ -13,8 +14,10 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr float kPi = 3.14159265F;
+constexpr float kPerPi = 1.0F / kPi;
 constexpr float kOffSurface_m = 0.003F;
-constexpr float kNegligible = 2e-3F;  // Irradiance that no picture shows.
+constexpr float kFaintShadow = 0.04F;  // Share of the light that is not missed.
+constexpr float kNegligible = 2e-3F;   // Irradiance that no picture shows.
 
 /// How much of a pixel is on odd stripes: a square wave of period 2, averaged over `footprint`.
 float stripeShare(float x, float footprint) {
@@ -27,12 +30,14 @@ float stripeShare(float x, float footprint) {
   return share + (0.5F - share) * blurred;
 }
 
-/// A highlight of Blinn's form, with about the same energy for all powers.
-float highlight(const Vector3f& to_light, const Vector3f& to_eye, const Vector3f& normal,
-                float power) {
-  const float cosine = normal.dot((to_light + to_eye).normalized());
-  if (cosine < 1.0F - 6.0F / power) return 0.0F;  // Under a three-hundredth of the peak.
-  return std::pow(cosine, power) * (power + 8.0F) / (8.0F * kPi);
+/// A highlight of Phong's form, with about the same energy for all powers.
+/// @param mirrored  Where the eye's ray goes on to, unit length.
+float highlight(const Vector3f& mirrored, const Vector3f& to_light, float power) {
+  const float along = mirrored.dot(to_light);
+  const float square = to_light.squaredNorm();
+  const float least = 1.0F - 6.0F / power;  // A three-hundredth of the peak is not worth a root.
+  if (along <= 0.0F || along * along < least * std::abs(least) * square) return 0.0F;
+  return std::pow(along / std::sqrt(square), power) * (power + 2.0F) / (2.0F * kPi);
 }
 
 float footprintOf(const ShadedRay& ray, const RayHit& hit) {
@@ -62,6 +67,7 @@ Shader::Shader(const Scene& scene, const Geometry& geometry, const RayWorld& wor
                        face.edge_v / face.edge_v.squaredNorm(), face.edge_u.norm(),
                        face.edge_v.norm()});
   }
+  peopleHaveMoved();
 }
 
 Rgb Shader::radiance(const ShadedRay& ray, const RayHit& hit, NearbyShadow& shadow,
@@ -93,27 +99,36 @@ Rgb Shader::faceRadiance(const ShadedRay& ray, const RayHit& hit, const Vector3f
   const float tile_m = material.fit_height ? frame.length_v : material.tile_m;
   const Rgb albedo = face.tint * material.texture.sample(u, v, footprintOf(ray, hit) / tile_m);
   if (material.glow > 0.0F) return material.glow * albedo;
+  const std::vector<SourceOnFace>& sources = lights_.sourcesOn(hit.index);
+  const std::uint64_t lit = lights_.sourcesAt(hit.index, a, b);
+  std::array<float, 64> white;
   Rgb light = lights_.bounced(hit.index, a, b);
-  Rgb shine = Rgb::Zero();
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    white[i] = (lit >> i & 1U) != 0U ? sources[i].white.at(a, b) : 0.0F;
+    if (white[i] > kNegligible)
+      light += white[i] * lights_.sources()[static_cast<std::size_t>(sources[i].source)].color();
+  }
+  // Only a source that matters here is asked whether people stand before it.
+  const float matters = std::max(kNegligible, kFaintShadow * light.maxCoeff());
   const bool share = share_shadow && shadow.face == hit.index;
   shadow.face = hit.index;
-  std::size_t place = 0;
-  for (const SourceOnFace& s : lights_.sourcesOn(hit.index)) {
-    float& seen = shadow.seen[place++ % shadow.seen.size()];
-    float white = s.white.at(a, b);
-    if (white < kNegligible && !share) seen = 1.0F;
-    if (white < kNegligible) continue;
-    const LightSource& source = lights_.sources()[static_cast<std::size_t>(s.source)];
-    if (!share) seen = notShaded(source, p + kOffSurface_m * face.normal);
-    white *= seen;
-    light += white * source.color();
-    if (material.gloss > 0.0F) {
-      shine += white * source.color() *
-               highlight((source.points()[0] - p).normalized(), -ray.direction.normalized(),
-                         hit.normal, material.gloss_power);
+  Rgb shine = Rgb::Zero();
+  const Vector3f mirrored =
+      (ray.direction - 2.0F * ray.direction.dot(face.normal) * face.normal).normalized();
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    float& seen = shadow.seen[i];
+    if (!share) seen = 1.0F;
+    if (white[i] < matters) continue;
+    const auto s = static_cast<std::size_t>(sources[i].source);
+    const LightSource& source = lights_.sources()[s];
+    if (!share) seen = notShaded(s, p + kOffSurface_m * face.normal);
+    if (seen < 1.0F) light -= (1.0F - seen) * white[i] * source.color();
+    if (material.gloss > 0.0F && seen > 0.0F) {
+      shine += seen * white[i] * source.color() *
+               highlight(mirrored, source.points()[0] - p, 0.25F * material.gloss_power);
     }
   }
-  return albedo * light / kPi + material.gloss * shine;
+  return albedo * light * kPerPi + material.gloss * shine;
 }
 
 Rgb Shader::pillarRadiance(const ShadedRay& ray, const RayHit& hit, const Vector3f& p) const {
@@ -126,13 +141,13 @@ Rgb Shader::pillarRadiance(const ShadedRay& ray, const RayHit& hit, const Vector
   const Rgb albedo = pillar.tint * material.texture.sample(u / material.tile_m, v / material.tile_m,
                                                            footprintOf(ray, hit) / material.tile_m);
   if (material.glow > 0.0F) return material.glow * albedo;
-  return albedo * lightInRoom(p + kOffSurface_m * hit.normal, hit.normal) / kPi;
+  return albedo * lightInRoom(p + kOffSurface_m * hit.normal, hit.normal) * kPerPi;
 }
 
 Rgb Shader::bodyRadiance(const ShadedRay& ray, const RayHit& hit, const Vector3f& p) const {
   const BodyPart& part = world_.bodyParts()[static_cast<std::size_t>(hit.index)];
   const Rgb albedo = bodyColor(part, p, footprintOf(ray, hit));
-  return albedo * lightInRoom(p + 2.0F * kOffSurface_m * hit.normal, hit.normal) / kPi;
+  return albedo * lightInRoom(p + 2.0F * kOffSurface_m * hit.normal, hit.normal) * kPerPi;
 }
 
 Rgb Shader::bodyColor(const BodyPart& part, const Vector3f& p, float footprint_m) const {
@@ -186,11 +201,13 @@ Rgb Shader::lightInRoom(const Vector3f& p, const Vector3f& normal) const {
   };
   const std::vector<LightSource>& sources = lights_.sources();
   for (std::size_t s = 0; s < std::min(sources.size(), room.open.size()); ++s) {
-    // Two of a source's points are enough for the rounded shapes of bodies.
-    for (std::size_t i = 0; i < 2; ++i) {
-      const float white = room.open[s] * 0.5F * static_cast<float>(sources[s].points().size()) *
-                          sources[s].irradiance(i, p, normal);
-      if (white < kNegligible) continue;
+    // A few of a source's points are enough for the rounded shapes of bodies.
+    const std::size_t some = sources[s].pointsForBodies();
+    const float share =
+        room.open[s] * static_cast<float>(sources[s].points().size()) / static_cast<float>(some);
+    for (std::size_t i = 0; i < some; ++i) {
+      const float white = share * sources[s].irradiance(i, p, normal);
+      if (white < 3.0F * kNegligible) continue;
       points[static_cast<std::size_t>(count)] = sources[s].points()[i];
       falling[static_cast<std::size_t>(count++)] = white * sources[s].color();
       if (count == RayWorld::kPacket) add_what_arrives();
@@ -200,8 +217,23 @@ Rgb Shader::lightInRoom(const Vector3f& p, const Vector3f& normal) const {
   return light;
 }
 
-float Shader::notShaded(const LightSource& source, const Vector3f& p) const {
-  if (!world_.peopleNear(p, source.center(), source.reach_m())) return 1.0F;
+void Shader::peopleHaveMoved() {
+  lit_people_.assign(lights_.sources().size(), 0);
+  const std::vector<PersonBounds>& people = world_.people();
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    // Whom no light of a lamp reaches throws no shadow of it. Beyond 63 people all share one bit.
+    const std::uint64_t bit = std::uint64_t{1} << std::min(i, std::size_t{63});
+    const RoomLight room = lights_.inRoom({people[i].center.x(), people[i].center.y(), 1.0F});
+    for (std::size_t s = 0; s < lit_people_.size(); ++s) {
+      if (s >= room.open.size() || room.open[s] > 0.0F) lit_people_[s] |= bit;
+    }
+  }
+}
+
+float Shader::notShaded(std::size_t source_index, const Vector3f& p) const {
+  const std::uint64_t who = lit_people_[source_index];
+  const LightSource& source = lights_.sources()[source_index];
+  if (who == 0 || !world_.peopleNear(p, source.center(), source.reach_m(), who)) return 1.0F;
   // Some of the points first; the others only where those do not agree (at a shadow's soft edge).
   const std::vector<Vector3f>& points = source.points();
   const int all = static_cast<int>(points.size()), some = source.firstPoints();

@@ -8,6 +8,7 @@
 #include "apps/simulation/light_map.hpp"
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace heel {
@@ -22,7 +23,7 @@ struct ShadedRay {
 /// People's shadows at the ray before, for a neighbour on the same face to share.
 struct NearbyShadow {
   int face = -1;
-  std::array<float, 16> seen{};  ///< The share of each of the face's sources.
+  std::array<float, 64> seen;  ///< The share of each of the face's sources.
 };
 
 /// Colours hits. Reads the ray world's people of the moment; `const` members are thread-safe.
@@ -31,6 +32,9 @@ class Shader {
   /// All arguments must outlive this.
   Shader(const Scene& scene, const Geometry& geometry, const RayWorld& world,
          const LightMap& lights);
+
+  /// To be called when the world's people have changed.
+  void peopleHaveMoved();
 
   /// Radiance that comes back from `hit`; black where there is nothing.
   ///
@@ -58,13 +62,14 @@ class Shader {
   /// How many of a source's points people do not hide from `p`.
   int countSeen(const Eigen::Vector3f& p, const Eigen::Vector3f* points, int count) const;
   /// The share of a source that people do not keep from `p`.
-  float notShaded(const LightSource& source, const Eigen::Vector3f& p) const;
+  float notShaded(std::size_t source, const Eigen::Vector3f& p) const;
 
   const Scene& scene_;
   const Geometry& geometry_;
   const RayWorld& world_;
   const LightMap& lights_;
   std::vector<FaceFrame> frames_;
+  std::vector<std::uint64_t> lit_people_;  // For each source, whom its light reaches, one bit each.
   Texture weave_;
   Texture folds_;
 };

@@ -3,6 +3,7 @@
 
 #include "apps/simulation/simulator.hpp"
 
+#include <tbb/info.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -50,7 +51,8 @@ struct Simulator::State {
   State(Scene scene_in, const SimulatorOptions& options_in)
       : scene(std::move(scene_in)),
         options(options_in),
-        arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic),
+        arena(options.threads > 0 ? std::min(options.threads, tbb::info::default_concurrency())
+                                  : tbb::task_arena::automatic),
         plan(scene),
         geometry(makeGeometry(scene)),
         world(geometry),
@@ -135,6 +137,7 @@ void Simulator::State::placeBodies() {
     appendBody(scene.people[i], static_cast<int>(i), walkers[i].pose(), parts);
   }
   world.setPeople(std::move(parts));
+  if (shader) shader->peopleHaveMoved();
 }
 
 void Simulator::State::render() {

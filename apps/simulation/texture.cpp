@@ -9,6 +9,15 @@
 #include <cmath>
 
 namespace heel {
+namespace {
+
+/// As std::floor, which is slow where the processor's own rounding may not be used (SSE2).
+int floorOf(float x) {
+  const int towards_zero = static_cast<int>(x);
+  return towards_zero - (static_cast<float>(towards_zero) > x ? 1 : 0);
+}
+
+}  // namespace
 
 Texture::Texture(int size, const std::function<Rgb(float, float)>& paint) : size_(size) {
   levels_.emplace_back(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
@@ -38,11 +47,11 @@ Texture::Texture(int size, const std::function<Rgb(float, float)>& paint) : size
 Texture::Texel Texture::bilinear(std::size_t level, float u, float v) const {
   const int n = size_ >> level;
   const float x = u * static_cast<float>(n) - 0.5F, y = v * static_cast<float>(n) - 0.5F;
-  const float fx = std::floor(x), fy = std::floor(y);
-  const float wx = x - fx, wy = y - fy;
+  const int ix = floorOf(x), iy = floorOf(y);
+  const float wx = x - static_cast<float>(ix), wy = y - static_cast<float>(iy);
   const unsigned mask = static_cast<unsigned>(n) - 1U;
-  const unsigned x0 = static_cast<unsigned>(static_cast<int>(fx)) & mask, x1 = (x0 + 1U) & mask;
-  const unsigned y0 = static_cast<unsigned>(static_cast<int>(fy)) & mask, y1 = (y0 + 1U) & mask;
+  const unsigned x0 = static_cast<unsigned>(ix) & mask, x1 = (x0 + 1U) & mask;
+  const unsigned y0 = static_cast<unsigned>(iy) & mask, y1 = (y0 + 1U) & mask;
   const Texel* texels = levels_[level].data();
   const unsigned width = mask + 1U;
   const Texel upper = texels[y0 * width + x0] * (1.0F - wx) + texels[y0 * width + x1] * wx;
@@ -59,6 +68,8 @@ Rgb Texture::sample(float u, float v, float footprint) const {
   const std::size_t last = levels_.size() - 1;
   const std::size_t fine = std::min(static_cast<std::size_t>(exponent - 1), last);
   const std::size_t coarse = std::min(fine + 1, last);
+  if (weight < 0.1F) return bilinear(fine, u, v).head<3>();
+  if (weight > 0.9F) return bilinear(coarse, u, v).head<3>();
   return (bilinear(fine, u, v) * (1.0F - weight) + bilinear(coarse, u, v) * weight).head<3>();
 }
 

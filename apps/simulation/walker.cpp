@@ -19,6 +19,7 @@ constexpr double kTurnRate_radps = 3.0;
 constexpr double kAcceleration_mps2 = 2.0;
 constexpr double kForesight_s = 2.0;
 constexpr double kBodyToWall_m = 0.2;
+constexpr double kGivesUp_s = 10.0;  // Someone who can't get to a place goes to the next.
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * kPi); }
 
@@ -63,7 +64,10 @@ void Walker::step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& 
         if (waited_s_ >= now.wait_s - 1e-9) finishStep();
         break;
       case PathStep::Kind::kWaitForRobot:
-        if ((robot - pose_.position).norm() <= now.robot_within_m) finishStep();
+        waited_s_ += dt_s;
+        if ((robot - pose_.position).norm() <= now.robot_within_m || waited_s_ >= now.patience_s) {
+          finishStep();
+        }
         break;
       case PathStep::Kind::kFace: {
         const double yaw = std::atan2(way.y(), way.x());
@@ -73,8 +77,14 @@ void Walker::step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& 
       }
     }
   }
-  if (!wanted.isZero()) wanted = chooseVelocity(wanted, plan, others);
+  const bool walks = !wanted.isZero();
+  if (walks) wanted = chooseVelocity(wanted, plan, others);
   move(dt_s, wanted);
+  stuck_s_ = walks && velocity_.norm() < 0.1 ? stuck_s_ + dt_s : std::max(stuck_s_ - dt_s, 0.0);
+  if (stuck_s_ > kGivesUp_s) {
+    stuck_s_ = 0.0;
+    finishStep();
+  }
 }
 
 Vector2d Walker::chooseVelocity(const Vector2d& wanted, const FloorPlan& plan,
@@ -90,6 +100,7 @@ Vector2d Walker::chooseVelocity(const Vector2d& wanted, const FloorPlan& plan,
       const Vector2d velocity = pace * (Eigen::Rotation2Dd(turn) * wanted);
       // People keep right when they can: a little more is paid for a turn to the left.
       double cost = (velocity - wanted).norm() / speed + (turn > 0.0 ? 0.08 : 0.0);
+      if (pace == 0.0) cost += 0.4 * stuck_s_;  // Nobody waits for ever.
       for (const Mover& other : others) {
         const double touch = timeToTouch(other.position - pose_.position, other.velocity - velocity,
                                          other.radius_m + kRadius_m);

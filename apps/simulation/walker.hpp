@@ -51,6 +51,7 @@ class Walker {
   Eigen::Vector2d velocity_ = Eigen::Vector2d::Zero();
   std::size_t step_ = 0;
   double waited_s_ = 0.0;
+  double stuck_s_ = 0.0;  // How long somebody has been in the way.
 };
 
 }  // namespace heel

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/recording.hpp"
 #include "apps/simulation/simulate.hpp"
 
+#include "apps/recording/recording.hpp"
 #include "tests/simulation/scenes.hpp"
 
 #include <gmock/gmock.h>
