@@ -18,7 +18,9 @@ if(HEEL_SANITIZE)
   # dynamic vectors; malloc's memory is aligned well enough.
   target_compile_definitions(heel_flags INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
   target_compile_options(heel_flags INTERFACE
-    -fsanitize=${HEEL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    -fsanitize=${HEEL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
+    # Instrumented code makes gcc see uninitialized values in the standard library itself.
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(heel_flags INTERFACE -fsanitize=${HEEL_SANITIZE})
 endif()
 

@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::int16_t kNone = -kDisparityScale;
 
-void require(bool holds, const std::string& rule) {
-  if (!holds) throw std::invalid_argument("StereoMatcher: " + rule);
+void require(bool holds, const char* rule) {
+  if (!holds) throw std::invalid_argument(std::string("StereoMatcher: ") + rule);
 }
 
 StereoMatcherParams checked(const StereoMatcherParams& p) {
@@ -86,20 +86,22 @@ MaskedMatch StereoMatcher::match(const cv::Mat& left, const cv::Mat& right, cons
   MaskedMatch result{support.wanted, support.kept, 0};
 
   cv::dilate(supported_, grown_, margin_);
-  cv::copyMakeBorder(grown_, grown_, 0, 0, params_.disparities, 0, cv::BORDER_CONSTANT);
-  masked_.compute(left_, right_, grown_, fixed_);
+  cv::copyMakeBorder(grown_, wanted_, 0, 0, params_.disparities, 0, cv::BORDER_CONSTANT);
+  masked_.compute(left_, right_, wanted_, fixed_);
 
   // What cv::StereoSGBM does after matching.
   const cv::Rect bounds = masked_.bounds();
   if (!bounds.empty()) {
     const cv::Rect around(bounds.x - 1, bounds.y - 1, bounds.width + 2, bounds.height + 2);
-    cv::Mat matched = fixed_(around & cv::Rect({}, fixed_.size()));
-    cv::medianBlur(matched, filtered_, 3);
+    const cv::Rect inside = around & cv::Rect({}, fixed_.size());
+    filtered_.create(fixed_.size(), fixed_.type());  // whole, for the next frame's bounds differ
+    cv::Mat filtered = filtered_(inside);
+    cv::medianBlur(fixed_(inside), filtered, 3);
     if (params_.speckle_size > 0) {
-      cv::filterSpeckles(filtered_, kNone, params_.speckle_size,
+      cv::filterSpeckles(filtered, kNone, params_.speckle_size,
                          params_.speckle_range * kDisparityScale, speckle_buffer_);
     }
-    filtered_.copyTo(matched);
+    filtered.copyTo(fixed_(inside));
   }
   pixels_.find(supported_);
   result.matched = finish(pixels_, disparity);

@@ -64,7 +64,7 @@ class StereoMatcher {
   MaskedSgm masked_;
   cv::Mat margin_;
   cv::Mat grey_, left_, right_;  // left_ and right_ are continued at the left by `disparities`
-  cv::Mat supported_, grown_, fixed_, filtered_, speckle_buffer_;
+  cv::Mat supported_, grown_, wanted_, fixed_, filtered_, speckle_buffer_;
   std::vector<int> cells_;
   RowSpans pixels_;
 };

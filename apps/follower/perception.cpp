@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <stdexcept>
 
 namespace heel {
 namespace {
@@ -61,6 +62,7 @@ Perception::Perception(const CameraSetup& setup, const AppearanceModel& model,
       params_(params),
       matcher_(params.stereo),
       whole_cloud_(new ColorCloud),
+      all_points_(new pcl::Indices),
       candidates_(new pcl::Indices),
       in_band_(new pcl::Indices),
       plan_view_(params.plan_view, {setup.T_base_camera.translation(),
@@ -77,6 +79,9 @@ const PerceptionStep& Perception::step(const Frame& frame, const StageDone& done
   const auto finished = [&done](Stage stage) {
     if (done) done(stage);
   };
+  if (sensor_ == SensorKind::kCloud ? frame.cloud == nullptr : frame.image_bgr.empty()) {
+    throw std::invalid_argument("Perception: the frame has not what the sensor gives");
+  }
   step_.stamp_s = frame.stamp_s;
 
   filterColors(frame);
@@ -103,9 +108,14 @@ const PerceptionStep& Perception::step(const Frame& frame, const StageDone& done
 // A pixel's colour alone decides (section 3.1); where there is no image, a point's.
 void Perception::filterColors(const Frame& frame) {
   if (frame.image_bgr.empty()) {
-    pcl::transformPointCloud(*frame.cloud, *whole_cloud_, T_base_camera_.matrix().cast<float>());
+    *whole_cloud_ = *frame.cloud;  // copied first: from an empty cloud, PCL would print a warning
+    pcl::transformPointCloud(*whole_cloud_, *whole_cloud_, T_base_camera_.matrix().cast<float>());
     filter_.setInputCloud(whole_cloud_);
-    filter_.setIndices(pcl::IndicesPtr());
+    for (auto n = all_points_->size(); n < whole_cloud_->size(); ++n) {
+      all_points_->push_back(static_cast<pcl::index_t>(n));
+    }
+    all_points_->resize(whole_cloud_->size());
+    filter_.setIndices(all_points_);
     filter_.setTable(any_band_);
     filter_.filter(*candidates_);
     step_.mask.release();
@@ -176,8 +186,8 @@ double Perception::appearanceOf(const WorldBlob& blob, const Frame& frame) const
 }
 
 // Silence is what users of trackers complain of most: name the first stage that left nothing.
-std::string Perception::whyNotSeen() const {
-  if (step_.target.status == TargetStatus::kFollowed) return {};
+const char* Perception::whyNotSeen() const {
+  if (step_.target.status == TargetStatus::kFollowed) return "";
   if (step_.color_pixels == 0) return "no pixel has the target's colours";
   if (step_.color_points == 0) return "no pixel of the target's colours has a depth";
   if (step_.standing.empty()) return "the target's colours are not at a person's height";

@@ -80,7 +80,9 @@ class Perception {
   void startAt(const Eigen::Vector2d& position_m) { tracker_.startAt(position_m); }
 
   /// Stamps need not be regular; one that is not later than the last is skipped by the tracker.
-  /// @throws std::invalid_argument  if the frame's images do not fit each other.
+  /// @throws std::invalid_argument  if the frame has not what the sensor gives, or its images do
+  /// not
+  ///         fit each other.
   const PerceptionStep& step(const Frame& frame, const StageDone& done = {});
 
   const std::vector<Track>& tracks() const { return tracker_.tracker().tracks(); }
@@ -92,7 +94,7 @@ class Perception {
   void keepStanding();
   void findCandidates(const Frame& frame);
   double appearanceOf(const WorldBlob& blob, const Frame& frame) const;
-  std::string whyNotSeen() const;
+  const char* whyNotSeen() const;
 
   SensorKind sensor_;
   StereoCamera camera_;
@@ -105,6 +107,7 @@ class Perception {
   cv::Mat disparity_, depth_m_;
   MaskedCloud masked_cloud_;
   ColorCloud::Ptr whole_cloud_;
+  pcl::IndicesPtr all_points_;  // of an unorganized cloud
   pcl::IndicesPtr candidates_;
   std::vector<HeightCrop> height_crops_;  // one a band
   AppearanceFilter<pcl::PointXYZRGB> filter_;

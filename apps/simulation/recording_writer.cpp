@@ -126,7 +126,8 @@ void RecordingWriter::writeImage(const std::string& folder, const cv::Mat& image
   const fs::path file = partial_ / folder / format("%06zu.png", frames_);
   encoding_.run([file, image] {
     std::vector<std::uint8_t> bytes;
-    if (!cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 1})) {
+    // Without a level OpenCV takes its fastest, which is also the smaller for noisy pictures.
+    if (!cv::imencode(".png", image, bytes)) {
       throw std::runtime_error(file.string() + ": can't be encoded");
     }
     writeFile(file, bytes);

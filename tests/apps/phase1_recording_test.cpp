@@ -6,6 +6,7 @@
 
 #include "apps/follower/acquisition.hpp"
 #include "apps/recording/recording.hpp"
+#include "cloud/ground_plane.hpp"
 #include "tests/support/data.hpp"
 #include "tracking/clear_mot.hpp"
 
@@ -179,6 +180,18 @@ TEST(Phase1OnFivePeople, FindsFiveBlobsOfAPersonsHeightWhereTheyStand) {
   Frame frame;
   ASSERT_TRUE(recording->next(frame));
   expectTheFive(*frame.cloud, kKnownFloor);
+}
+
+TEST(Phase1OnFivePeople, FindsTheSameFiveOverTheEstimatedFloor) {
+  HEEL_NEED_DATA("clouds/five_people.pcd");
+  const auto recording = openRecording(test::dataFolder() / "clouds" / "five_people.pcd");
+  Frame frame;
+  ASSERT_TRUE(recording->next(frame));
+  GroundPlaneEstimator estimator;
+  estimator.add(*frame.cloud);
+  const auto found = estimator.estimate();
+  ASSERT_TRUE(found);
+  expectTheFive(*frame.cloud, {-found->plane.head<3>(), -found->plane.w()});
 }
 
 TEST(Phase1OnFivePeople, BearsAFloorThatIsNotQuiteRight) {

@@ -2,49 +2,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// Counts allocations, to show that the tracker makes none once it is warm.
+/// The tracker allocates nothing once it is warm.
+#include "tests/support/allocation_count.hpp"
 #include "tracking/target.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <new>
 #include <vector>
-
-namespace {
-
-long allocations = 0;
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++allocations;
-  const auto align = static_cast<std::size_t>(alignment);
-  if (void* memory = std::aligned_alloc(align, (size + align - 1) / align * align)) {
-    return memory;
-  }
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
 namespace heel {
 namespace {
 
 TEST(Allocation, IsSeenByThisTest) {
-  const long before = allocations;
+  const long before = test::allocations();
   const std::vector<int> control(10);
-  EXPECT_EQ(allocations, before + 1);
+  EXPECT_EQ(test::allocations(), before + 1);
 }
 
 TEST(Allocation, TrackingMakesNoneOnceWarm) {
@@ -60,11 +33,11 @@ TEST(Allocation, TrackingMakesNoneOnceWarm) {
       }
     }
     if (k == 300) {
-      before = allocations;
+      before = test::allocations();
     }
     target.step(0.1 * k, all);
   }
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::allocations(), before);
 }
 
 }  // namespace
