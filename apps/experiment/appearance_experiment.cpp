@@ -19,6 +19,8 @@
 namespace heel {
 namespace {
 
+constexpr double kEnters_s = 1.2;  // So long people take into view.
+
 using Models = std::vector<std::optional<AppearanceModel>>;
 
 /// The points whose pixels are surely the person's.
@@ -69,9 +71,17 @@ bool isNear(const Eigen::Vector2d& a, const std::optional<Eigen::Vector2d>& b, d
   return b && (a - *b).norm() <= distance_m;
 }
 
+/// With what the map of the recording's room rules out.
+PerceptionParams perceptionParams(const SimulatedFrames& recording,
+                                  const AppearanceExperimentParams& params) {
+  PerceptionParams result = params.perception;
+  result.gate = recording.gate;
+  return result;
+}
+
 DetectionRun look(const SimulatedFrames& recording, const AppearanceModel& model,
                   const AppearanceExperimentParams& params) {
-  Perception perception(recording.setup, model, params.perception);
+  Perception perception(recording.setup, model, perceptionParams(recording, params));
   DetectionRun run;
   for (const SimulatedFrame& now : recording.frames) {
     const PerceptionStep& step = perception.step(now.frame);
@@ -121,7 +131,7 @@ double blobScoreAt(const Eigen::Vector2d& place, const std::vector<Observation>&
 /// Which two of the recording's people `target` and `other` are.
 PairTest comparePair(const SimulatedFrames& recording, std::size_t target, std::size_t other,
                      const AppearanceModel& model, const AppearanceExperimentParams& params) {
-  Perception perception(recording.setup, model, params.perception);
+  Perception perception(recording.setup, model, perceptionParams(recording, params));
   PairTest test;
   const double reach_m = params.place_error_m;
   for (const SimulatedFrame& now : recording.frames) {
@@ -191,8 +201,8 @@ class Experiment {
     const SimulatedFrames empty = renderFrames(room, span);
     for (std::size_t i = 0; i < size_; ++i) {
       span.seed = seedFor(1, i);
-      span.from_s = params_.empty_s;
-      span.to_s = params_.empty_s + params_.person_s + 1.0;
+      span.from_s = params_.empty_s + kEnters_s;
+      span.to_s = span.from_s + params_.person_s;
       const SimulatedFrames person =
           renderFrames(rooms_.acquisition(wardrobe_.people[i], params_.empty_s, span.seed), span);
       Lesson lesson(empty.setup, params_);
@@ -207,7 +217,8 @@ class Experiment {
 
   void recordTrials() {
     SimulatedFramesParams span;
-    span.to_s = params_.trial_s;
+    span.from_s = kEnters_s;
+    span.to_s = kEnters_s + params_.trial_s;
     for (std::size_t i = 0; i < size_; ++i) {
       span.seed = seedFor(2, i);
       trials_.push_back(renderFrames(rooms_.trial({wardrobe_.people[i]}, span.seed), span));
@@ -250,7 +261,8 @@ class Experiment {
 
   SimulatedFrames recordPair(std::size_t a, std::size_t b) const {
     SimulatedFramesParams span;
-    span.to_s = params_.trial_s;
+    span.from_s = kEnters_s;
+    span.to_s = kEnters_s + params_.trial_s;
     span.seed = seedFor(3, a * size_ + b);
     return renderFrames(rooms_.trial({wardrobe_.people[a], wardrobe_.people[b]}, span.seed), span);
   }

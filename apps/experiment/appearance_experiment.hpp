@@ -25,8 +25,8 @@ namespace heel {
 /// of them.
 struct AppearanceExperimentParams {
   double empty_s = 5.0;
-  double person_s = 8.0;       ///< How long the person is learned.
-  double trial_s = 7.0;        ///< Length of the other recordings.
+  double person_s = 6.0;       ///< How long the person is learned.
+  double trial_s = 4.0;        ///< Length of the other recordings.
   double place_error_m = 0.5;  ///< How far "at the person's place" reaches.
   /// A person counts as detected when the target was followed (TargetStatus::kFollowed, which takes
   /// a track confirmed over several frames) at their place in this share of the frames that have

@@ -3,6 +3,7 @@
 
 #include "apps/experiment/simulated_frames.hpp"
 
+#include "apps/experiment/scene_gate.hpp"
 #include "apps/simulation/simulator.hpp"
 
 #include <array>
@@ -41,6 +42,7 @@ SimulatedFrames renderFrames(const Scene& scene, const SimulatedFramesParams& pa
   result.setup.camera = simulator.camera();
   result.setup.T_base_camera = simulator.T_base_camera();
   result.setup.is_configured = true;
+  result.gate = mapGate(scene, simulator.camera());
   const double step_s = 1.0 / scene.robot.camera.rate_hz;
   const auto count = std::lround(std::ceil((params.to_s - params.from_s) / step_s - 1e-6));
   for (long i = 0; i < count; ++i) {

@@ -8,6 +8,7 @@
 #include "apps/follower/camera_setup.hpp"
 #include "apps/recording/frame.hpp"
 #include "apps/simulation/scene.hpp"
+#include "tracking/geometric_gate.hpp"
 
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
@@ -38,6 +39,7 @@ struct SimulatedFramesParams {
 /// A robot that stands still and looks.
 struct SimulatedFrames {
   CameraSetup setup;
+  GeometricGate gate;  ///< What the map says, see mapGate().
   std::vector<SimulatedFrame> frames;
 };
 
