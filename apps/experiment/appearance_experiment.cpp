@@ -208,8 +208,8 @@ class Experiment {
       Lesson lesson(empty.setup, params_);
       for (const SimulatedFrame& now : empty.frames) lesson.add(now.frame);
       for (const SimulatedFrame& now : person.frames) lesson.add(now.frame);
-      result_.acquired.push_back({wardrobe_.people[i].name, lesson.result().person_frames,
-                                  lesson.result().end});
+      result_.acquired.push_back(
+          {wardrobe_.people[i].name, lesson.result().person_frames, lesson.result().end});
       models_.push_back(lesson.learn());
       done(0.1 + 0.5 * static_cast<double>(i + 1) / static_cast<double>(size_));
     }
@@ -248,8 +248,8 @@ class Experiment {
           if (!runs.matrix.detected(i, j, DetectionRule::kFollowed, params_.min_share)) continue;
           const auto [found, isNew] = recordings.try_emplace(std::minmax(i, j));
           if (isNew) found->second = recordPair(found->first.first, found->first.second);
-          PairTest test = comparePair(found->second, i < j ? 0 : 1, i < j ? 1 : 0,
-                                      *models_[i][kind], params_);
+          PairTest test =
+              comparePair(found->second, i < j ? 0 : 1, i < j ? 1 : 0, *models_[i][kind], params_);
           test.target = i;
           test.other = j;
           runs.pairs.push_back(test);

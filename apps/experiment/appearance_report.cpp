@@ -3,8 +3,10 @@
 
 #include "apps/experiment/appearance_report.hpp"
 
+#include "apps/experiment/confusion_picture.hpp"
 #include "apps/report/csv_file.hpp"
 #include "apps/report/result_files.hpp"
+#include "apps/report/video_writer.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -117,6 +119,41 @@ void writePairs(const std::filesystem::path& file, const std::vector<WardrobeRun
   csv.commit();
 }
 
+/// What a cell of the picture shows, see writeAppearanceFiles().
+double cellShare(const std::vector<WardrobeRuns>& wardrobes, const AppearanceRow& row,
+                 std::size_t i, std::size_t j, double min_share) {
+  const auto matrixOf = [&](const WardrobeRuns& wardrobe) -> const ConfusionMatrix& {
+    return wardrobe.models[row.model].matrix;
+  };
+  if (wardrobes.size() == 1) return matrixOf(wardrobes.front()).share(i, j, row.rule);
+  Proportion detected;
+  for (const WardrobeRuns& wardrobe : wardrobes) {
+    detected.add(matrixOf(wardrobe).detected(i, j, row.rule, min_share));
+  }
+  return detected.share();
+}
+
+cv::Mat drawMatrices(const std::vector<WardrobeRuns>& wardrobes, double min_share) {
+  std::vector<ConfusionPanel> panels;
+  for (const AppearanceRow& row : appearanceTable(wardrobes, min_share)) {
+    ConfusionPanel& panel = panels.emplace_back();
+    panel.title = row.name;
+    panel.note = std::to_string(row.all.false_negatives.count) + " FN, " +
+                 std::to_string(row.all.false_positives.count) + " FP";
+    panel.people = wardrobes.front().models[row.model].matrix.people();
+    for (std::size_t i = 0; i < panel.people.size(); ++i) {
+      for (std::size_t j = 0; j < panel.people.size(); ++j) {
+        panel.shares.push_back(cellShare(wardrobes, row, i, j, min_share));
+      }
+    }
+  }
+  return drawConfusion(wardrobes.size() == 1
+                           ? "Rows: whose model. Columns: who is seen. % of the time followed"
+                           : "Rows: whose model. Columns: who is seen. % of " +
+                                 std::to_string(wardrobes.size()) + " wardrobes with a detection",
+                       panels);
+}
+
 }  // namespace
 
 std::vector<AppearanceRow> appearanceTable(const std::vector<WardrobeRuns>& wardrobes,
@@ -133,6 +170,7 @@ std::vector<AppearanceRow> appearanceTable(const std::vector<WardrobeRuns>& ward
 
 void writeAppearanceFiles(const std::filesystem::path& folder,
                           const std::vector<WardrobeRuns>& wardrobes, double min_share) {
+  if (wardrobes.empty()) return;
   makeResultFolder(folder);
   writeRuns(folder / "runs.csv", wardrobes, min_share);
   writePairs(folder / "pairs.csv", wardrobes);
@@ -161,6 +199,7 @@ void writeAppearanceFiles(const std::filesystem::path& folder,
     }
   }
   writeJson(folder / "summary.json", summary);
+  writePicture(folder / "confusion.png", drawMatrices(wardrobes, min_share));
 }
 
 }  // namespace heel

@@ -33,7 +33,9 @@ struct AppearanceRow {
 std::vector<AppearanceRow> appearanceTable(const std::vector<WardrobeRuns>& wardrobes,
                                            double min_share);
 
-/// runs.csv (one line a run), pairs.csv (one a two-people test) and summary.json.
+/// runs.csv (one line a run), pairs.csv (one a two-people test), summary.json and confusion.png: of
+/// one wardrobe the share of the time in which each was followed, of several the share of the
+/// wardrobes in which each was detected.
 /// @throws std::runtime_error  as CsvWriter.
 void writeAppearanceFiles(const std::filesystem::path& folder,
                           const std::vector<WardrobeRuns>& wardrobes, double min_share);

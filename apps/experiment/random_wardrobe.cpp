@@ -18,9 +18,9 @@ using Eigen::Vector2d;
 
 constexpr std::array<const char*, 5> kNames = {"anna", "bruno", "carla", "dario", "elsa"};
 constexpr std::array<const char*, 20> kTops = {
-    "black",   "navy",  "crimson", "white",    "forest", "mustard", "sky",  "purple", "grey", "rust",
-    "teal",    "olive", "pink",    "burgundy", "blue",   "beige",   "plum", "green",  "lavender",
-    "charcoal"};
+    "black",  "navy",  "crimson", "white", "forest",   "mustard", "sky",
+    "purple", "grey",  "rust",    "teal",  "olive",    "pink",    "burgundy",
+    "blue",   "beige", "plum",    "green", "lavender", "charcoal"};
 constexpr std::array<const char*, 8> kTrousers = {"denim", "black", "charcoal", "khaki",
                                                   "navy",  "brown", "grey",     "sand"};
 constexpr std::array<const char*, 5> kHair = {"black", "chestnut", "brown", "ginger", "sand"};

@@ -25,8 +25,8 @@ std::vector<std::optional<Eigen::Vector2d>> placesInView(const Readings& reading
   std::vector<std::optional<Eigen::Vector2d>> places(readings.truth.people.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (pixels[i + 1] < min_pixels) continue;
-    places[i] = Eigen::Rotation2Dd(-robot.yaw_rad) *
-                (readings.truth.people[i].position - robot.position);
+    places[i] =
+        Eigen::Rotation2Dd(-robot.yaw_rad) * (readings.truth.people[i].position - robot.position);
   }
   return places;
 }

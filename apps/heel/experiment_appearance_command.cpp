@@ -38,13 +38,13 @@ std::string withInterval(const Proportion& p) {
 void printLaboratory(const WardrobeRuns& runs, double min_share) {
   std::printf("section 4.1: 5 people, 5 models, 5 other recordings, 25 runs\n");
   std::printf("  %-32s %-9s %-9s %-22s %s\n", "", "own", "FN", "FP", "target scored higher");
-  std::printf("  %-32s %-9s %-9s %-22s %s\n", "the paper", "5 of 5", "0 of 5",
-              "7 of 20 (3 of 12)", "in all cases");
+  std::printf("  %-32s %-9s %-9s %-22s %s\n", "the paper", "5 of 5", "0 of 5", "7 of 20 (3 of 12)",
+              "in all cases");
   for (const AppearanceRow& row : appearanceTable({runs}, min_share)) {
     const Proportion& missed = row.all.false_negatives;
     const Proportion own{missed.total - missed.count, missed.total};
-    const std::string fp = counted(row.all.false_positives) + " (" +
-                           counted(row.without_pair.false_positives) + ")";
+    const std::string fp =
+        counted(row.all.false_positives) + " (" + counted(row.without_pair.false_positives) + ")";
     std::printf("  %-32s %-9s %-9s %-22s %s\n", row.name.c_str(), counted(own).c_str(),
                 counted(missed).c_str(), fp.c_str(),
                 row.pairs.total == 0 ? "-" : counted(row.pairs).c_str());

@@ -84,8 +84,8 @@ void runTargets(const Options& options) {
   for (const OfferedModel& offered : offeredModels()) {
     ExperimentParams params = options.params;
     params.appearance = offered.params;
-    std::printf("%s\n  %-26s %5s   best blob   started   found by looks\n", offered.name.c_str(), "person",
-                "n");
+    std::printf("%s\n  %-26s %5s   best blob   started   found by looks\n", offered.name.c_str(),
+                "person", "n");
     Sum best, started, cold;
     for (const TargetResult& result : runTargetsExperiment(options.recording, params)) {
       Sum one_best, one_started, one_cold;
