@@ -27,7 +27,7 @@ StereoRig readStereoRig(const fs::path& path, cv::Size image_size) {
     const auto extrinsics = path / (std::string("extrinsics") + ending);
     if (fs::exists(extrinsics)) return readOpenCvCalibration({intrinsics, extrinsics}, image_size);
   }
-  for (const char* name : {"stereo", "calibration"}) {
+  for (const char* name : {"calib", "stereo", "calibration"}) {
     for (const char* ending : {".yaml", ".yml", ".xml", ".json"}) {
       const auto file = path / (std::string(name) + ending);
       if (fs::exists(file)) return readOpenCvCalibration({file}, image_size);
@@ -36,7 +36,7 @@ StereoRig readStereoRig(const fs::path& path, cv::Size image_size) {
   if (fs::exists(path / "calib.txt")) return readMiddleburyCalibration(path / "calib.txt");
   throw std::runtime_error(
       path.string() +
-      ": it holds no calibration (left.yaml and right.yaml, stereo.yaml, calib.txt)");
+      ": it holds no calibration (left.yaml and right.yaml, calib.yaml, stereo.yaml, calib.txt)");
 }
 
 }  // namespace heel

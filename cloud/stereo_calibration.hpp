@@ -35,7 +35,8 @@ StereoRig readCameraInfo(const std::filesystem::path& left, const std::filesyste
 StereoRig readMiddleburyCalibration(const std::filesystem::path& file);
 
 /// Reads whichever of these `path` is: a file, or a folder that holds left.yaml and right.yaml,
-/// intrinsics.yml and extrinsics.yml, calib.txt, or one of stereo/calibration.{yaml,yml,xml}.
+/// intrinsics.yml and extrinsics.yml, calib.txt, or one of
+/// calib/stereo/calibration.{yaml,yml,xml}.
 StereoRig readStereoRig(const std::filesystem::path& path, cv::Size image_size = {});
 
 }  // namespace heel

@@ -15,6 +15,7 @@ struct Observation {
   double score = 0.0;  ///< Size of the blob; of several that compete the higher is preferred.
   /// How well its colours fit the target's model, in (0, 1]; 0.5 says nothing either way.
   double appearance = 0.5;
+  bool can_start = true;  ///< Enough of a person to start a track, not only to go on with one.
 };
 
 }  // namespace heel

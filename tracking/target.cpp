@@ -241,6 +241,7 @@ void TargetTracker::explainUnseen(const Track& track,
       case ObservationFate::kFragment:
         estimate_.reason = TargetReason::kTakenByOther;
         break;
+      case ObservationFate::kTooLittle:
       case ObservationFate::kBorn:
       case ObservationFate::kIgnored:
         estimate_.reason = TargetReason::kOutsideGate;

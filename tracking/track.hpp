@@ -87,11 +87,12 @@ const char* toText(StepStatus status);
 
 /// What became of an observation.
 enum class ObservationFate {
-  kIgnored,   ///< The frame was skipped.
-  kRejected,  ///< By the geometric gate; see `verdict`.
-  kUpdated,   ///< It updated track `track_id`.
-  kBorn,      ///< It started track `track_id`.
-  kFragment,  ///< Too close to track `track_id`, which has a better observation.
+  kIgnored,    ///< The frame was skipped.
+  kRejected,   ///< By the geometric gate; see `verdict`.
+  kUpdated,    ///< It updated track `track_id`.
+  kBorn,       ///< It started track `track_id`.
+  kTooLittle,  ///< No track took it, and it can't start one.
+  kFragment,   ///< Too close to track `track_id`, which has a better observation.
 };
 struct ObservationUse {
   ObservationFate fate = ObservationFate::kIgnored;

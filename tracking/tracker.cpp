@@ -233,6 +233,10 @@ void Tracker::startTracks(double stamp_s, const std::vector<Observation>& observ
       continue;
     }
     const Observation& o = observations[at(index)];
+    if (!o.can_start) {
+      use.fate = ObservationFate::kTooLittle;
+      continue;
+    }
     const auto body = std::find_if(tracks_.begin(), tracks_.end(), [&](const Track& track) {
       return track.observation != Track::kUnseen &&
              (observations[at(track.observation)].position_m - o.position_m).norm() <

@@ -172,7 +172,8 @@ void Perception::findCandidates(const Frame& frame) {
     WorldBlob& blob = step_.blobs[i];
     if (!isCandidate(blob, params_.candidates)) continue;
     blob.appearance = appearanceOf(blob, frame);
-    step_.observations.push_back({blob.position_m, blob.score, blob.appearance});
+    step_.observations.push_back({blob.position_m, blob.score, blob.appearance,
+                                  blob.area_m2 >= params_.candidates.min_start_area_m2});
     step_.blob_of_observation.push_back(static_cast<int>(i));
   }
 }

@@ -32,8 +32,11 @@ const char* toText(Stage stage);
 /// target's colours are seen.
 struct CandidateParams {
   int min_cells = 10;
-  double min_score = 12.0;      ///< Sum of the cells' heights [m].
-  double min_height_m = 1.25;   ///< Of its highest point.
+  double min_score = 12.0;     ///< Sum of the cells' heights [m].
+  double min_height_m = 1.25;  ///< Of its highest point.
+  /// To start a track: a head and a shoulder. A track goes on with less, for of a person half
+  /// hidden or in the shade little passes; furniture seldom shows more.
+  double min_start_area_m2 = 0.05;
   double min_distance_m = 0.3;  ///< From the camera, on the floor; nearer is "too close".
 };
 

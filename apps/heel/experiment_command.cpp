@@ -115,10 +115,14 @@ void addExperiment(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("experiment", "Repeat the README's measurements");
   verb->require_subcommand(1);
   verb->footer(
+      "Example:\n"
+      "  heel experiment targets recordings/six_people\n"
       "Recordings: a still camera, empty at first, with people's true places in truth.csv.");
   const auto add = [verb](const char* name, const char* what, void (*run)(const Options&)) {
     auto options = std::make_shared<Options>();
     CLI::App* experiment = verb->add_subcommand(name, what);
+    experiment->footer(std::string("Example:\n  heel experiment ") + name +
+                       " recordings/six_people");
     experiment->add_option("RECORDING", options->recording, "folder with truth.csv")->required();
     experiment
         ->add_option("--background", options->params.background_s,

@@ -56,6 +56,10 @@ void run(const Options& options) {
   pcl::Indices kept;
   filter.filter(kept);
 
+  if (kept.empty()) {
+    throw std::runtime_error(options.in.string() +
+                             ": none of its points passes; no cloud is written");
+  }
   if (options.keep_organized) {
     blank(*filter.getRemovedIndices(), pcd.blob);
   } else {

@@ -79,8 +79,12 @@ void printSetup(const CameraSetup& setup) {
 
 cv::Mat inspectRecording(const fs::path& path) {
   const auto recording = openRecording(path);
+  Frame frame;
+  if (!recording->next(frame)) throw std::runtime_error(nothingReadMessage(*recording));
+  const CameraSetup setup = findCameraSetup(*openRecording(path));
   const RecordingInfo& info = recording->info();
-  std::printf("%s: %s, %zu frames", info.name.c_str(), info.layout.c_str(), info.frame_count);
+  std::printf("%s: %s, %zu frame%s", info.name.c_str(), info.layout.c_str(), info.frame_count,
+              info.frame_count == 1 ? "" : "s");
   if (info.duration_s > 0.0) std::printf(" over %.1f s", info.duration_s);
   std::printf("%s\n", info.nominal_stamps ? " (nominal: no times are stored)" : "");
   const PinholeCamera& camera = info.camera.left;
@@ -90,9 +94,6 @@ cv::Mat inspectRecording(const fs::path& path) {
     if (info.camera.baseline_m > 0.0) std::printf(", baseline %.3f m", info.camera.baseline_m);
     std::printf("\n");
   }
-  Frame frame;
-  if (!recording->next(frame)) throw std::runtime_error(nothingReadMessage(*recording));
-  const CameraSetup setup = findCameraSetup(*openRecording(path));
   printSetup(setup);
   for (const std::string& warning : setup.warnings) std::printf("  warning: %s\n", warning.c_str());
   if (frame.image_bgr.empty()) {

@@ -4,7 +4,9 @@
 #include "apps/follower/learn_person.hpp"
 #include "apps/heel/commands.hpp"
 #include "apps/report/annotate.hpp"
+#include "apps/report/atomic_file.hpp"
 #include "apps/report/progress_bar.hpp"
+#include "apps/report/result_files.hpp"
 #include "apps/report/video_writer.hpp"
 #include "segmentation/appearance_model_io.hpp"
 #include "segmentation/appearance_picture.hpp"
@@ -14,6 +16,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 namespace heel {
@@ -90,6 +93,10 @@ void print(const LearnedPerson& learned) {
 }
 
 void run(const Options& options) {
+  const std::string ending = options.out.extension().string();
+  if (ending != ".yaml" && ending != ".yml") {
+    throw std::runtime_error(options.out.string() + ": the name of a model ends in .yaml");
+  }
   const CameraSetup setup = findCameraSetup(*openRecording(options.recording));
   for (const std::string& warning : setup.warnings) warn(warning);
   const auto recording = openRecording(options.recording);
@@ -101,20 +108,20 @@ void run(const Options& options) {
         progress.show(frame.number);
       });
   for (const SkippedFrame& frame : learned.skipped) warn(frame.reason);
-  if (options.out.has_parent_path()) {
-    std::filesystem::create_directories(options.out.parent_path());
-  }
-  saveAppearance(learned.model, options.out);
-  std::filesystem::path picture = options.out;
-  writePicture(picture.replace_extension(".png"), drawAppearance(learned.model));
-  std::filesystem::path view = options.out;
-  view.replace_filename(options.out.stem().string() + "_view.png");
+  if (options.out.has_parent_path()) makeResultFolder(options.out.parent_path());
+  std::filesystem::path path = options.out;
+  AtomicFile picture(path.replace_extension(".png"));
+  AtomicFile view(path.replace_filename(options.out.stem().string() + "_view.png"));
+  writePicture(picture, drawAppearance(learned.model));
   writePicture(view, best_view.draw());
+  saveAppearance(learned.model, options.out);
+  picture.commit();
+  view.commit();
   print(learned);
   const Separability separability = learned.model.separability();
   if (separability.doubt != AppearanceDoubt::kNone) warn(separability.advice);
-  std::printf("wrote %s, %s, %s\n", options.out.string().c_str(), picture.string().c_str(),
-              view.string().c_str());
+  std::printf("wrote %s, %s, %s\n", options.out.string().c_str(), picture.path().c_str(),
+              view.path().c_str());
 }
 
 }  // namespace

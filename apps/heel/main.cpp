@@ -4,21 +4,80 @@
 #include "apps/heel/commands.hpp"
 
 #include <CLI/CLI.hpp>
+#include <pcl/console/print.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <exception>
+#include <iostream>
+#include <string>
+
+namespace {
+
+/// "learn, track, filter": what one of must be named after `app`.
+std::string verbsOf(const CLI::App& app) {
+  std::string names;
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names += (names.empty() ? "" : ", ") + verb->get_name();
+  }
+  return names;
+}
+
+/// What was wrong with the call, in one sentence, and where to read more.
+std::string explain(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App* called = &app;
+  std::string name = app.get_name();
+  while (!called->get_subcommands().empty()) {
+    called = called->get_subcommands().front();
+    name += " " + called->get_name();
+  }
+  const std::string verbs = verbsOf(*called);
+  std::string what = error.what();
+  if (!verbs.empty() && error.get_name() == "RequiredError") {
+    const auto others = called->remaining();
+    what = others.empty() ? "name a verb" : "there is no verb '" + others.front() + "'";
+    what += "; there are " + verbs;
+  }
+  return what + " ('" + name + " --help' tells more)";
+}
+
+/// Ends the program with a sentence on one line, whatever a library put into its message.
+int fail(std::string sentence) {
+  std::replace(sentence.begin(), sentence.end(), '\n', ' ');
+  std::fprintf(stderr, "heel: %s\n", sentence.c_str());
+  return 1;
+}
+
+/// Keeps libraries from writing to the console: what went wrong, we say ourselves, in a sentence.
+void silenceLibraries() {
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+  setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // FFmpeg's "quiet"
+  std::cerr.rdbuf(nullptr);                   // OpenCV's image readers; we use stderr
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
+  silenceLibraries();
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on a file's size is then an error like a full disk
   CLI::App app{
       "heel: a mobile robot follows one person.\n"
       "\n"
-      "  heel learn RECORDING --out person.yaml             who to follow (phase 1)\n"
-      "  heel track RECORDING --model person.yaml --out DIR where they are (phase 2)\n"
-      "\n"
+      "Phase 1, learn, finds out who to follow; phase 2, track, where they are.\n"
       "A RECORDING is a folder: stereo images with a calibration, RGB-D images in the TUM layout\n"
       "with a camera.yaml, or PCD files. 'heel VERB --help' tells more.\n",
       "heel"};
   app.set_version_flag("--version", std::string("heel ") + HEEL_VERSION);
+  app.footer(
+      "Example:\n"
+      "  heel simulate wardrobe --out recordings/wardrobe\n"
+      "  heel learn recordings/wardrobe --out person.yaml\n"
+      "  heel track recordings/wardrobe --model person.yaml --out out/wardrobe\n"
+      "  heel evaluate out/wardrobe/tracks.csv recordings/wardrobe/truth.csv");
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
   heel::addLearn(app);
@@ -31,10 +90,12 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error);
+    return error.get_exit_code() == 0 ? app.exit(error) : fail(explain(app, error));
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "heel: %s\n", error.what());
-    return 1;
+    return fail(error.what());
+  }
+  if (std::fflush(stdout) != 0) {
+    return fail("the output cannot be written: " + std::string(std::strerror(errno)));
   }
   return 0;
 }

@@ -50,13 +50,12 @@ void warn(const std::string& warning) {
 void print(const TrackOutput& output, const Options& options, std::size_t skipped) {
   std::printf("%zu frames, the target seen or predicted in %zu", output.frames(),
               output.framesWithTarget());
-  if (skipped > 0) std::printf("; %zu frames could not be read", skipped);
+  if (skipped > 0) std::printf("; %zu frame%s could not be read", skipped, skipped == 1 ? "" : "s");
   std::printf("\n");
   for (const auto& [state, frames] : output.framesByState()) {
     std::printf("  %-10s %6zu\n", state.c_str(), frames);
   }
-  std::printf("results in %s: tracks.csv frames.csv timing.csv summary.json%s\n",
-              options.out.string().c_str(), options.no_film ? "" : " tracks.mp4 frame_*.png");
+  std::printf("results in %s: %s\n", options.out.string().c_str(), output.fileNames().c_str());
 }
 
 void run(const Options& options) {
@@ -90,7 +89,7 @@ void run(const Options& options) {
           frame, [&](Stage stage) { times_ms[static_cast<std::size_t>(stage)] = clock.lap_ms(); });
       output.add(frame, perception, step, times_ms);
     } catch (const std::invalid_argument& error) {
-      skipped.push_back({frame.number, error.what()});
+      skipped.push_back({frame.number, frame.name + ": " + error.what()});
     }
     progress.show(frame.number);
   }

@@ -3,9 +3,12 @@
 
 #include "apps/heel/track_output.hpp"
 
+#include "apps/report/atomic_file.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
+#include <deque>
 
 namespace heel {
 namespace {
@@ -183,11 +186,28 @@ void TrackOutput::commit(const std::vector<SkippedFrame>& skipped,
                        {"from", setup_.is_configured ? "configuration" : "floor"},
                        {"depth_share", setup_.report.found_share}};
   summary["warnings"] = warnings;
-  writeJson(folder_ / "summary.json", summary);
+
+  // All is written before anything gets its name; the summary, which speaks of the rest, comes
+  // last.
+  std::deque<AtomicFile> stills;
+  for (const Still& still : stills_) {
+    writePicture(stills.emplace_back(folder_ / stillName(still.frame)), still.picture);
+  }
+  AtomicFile summary_file(folder_ / "summary.json");
+  writeJson(summary_file, summary);
+  files_.close();
+  if (film_) film_->close();
   files_.commit();
-  if (!film_) return;
-  film_->commit();
-  for (const Still& still : stills_) writePicture(folder_ / stillName(still.frame), still.picture);
+  if (film_) film_->commit();
+  for (AtomicFile& still : stills) still.commit();
+  summary_file.commit();
+}
+
+std::string TrackOutput::fileNames() const {
+  std::string names = "tracks.csv frames.csv timing.csv summary.json";
+  if (film_) names += " " + film_->path().filename().string();
+  if (!stills_.empty()) names += " frame_*.png";
+  return names;
 }
 
 }  // namespace heel

@@ -42,8 +42,11 @@ class TrackOutput {
   void add(const Frame& frame, const Perception& perception, const PerceptionStep& step,
            const StageTimes& times_ms);
 
-  /// Writes the summary, and gives all files their names.
+  /// Writes the summary and the stills, and gives all files their names.
   void commit(const std::vector<SkippedFrame>& skipped, const std::vector<std::string>& warnings);
+
+  /// What commit() wrote, for people to read.
+  std::string fileNames() const;
 
   std::size_t frames() const { return frames_; }
   std::size_t framesWithTarget() const { return frames_with_target_; }
@@ -74,7 +77,6 @@ class TrackOutput {
   std::size_t frames_with_target_ = 0;
   std::map<std::string, std::size_t> states_;
   std::map<std::string, std::size_t> reasons_;
-  std::vector<std::string> film_names_;
 };
 
 }  // namespace heel

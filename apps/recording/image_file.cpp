@@ -114,6 +114,7 @@ void ImageReader::decode(const std::filesystem::path& file, int flags, cv::Mat& 
   if (!isCompleteImage(bytes_)) {
     throw std::runtime_error(file.string() + ": the image is truncated");
   }
+  image.release();  // OpenCV leaves it as it was, the last frame, where it knows no such format
   bool decoded = false;
   try {
     decoded = !cv::imdecode(bytes_, flags, &image).empty();

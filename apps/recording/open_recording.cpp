@@ -46,8 +46,10 @@ std::unique_ptr<Recording> openRecording(const fs::path& path, const RecordingPa
 
 std::string nothingReadMessage(const Recording& recording) {
   const auto& skipped = recording.skipped();
-  std::string message = "none of the " + std::to_string(recording.info().frame_count) +
-                        " frames of " + recording.info().name + " could be read";
+  const std::size_t frames = recording.info().frame_count;
+  std::string message =
+      frames == 1 ? "the only frame" : "none of the " + std::to_string(frames) + " frames";
+  message += " of " + recording.info().name + " could " + (frames == 1 ? "not " : "") + "be read";
   if (!skipped.empty()) message += "; the first: " + skipped.front().reason;
   return message;
 }

@@ -30,14 +30,6 @@ cv::Size imageSize(const std::vector<StereoPair>& pairs) {
   return {};
 }
 
-StereoRig readRig(const fs::path& folder, const std::vector<StereoPair>& pairs) {
-  const cv::Size size = imageSize(pairs);
-  for (const char* name : {"calib.yaml", "calib.yml", "calib.xml"}) {
-    if (fs::exists(folder / name)) return readStereoRig(folder / name, size);
-  }
-  return readStereoRig(folder, size);
-}
-
 }  // namespace
 
 std::unique_ptr<Recording> StereoRecording::open(const fs::path& folder,
@@ -53,7 +45,7 @@ std::unique_ptr<Recording> StereoRecording::open(const fs::path& folder,
   }
   StereoFiles files = findStereoFiles(folder, rate_hz, params.max_stamp_difference_s);
   info.nominal_stamps = files.nominal_stamps;
-  StereoRig rig = readRig(folder, files.pairs);
+  StereoRig rig = readStereoRig(folder, imageSize(files.pairs));
   info.camera = rig.camera();
   return std::unique_ptr<Recording>(
       new StereoRecording(folder, std::move(info), std::move(files), std::move(rig)));

@@ -18,7 +18,7 @@
 namespace heel {
 
 /// Stereo images in one of the layouts of stereo_files.hpp, with a calibration (see
-/// stereo_calibration.hpp; also calib.yaml). Raw images are rectified.
+/// stereo_calibration.hpp). Raw images are rectified.
 ///
 /// A camera.yaml in the folder may give the rate, and the mounting of the rectified left camera.
 class StereoRecording final : public IndexedRecording {

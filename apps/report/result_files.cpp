@@ -25,9 +25,8 @@ const std::vector<std::string> kTrackColumns = {"stamp_s", "track_id", "is_targe
 const std::vector<std::string> kTruthColumns = {"stamp_s", "frame", "person",
                                                 "x_m",     "y_m",   "exact"};
 const std::vector<std::string> kFrameColumns = {
-    "frame",           "stamp_s", "depth_pixels", "color_pixels", "color_points",
-    "standing_points", "blobs",   "observations", "tracks",       "target_id",
-    "confidence",      "state",   "reason"};
+    "frame",        "stamp_s", "color_pixels", "color_points", "standing_points", "blobs",
+    "observations", "tracks",  "target_id",    "confidence",   "state",           "reason"};
 
 std::vector<std::string> timingColumns(const std::vector<std::string>& stages) {
   std::vector<std::string> columns = {"frame"};
@@ -73,8 +72,8 @@ void ResultFiles::add(const TrackRow& row) {
 
 void ResultFiles::add(const FrameRow& row) {
   frames_.integer(static_cast<std::int64_t>(row.frame)).number(row.stamp_s, kStampDecimals);
-  for (const int count : {row.depth_pixels, row.color_pixels, row.color_points, row.standing_points,
-                          row.blobs, row.observations, row.tracks}) {
+  for (const int count : {row.color_pixels, row.color_points, row.standing_points, row.blobs,
+                          row.observations, row.tracks}) {
     frames_.integer(count);
   }
   frames_.integer(row.target_id)
@@ -90,8 +89,12 @@ void ResultFiles::addTiming(std::size_t frame, const std::vector<double>& stages
   timing_.endRow();
 }
 
-void ResultFiles::commit() {
+void ResultFiles::close() {
   for (CsvWriter* file : {&tracks_, &frames_, &timing_}) file->close();
+}
+
+void ResultFiles::commit() {
+  close();
   tracks_.commit();
   frames_.commit();
   timing_.commit();
@@ -99,6 +102,11 @@ void ResultFiles::commit() {
 
 void writeJson(const fs::path& file, const nlohmann::ordered_json& value) {
   writeFile(file, value.dump(2) + "\n");
+}
+
+void writeJson(AtomicFile& file, const nlohmann::ordered_json& value) {
+  file.write(value.dump(2) + "\n");
+  file.close();
 }
 
 std::vector<TrackRow> readTracks(const fs::path& file) {

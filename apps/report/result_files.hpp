@@ -33,7 +33,6 @@ struct TrackRow {
 struct FrameRow {
   std::size_t frame = 0;  ///< Counts from 1.
   double stamp_s = 0.0;
-  int depth_pixels = 0;     ///< Pixels with a depth.
   int color_pixels = 0;     ///< Pixels that passed the colour filter.
   int color_points = 0;     ///< Of those, points with a place.
   int standing_points = 0;  ///< Of those, points within the height crop.
@@ -74,6 +73,8 @@ class ResultFiles {
   /// @param stages_ms  Milliseconds of each of the stages, in the constructor's order.
   void addTiming(std::size_t frame, const std::vector<double>& stages_ms);
 
+  /// Ends the writing; commit() then only gives the names.
+  void close();
   void commit();
 
  private:
@@ -85,6 +86,9 @@ class ResultFiles {
 /// Writes summary.json and the like: indented, keys in the order in which they were added.
 /// @throws std::runtime_error  as AtomicFile.
 void writeJson(const std::filesystem::path& file, const nlohmann::ordered_json& value);
+
+/// The same into a file that the caller commits.
+void writeJson(AtomicFile& file, const nlohmann::ordered_json& value);
 
 /// Reads tracks.csv.
 /// @throws std::runtime_error  with one sentence that names the file and the line.

@@ -30,10 +30,14 @@ FilmWriter::FilmWriter(fs::path path, double rate_hz, cv::Size size)
 }
 
 FilmWriter::~FilmWriter() {
-  if (film_ == nullptr) return;
+  if (is_pending_) discard();
+}
+
+void FilmWriter::discard() {
   film_.reset();
   std::error_code ignored;
   fs::remove(temporary_, ignored);
+  is_pending_ = false;
 }
 
 bool FilmWriter::open(const fs::path& path, Format format) {
@@ -61,32 +65,46 @@ void FilmWriter::write(const cv::Mat& picture) {
   ++frames_;
 }
 
-void FilmWriter::commit() {
-  if (film_ == nullptr) throw std::logic_error("FilmWriter: committed after its end");
+void FilmWriter::close() {
+  if (film_ == nullptr) return;
   film_.reset();  // writes the film's end
-  if (frames_ > 0 && isWhole()) {
-    commitTemporary(temporary_, path_);
-    return;
-  }
-  std::error_code ignored;
-  fs::remove(temporary_, ignored);
-  if (frames_ == 0) return;
+  if (frames_ == 0 || isWhole()) return;
+  discard();
   throw std::runtime_error(path_.string() +
                            " cannot be written: the film is not whole; is the disk full?");
 }
 
+void FilmWriter::commit() {
+  if (!is_pending_) throw std::logic_error("FilmWriter: committed after its end");
+  close();
+  if (frames_ == 0) {
+    discard();
+    return;
+  }
+  is_pending_ = false;
+  commitTemporary(temporary_, path_);
+}
+
 void writePicture(const fs::path& file, const cv::Mat& picture) {
+  AtomicFile out(file);
+  writePicture(out, picture);
+  out.commit();
+}
+
+void writePicture(AtomicFile& file, const cv::Mat& picture) {
   std::vector<std::uint8_t> bytes;
   bool encoded = false;
   try {
-    encoded = cv::imencode(file.extension().string(), picture, bytes);
+    encoded = cv::imencode(file.path().extension().string(), picture, bytes);
   } catch (const cv::Exception&) {
     // The sentence below says all that a reader can use.
   }
   if (!encoded) {
-    throw std::runtime_error(file.string() + " cannot be written: no picture format of this name");
+    throw std::runtime_error(file.path().string() +
+                             " cannot be written: no picture format of this name");
   }
-  writeFile(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  file.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  file.close();
 }
 
 }  // namespace heel

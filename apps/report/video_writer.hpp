@@ -16,6 +16,8 @@ class VideoWriter;
 
 namespace heel {
 
+class AtomicFile;
+
 /// Writes a film that gets its name only when it is complete, as AtomicFile does.
 ///
 /// MP4 (MPEG-4) for a path that ends in .mp4, else Motion JPEG in AVI, which OpenCV can always
@@ -36,15 +38,20 @@ class FilmWriter {
   /// @throws std::invalid_argument  if it is not.
   void write(const cv::Mat& picture);
 
-  /// Ends the film. A film without a frame is no file.
+  /// Ends the film; commit() then only gives it its name.
   /// @throws std::runtime_error  if the film could not be written whole, for instance because the
   ///         disk is full.
+  void close();
+
+  /// Ends the film if need be, and gives it its name. A film without a frame is no file.
+  /// @throws std::runtime_error  as close().
   void commit();
 
  private:
   enum class Format { kMp4, kMotionJpeg };
 
   bool open(const std::filesystem::path& path, Format format);
+  void discard();
 
   /// OpenCV does not tell when a frame could not be written; the finished film's own count does.
   bool isWhole() const;
@@ -54,11 +61,15 @@ class FilmWriter {
   double rate_hz_;
   cv::Size size_;
   std::size_t frames_ = 0;
-  std::unique_ptr<cv::VideoWriter> film_;  ///< Null once committed.
+  std::unique_ptr<cv::VideoWriter> film_;  ///< Null once closed.
+  bool is_pending_ = true;                 ///< The temporary is ours to rename or remove.
 };
 
 /// Writes a picture in the format of its name (.png), whole or not at all.
 /// @throws std::runtime_error  with one sentence that names the file and the reason.
 void writePicture(const std::filesystem::path& file, const cv::Mat& picture);
+
+/// The same into a file that the caller commits.
+void writePicture(AtomicFile& file, const cv::Mat& picture);
 
 }  // namespace heel

@@ -128,6 +128,17 @@ TEST(ImageReader, OtherFormatsAreReadToTheirEndOrNotAtAll) {
   }
 }
 
+TEST(ImageReader, DoesNotTakeTheImageBeforeForOneThatIsNone) {
+  const TempFolder folder;
+  cv::imwrite((folder / "a.png").string(), noise(32, 32));
+  writeText(folder / "b.png", "hello");
+  heel::ImageReader reader;
+  cv::Mat image;
+  reader.readColor(folder / "a.png", image);
+  EXPECT_EQ(heel::test::messageOf([&] { reader.readColor(folder / "b.png", image); }),
+            (folder / "b.png").string() + ": the image cannot be decoded");
+}
+
 TEST(ImageReader, SaysWhyAFileIsNoImage) {
   const TempFolder folder;
   EXPECT_EQ(colorMessage(folder / "none.png"),

@@ -152,6 +152,23 @@ TEST(Perception, SaysWhichStageLeftNothing) {
             "no blob is as large and high as a person");
 }
 
+TEST(Perception, StartsNoTrackOnLittleButGoesOnWithIt) {
+  const ColoredStage little = ColoredStage().part(2.5, 0.0, 0.09, 1.1, 1.3, kRed);
+  PerceptionParams params;
+  params.candidates.min_score = 5.0;
+  params.candidates.min_cells = 4;
+  Perception perception = perceptionOf(SensorKind::kRgbd, params);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(perception.step(little.frame(0.1 * i)).observations.size(), 1U);
+    EXPECT_TRUE(perception.tracks().empty());
+  }
+  perception.step(ColoredStage().person(2.5, 0.0).frame(0.3));
+  ASSERT_EQ(perception.tracks().size(), 1U);
+  perception.step(little.frame(0.4));
+  ASSERT_EQ(perception.tracks().size(), 1U);
+  EXPECT_EQ(perception.tracks()[0].hits, 2);
+}
+
 TEST(Perception, SaysThatNobodyIsConfirmedYet) {
   EXPECT_EQ(reasonFor(ColoredStage().person(2.5, 0.0)), toText(TargetReason::kNobodyInView));
 }

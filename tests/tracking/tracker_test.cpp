@@ -319,5 +319,16 @@ TEST(Tracker, NamesTheParameterThatIsOutOfRange) {
               ::testing::HasSubstr("max_coast_s"));
 }
 
+TEST(Tracker, ContinuesButDoesNotStartOnTooLittle) {
+  Tracker tracker;
+  Observation little{{2.0, 0.0}, 10.0, 0.5, false};
+  EXPECT_EQ(tracker.step(0.0, {little}).uses.at(0).fate, ObservationFate::kTooLittle);
+  EXPECT_TRUE(tracker.tracks().empty());
+  Observation enough = little;
+  enough.can_start = true;
+  EXPECT_EQ(tracker.step(0.1, {enough}).uses.at(0).fate, ObservationFate::kBorn);
+  EXPECT_EQ(tracker.step(0.2, {little}).uses.at(0).fate, ObservationFate::kUpdated);
+}
+
 }  // namespace
 }  // namespace heel

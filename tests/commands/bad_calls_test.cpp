@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Help, and calls that can't be understood.
+
+#include "tests/commands/heel.hpp"
+
+#include <gmock/gmock.h>
+
+namespace heel::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Help : public testing::TestWithParam<std::vector<std::string>> {};
+
+TEST_P(Help, PrintsAnExample) {
+  auto call = GetParam();
+  std::string name = "heel";
+  for (const std::string& verb : call) name += " " + verb;
+  call.emplace_back("--help");
+  const HeelRun run = heel(call);
+  EXPECT_TRUE(succeeds(run));
+  EXPECT_EQ(run.err, "");
+  EXPECT_THAT(run.out, HasSubstr("Example"));
+  EXPECT_THAT(run.out, HasSubstr("\n  " + name + " ")) << "an example of the verb itself";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Verbs, Help,
+    testing::Values(std::vector<std::string>{}, std::vector<std::string>{"learn"},
+                    std::vector<std::string>{"track"}, std::vector<std::string>{"filter"},
+                    std::vector<std::string>{"inspect"}, std::vector<std::string>{"simulate"},
+                    std::vector<std::string>{"evaluate"}, std::vector<std::string>{"experiment"},
+                    std::vector<std::string>{"experiment", "detector"},
+                    std::vector<std::string>{"experiment", "targets"},
+                    std::vector<std::string>{"experiment", "protocol"}));
+
+TEST(Call, WithoutAVerbNamesTheVerbs) {
+  EXPECT_TRUE(failsWith(heel({}), {"name a verb", "learn, track, filter", "'heel --help'"}));
+  EXPECT_TRUE(failsWith(heel({"experiment"}), {"detector, targets, protocol"}));
+}
+
+TEST(Call, OfAnUnknownVerbNamesItAndTheVerbs) {
+  EXPECT_TRUE(failsWith(heel({"dance"}), {"'dance'", "learn, track, filter", "'heel --help'"}));
+}
+
+TEST(Call, WithAnUnknownOptionNamesIt) {
+  EXPECT_TRUE(failsWith(heel({"learn", "somewhere", "--colour", "1"}),
+                        {"--colour", "'heel learn --help'"}));
+}
+
+TEST(Call, WithoutARequiredArgumentNamesIt) {
+  EXPECT_TRUE(failsWith(heel({"track", "somewhere"}), {"--model", "'heel track --help'"}));
+  EXPECT_TRUE(failsWith(heel({"evaluate", "tracks.csv"}), {"TRUTH"}));
+}
+
+TEST(Call, WithTextForANumberNamesBoth) {
+  EXPECT_TRUE(failsWith(heel({"learn", "somewhere", "--background", "long"}),
+                        {"--background", "long", "'heel learn --help'"}));
+}
+
+TEST(Call, TellsItsVersion) {
+  const HeelRun run = heel({"--version"});
+  EXPECT_TRUE(succeeds(run));
+  EXPECT_THAT(run.out, testing::MatchesRegex("heel [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+}  // namespace
+}  // namespace heel::test

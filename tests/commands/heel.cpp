@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tests/commands/heel.hpp"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <regex>
+#include <sstream>
+#include <stdexcept>
+
+namespace heel::test {
+
+namespace {
+
+const std::string kError = "heel: ";
+const std::string kWarning = "heel: warning: ";
+
+bool startsWith(const std::string& text, const std::string& start) {
+  return text.rfind(start, 0) == 0;
+}
+
+/// A file without a name that takes a stream of the command.
+class Capture {
+ public:
+  Capture() : file_(std::tmpfile()) {
+    if (file_ == nullptr) throw std::runtime_error("no temporary file");
+  }
+  ~Capture() { std::fclose(file_); }
+  Capture(const Capture&) = delete;
+  Capture& operator=(const Capture&) = delete;
+
+  int descriptor() const { return fileno(file_); }
+
+  std::string text() const {
+    std::string all;
+    std::rewind(file_);
+    for (int c = std::fgetc(file_); c != EOF; c = std::fgetc(file_)) all += static_cast<char>(c);
+    return all;
+  }
+
+ private:
+  std::FILE* file_;
+};
+
+template <typename Takes>
+std::vector<std::string> linesOf(const std::string& text, const Takes& takes) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    if (takes(line)) lines.push_back(line);
+  }
+  return lines;
+}
+
+std::string described(const HeelRun& run) {
+  return "exit code " + std::to_string(run.exit_code) + ", signal " + std::to_string(run.signal) +
+         "\n--- stdout\n" + run.out + "--- stderr\n" + run.err;
+}
+
+}  // namespace
+
+std::vector<std::string> HeelRun::errors() const {
+  static const std::regex kProgress("[a-z]+: [0-9]+ % \\([0-9]+ of [0-9]+\\)");
+  return linesOf(err, [](const std::string& line) {
+    return !startsWith(line, kWarning) && !std::regex_match(line, kProgress);
+  });
+}
+
+std::vector<std::string> HeelRun::warnings() const {
+  auto lines = linesOf(err, [](const std::string& line) { return startsWith(line, kWarning); });
+  for (std::string& line : lines) line.erase(0, kWarning.size());
+  return lines;
+}
+
+HeelRun heel(const std::vector<std::string>& arguments, std::optional<std::size_t> largest_file) {
+  std::vector<char*> argv = {const_cast<char*>(HEEL_COMMAND)};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  const Capture out, err;
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("no process can be started");
+  if (child == 0) {
+    dup2(out.descriptor(), STDOUT_FILENO);
+    dup2(err.descriptor(), STDERR_FILENO);
+    if (largest_file) {
+      const rlimit limit{*largest_file, *largest_file};
+      setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    execv(HEEL_COMMAND, argv.data());
+    _exit(127);
+  }
+  int status = 0;
+  rusage usage{};
+  wait4(child, &status, 0, &usage);
+  HeelRun run;
+  run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  run.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  run.out = out.text();
+  run.err = err.text();
+  run.peak_kB = usage.ru_maxrss;
+  return run;
+}
+
+testing::AssertionResult succeeds(const HeelRun& run) {
+  if (run.succeeded() && run.errors().empty()) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << described(run);
+}
+
+testing::AssertionResult failsWith(const HeelRun& run, const std::vector<std::string>& parts) {
+  const auto errors = run.errors();
+  bool is_right = run.signal == 0 && run.exit_code != 0 && run.out.empty() && errors.size() == 1 &&
+                  startsWith(errors.front(), kError);
+  for (const std::string& part : parts) {
+    is_right = is_right && errors.front().find(part) != std::string::npos;
+  }
+  if (is_right) return testing::AssertionSuccess();
+  return testing::AssertionFailure()
+         << "expected one error with " << testing::PrintToString(parts) << "\n"
+         << described(run);
+}
+
+std::vector<std::string> filesBelow(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  if (!std::filesystem::exists(folder)) return names;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (!entry.is_directory()) {
+      names.push_back(std::filesystem::relative(entry.path(), folder).string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace heel::test

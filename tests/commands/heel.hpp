@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Runs the built `heel` command, as a shell does.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace heel::test {
+
+/// What a run of the command left.
+struct HeelRun {
+  int exit_code = -1;  ///< Meaningless if a signal ended it.
+  int signal = 0;      ///< That ended it; 0 if none did.
+  std::string out;     ///< What it said.
+  std::string err;
+  long peak_kB = 0;  ///< Of its resident memory.
+
+  bool succeeded() const { return signal == 0 && exit_code == 0; }
+
+  /// Lines of `err` that say why it failed: neither warnings nor progress.
+  std::vector<std::string> errors() const;
+  /// Lines of `err` that warn, without "heel: warning: ".
+  std::vector<std::string> warnings() const;
+};
+
+/// Runs `heel ARGUMENTS`.
+/// @param largest_file  No file can grow beyond this many bytes: writing fails, as on a full disk.
+HeelRun heel(const std::vector<std::string>& arguments,
+             std::optional<std::size_t> largest_file = std::nullopt);
+
+/// That it ended well.
+testing::AssertionResult succeeds(const HeelRun& run);
+
+/// That it failed as it should: no signal, no result on stdout, and one error line, which starts
+/// with "heel: " and has all of `parts` in it.
+testing::AssertionResult failsWith(const HeelRun& run, const std::vector<std::string>& parts);
+
+/// Names of all files below a folder, hidden ones too, sorted; empty if there is no folder.
+std::vector<std::string> filesBelow(const std::filesystem::path& folder);
+
+}  // namespace heel::test
