@@ -4,6 +4,7 @@
 #include "apps/experiment/appearance_experiment.hpp"
 
 #include "apps/experiment/model_lessons.hpp"
+#include "apps/experiment/seen_at.hpp"
 #include "apps/experiment/simulated_frames.hpp"
 #include "apps/follower/acquisition.hpp"
 #include "apps/follower/depth_images.hpp"
@@ -52,7 +53,7 @@ class Lesson {
   }
 
   const AcquisitionResult& result() const { return acquisition_.result(); }
-  Models learn() const { return lessons_.learn(); }
+  ModelLessons takeLessons() { return std::move(lessons_); }
 
  private:
   static AcquisitionParams acquisitionParams(const AppearanceExperimentParams& params) {
@@ -66,10 +67,6 @@ class Lesson {
   Acquisition acquisition_;
   ModelLessons lessons_;
 };
-
-bool isNear(const Eigen::Vector2d& a, const std::optional<Eigen::Vector2d>& b, double distance_m) {
-  return b && (a - *b).norm() <= distance_m;
-}
 
 /// With what the map of the recording's room rules out.
 PerceptionParams perceptionParams(const SimulatedFrames& recording,
@@ -103,40 +100,19 @@ DetectionRun look(const SimulatedFrames& recording, const AppearanceModel& model
   return run;
 }
 
-/// The appearance of the confirmed track nearest to a place; 0 without one.
-double appearanceAt(const Eigen::Vector2d& place, const std::vector<Track>& tracks,
-                    double distance_m) {
-  double appearance = 0.0;
-  for (const Track& track : tracks) {
-    const double away_m = (track.motion.position_m() - place).norm();
-    if (track.status != TrackStatus::kConfirmed || away_m > distance_m) continue;
-    distance_m = away_m;
-    appearance = track.appearance();
-  }
-  return appearance;
-}
-
-double blobScoreAt(const Eigen::Vector2d& place, const std::vector<Observation>& observations,
-                   double distance_m) {
-  double score = 0.0;
-  for (const Observation& seen : observations) {
-    const double away_m = (seen.position_m - place).norm();
-    if (away_m > distance_m) continue;
-    distance_m = away_m;
-    score = seen.score;
-  }
-  return score;
-}
-
-/// Which two of the recording's people `target` and `other` are.
+/// @param recording  Of these two, the one of the lower number first.
 PairTest comparePair(const SimulatedFrames& recording, std::size_t target, std::size_t other,
                      const AppearanceModel& model, const AppearanceExperimentParams& params) {
   Perception perception(recording.setup, model, perceptionParams(recording, params));
   PairTest test;
+  test.target = target;
+  test.other = other;
+  const std::size_t target_at = target < other ? 0 : 1;
   const double reach_m = params.place_error_m;
   for (const SimulatedFrame& now : recording.frames) {
     const PerceptionStep& step = perception.step(now.frame);
-    const auto &target_m = now.people_m[target], other_m = now.people_m[other];
+    const auto& target_m = now.people_m[target_at];
+    const auto& other_m = now.people_m[1 - target_at];
     if (!target_m || !other_m) continue;
     ++test.frames;
     test.target_appearance += appearanceAt(*target_m, perception.tracks(), reach_m);
@@ -178,8 +154,10 @@ class Experiment {
     }
     learnEveryone();
     recordTrials();
-    lookForEveryone();
-    comparePairs();
+    for (std::size_t kind = 0; kind < params_.models.size(); ++kind) {
+      tryModel(kind);
+      done(0.6 + 0.4 * static_cast<double>(kind + 1) / static_cast<double>(params_.models.size()));
+    }
     return std::move(result_);
   }
 
@@ -210,8 +188,8 @@ class Experiment {
       for (const SimulatedFrame& now : person.frames) lesson.add(now.frame);
       result_.acquired.push_back(
           {wardrobe_.people[i].name, lesson.result().person_frames, lesson.result().end});
-      models_.push_back(lesson.learn());
-      done(0.1 + 0.5 * static_cast<double>(i + 1) / static_cast<double>(size_));
+      lessons_.push_back(lesson.takeLessons());
+      done(0.4 * static_cast<double>(i + 1) / static_cast<double>(size_));
     }
   }
 
@@ -222,41 +200,35 @@ class Experiment {
     for (std::size_t i = 0; i < size_; ++i) {
       span.seed = seedFor(2, i);
       trials_.push_back(renderFrames(rooms_.trial({wardrobe_.people[i]}, span.seed), span));
-      done(0.6 + 0.2 * static_cast<double>(i + 1) / static_cast<double>(size_));
+      done(0.4 + 0.2 * static_cast<double>(i + 1) / static_cast<double>(size_));
     }
   }
 
-  void lookForEveryone() {
-    tbb::parallel_for(std::size_t{0}, params_.models.size() * size_ * size_, [&](std::size_t cell) {
-      const std::size_t kind = cell / (size_ * size_);
-      const std::size_t model_of = cell / size_ % size_, person = cell % size_;
-      const auto& model = models_[model_of][kind];
-      if (!model) return;
-      result_.models[kind].matrix.at(model_of, person) = look(trials_[person], *model, params_);
+  /// Models are large, so only those of one kind are held at a time.
+  void tryModel(std::size_t kind) {
+    Models models(size_);
+    tbb::parallel_for(std::size_t{0}, size_,
+                      [&](std::size_t i) { models[i] = lessons_[i].learn(kind); });
+    ModelRuns& runs = result_.models[kind];
+    tbb::parallel_for(std::size_t{0}, size_ * size_, [&](std::size_t cell) {
+      const std::size_t model_of = cell / size_, person = cell % size_;
+      if (!models[model_of]) return;
+      runs.matrix.at(model_of, person) = look(trials_[person], *models[model_of], params_);
     });
-    done(0.9);
-  }
-
-  /// Both persons of every confusion in one recording.
-  void comparePairs() {
-    std::map<std::pair<std::size_t, std::size_t>, SimulatedFrames> recordings;
-    for (std::size_t kind = 0; kind < params_.models.size(); ++kind) {
-      ModelRuns& runs = result_.models[kind];
-      for (std::size_t i = 0; i < size_; ++i) {
-        for (std::size_t j = 0; j < size_; ++j) {
-          if (i == j || !models_[i][kind]) continue;
-          if (!runs.matrix.detected(i, j, DetectionRule::kFollowed, params_.min_share)) continue;
-          const auto [found, isNew] = recordings.try_emplace(std::minmax(i, j));
-          if (isNew) found->second = recordPair(found->first.first, found->first.second);
-          PairTest test =
-              comparePair(found->second, i < j ? 0 : 1, i < j ? 1 : 0, *models_[i][kind], params_);
-          test.target = i;
-          test.other = j;
-          runs.pairs.push_back(test);
-        }
+    for (std::size_t i = 0; i < size_; ++i) {
+      for (std::size_t j = 0; j < size_; ++j) {
+        if (i == j || !models[i]) continue;
+        if (!runs.matrix.detected(i, j, DetectionRule::kFollowed, params_.min_share)) continue;
+        runs.pairs.push_back(comparePair(pairRecording(i, j), i, j, *models[i], params_));
       }
     }
-    done(1.0);
+  }
+
+  /// Both persons of a confusion in one recording; the one of the lower number is the first.
+  const SimulatedFrames& pairRecording(std::size_t i, std::size_t j) {
+    const auto [found, is_new] = pair_recordings_.try_emplace(std::minmax(i, j));
+    if (is_new) found->second = recordPair(found->first.first, found->first.second);
+    return found->second;
   }
 
   SimulatedFrames recordPair(std::size_t a, std::size_t b) const {
@@ -272,8 +244,9 @@ class Experiment {
   const std::function<void(double)>& progress_;
   WardrobeRooms rooms_;
   std::size_t size_;
-  std::vector<Models> models_;           // By person, by kind of model.
+  std::vector<ModelLessons> lessons_;    // By person.
   std::vector<SimulatedFrames> trials_;  // By person.
+  std::map<std::pair<std::size_t, std::size_t>, SimulatedFrames> pair_recordings_;
   WardrobeRuns result_;
 };
 

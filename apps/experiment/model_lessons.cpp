@@ -3,8 +3,6 @@
 
 #include "apps/experiment/model_lessons.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 
 namespace heel {
@@ -40,17 +38,12 @@ void ModelLessons::addPerson(const ColorCloud& cloud, const pcl::Indices& indice
   for (AppearanceLearner& learner : learners_) learner.addPerson(cloud, indices);
 }
 
-std::vector<std::optional<AppearanceModel>> ModelLessons::learn() const {
-  std::vector<std::optional<AppearanceModel>> learned(models_.size());
-  tbb::parallel_for(std::size_t{0}, models_.size(), [&](std::size_t i) {
-    const AppearanceLearner& learner = learners_[learner_of_[i]];
-    const bool seen =
-        std::any_of(learner.person().begin(), learner.person().end(),
-                    [](const ColorHistogram& histogram) { return !histogram.empty(); });
-    if (!seen || learner.room().empty()) return;
-    learned[i].emplace(models_[i].params, learner.person(), learner.room());
-  });
-  return learned;
+std::optional<AppearanceModel> ModelLessons::learn(std::size_t model) const {
+  const AppearanceLearner& learner = learners_.at(learner_of_.at(model));
+  const bool seen = std::any_of(learner.person().begin(), learner.person().end(),
+                                [](const ColorHistogram& histogram) { return !histogram.empty(); });
+  if (!seen || learner.room().empty()) return std::nullopt;
+  return AppearanceModel(models_[model].params, learner.person(), learner.room());
 }
 
 }  // namespace heel

@@ -23,9 +23,8 @@ class ModelLessons {
   void addRoom(const cv::Mat& image_bgr, const cv::Mat& mask = cv::Mat());
   void addPerson(const ColorCloud& cloud, const pcl::Indices& indices);
 
-  /// One for each offered model, in their order; absent where nothing was seen that the model's
-  /// bands could learn.
-  std::vector<std::optional<AppearanceModel>> learn() const;
+  /// The offered model of that number; absent where nothing was seen that its bands could learn.
+  std::optional<AppearanceModel> learn(std::size_t model) const;
 
  private:
   std::vector<OfferedModel> models_;

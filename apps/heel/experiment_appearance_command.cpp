@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "apps/experiment/appearance_report.hpp"
+#include "apps/experiment/people_matrix_experiment.hpp"
 #include "apps/heel/experiment_commands.hpp"
 #include "apps/report/progress_bar.hpp"
 
@@ -20,6 +21,8 @@ struct Options {
   int wardrobes = 20;
   std::uint64_t seed = 1;
   std::filesystem::path out;
+  std::filesystem::path people;
+  bool people_only = false;
   AppearanceExperimentParams params;
 };
 
@@ -66,7 +69,24 @@ void printRandom(const std::vector<WardrobeRuns>& runs, double min_share) {
   }
 }
 
-void run(const Options& options) {
+/// Each real person's model against all of them.
+void runPeople(const Options& options) {
+  ProgressBar progress("people", 100);
+  WardrobeRuns runs;
+  runs.models = runPeopleMatrixExperiment(
+      options.people, options.params.models, {},
+      [&](double share) { progress.show(static_cast<std::size_t>(100.0 * share)); });
+  const double min_share = options.params.min_share;
+  std::printf("%s: %zu people, each model against everyone\n",
+              options.people.filename().string().c_str(), runs.models.front().matrix.size());
+  for (const AppearanceRow& row : appearanceTable({runs}, min_share)) {
+    std::printf("  %-32s FN %-10s FP %s\n", row.name.c_str(),
+                counted(row.all.false_negatives).c_str(), counted(row.all.false_positives).c_str());
+  }
+  if (!options.out.empty()) writeAppearanceFiles(options.out / "people", {runs}, min_share);
+}
+
+void runSimulated(const Options& options) {
   constexpr std::size_t kSteps = 100;
   const auto all = static_cast<std::size_t>(options.wardrobes) + 1;
   ProgressBar progress("appearance", kSteps * all);
@@ -85,7 +105,12 @@ void run(const Options& options) {
   if (!random.empty()) {
     writeAppearanceFiles(options.out / "random", random, options.params.min_share);
   }
-  std::printf("wrote %s\n", options.out.string().c_str());
+}
+
+void run(const Options& options) {
+  if (!options.people_only) runSimulated(options);
+  if (!options.people.empty()) runPeople(options);
+  if (!options.out.empty()) std::printf("wrote %s\n", options.out.string().c_str());
 }
 
 }  // namespace
@@ -105,6 +130,11 @@ void addAppearanceExperiment(CLI::App& verb) {
                    "followed in so much of the time in view is detected")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
+  CLI::Option* people = experiment->add_option(
+      "--people", options->people,
+      "then the same on a recording of real people, empty at first, with truth.csv");
+  experiment->add_flag("--people-only", options->people_only, "leave the simulation out")
+      ->needs(people);
   experiment->add_option("--out", options->out, "folder for tables and pictures");
   experiment->callback([options] { run(*options); });
 }
