@@ -89,6 +89,7 @@ DetectionRun look(const SimulatedFrames& recording, const AppearanceModel& model
     run.elsewhere += followed && !there ? 1 : 0;
     if (!person) continue;
     ++run.frames_in_view;
+    run.appearance_sum += appearanceAt(*person, perception.tracks(), params.place_error_m);
     run.followed += there ? 1 : 0;
     run.blob += std::any_of(step.observations.begin(), step.observations.end(),
                             [&](const Observation& seen) {
@@ -176,13 +177,13 @@ class Experiment {
     span.to_s = params_.empty_s;
     Scene room = rooms_.acquisition(wardrobe_.people.front(), params_.empty_s, span.seed);
     room.people.clear();
-    const SimulatedFrames empty = renderFrames(room, span);
+    const SimulatedFrames empty = record(room, span);
     for (std::size_t i = 0; i < size_; ++i) {
       span.seed = seedFor(1, i);
       span.from_s = params_.empty_s + kEnters_s;
       span.to_s = span.from_s + params_.person_s;
       const SimulatedFrames person =
-          renderFrames(rooms_.acquisition(wardrobe_.people[i], params_.empty_s, span.seed), span);
+          record(rooms_.acquisition(wardrobe_.people[i], params_.empty_s, span.seed), span);
       Lesson lesson(empty.setup, params_);
       for (const SimulatedFrame& now : empty.frames) lesson.add(now.frame);
       for (const SimulatedFrame& now : person.frames) lesson.add(now.frame);
@@ -199,7 +200,7 @@ class Experiment {
     span.to_s = kEnters_s + params_.trial_s;
     for (std::size_t i = 0; i < size_; ++i) {
       span.seed = seedFor(2, i);
-      trials_.push_back(renderFrames(rooms_.trial({wardrobe_.people[i]}, span.seed), span));
+      trials_.push_back(record(rooms_.trial({wardrobe_.people[i]}, span.seed), span));
       done(0.4 + 0.2 * static_cast<double>(i + 1) / static_cast<double>(size_));
     }
   }
@@ -231,12 +232,18 @@ class Experiment {
     return found->second;
   }
 
+  SimulatedFrames record(const Scene& scene, const SimulatedFramesParams& span) const {
+    SimulatedFrames recording = renderFrames(scene, span);
+    matchStereo(recording, params_.perception.stereo);
+    return recording;
+  }
+
   SimulatedFrames recordPair(std::size_t a, std::size_t b) const {
     SimulatedFramesParams span;
     span.from_s = kEnters_s;
     span.to_s = kEnters_s + params_.trial_s;
     span.seed = seedFor(3, a * size_ + b);
-    return renderFrames(rooms_.trial({wardrobe_.people[a], wardrobe_.people[b]}, span.seed), span);
+    return record(rooms_.trial({wardrobe_.people[a], wardrobe_.people[b]}, span.seed), span);
   }
 
   const Wardrobe& wardrobe_;

@@ -33,6 +33,7 @@ AppearanceRow sumUp(const std::vector<WardrobeRuns>& wardrobes, std::size_t mode
     ++row.wardrobes;
     row.all.add(all);
     row.without_pair.add(without);
+    row.identified.add(runs.matrix.identified());
     row.clean.add(isClean(all));
     row.clean_without.add(isClean(without));
     if (rule == DetectionRule::kFollowed) {
@@ -63,8 +64,9 @@ nlohmann::ordered_json toJson(const ConfusionCount& count) {
 
 void writeRuns(const std::filesystem::path& file, const std::vector<WardrobeRuns>& wardrobes,
                double min_share) {
-  CsvWriter csv(file, {"wardrobe", "model", "model_of", "person", "similar_pair", "frames_in_view",
-                       "frames_followed", "frames_blob", "frames_elsewhere", "detected"});
+  CsvWriter csv(file,
+                {"wardrobe", "model", "model_of", "person", "similar_pair", "frames_in_view",
+                 "frames_followed", "frames_blob", "frames_elsewhere", "appearance", "detected"});
   for (const WardrobeRuns& wardrobe : wardrobes) {
     const auto inPair = [&](std::size_t i) {
       return static_cast<int>(i) == wardrobe.similar[0] ||
@@ -84,6 +86,7 @@ void writeRuns(const std::filesystem::path& file, const std::vector<WardrobeRuns
               .integer(run.followed)
               .integer(run.blob)
               .integer(run.elsewhere)
+              .number(run.appearance(), 3)
               .flag(runs.matrix.detected(i, j, DetectionRule::kFollowed, min_share))
               .endRow();
         }
@@ -184,6 +187,7 @@ void writeAppearanceFiles(const std::filesystem::path& folder,
     entry["without_similar_pair"] = toJson(row.without_pair);
     entry["clean_wardrobes"] = toJson(row.clean);
     entry["clean_wardrobes_without_similar_pair"] = toJson(row.clean_without);
+    entry["most_like_own_model"] = toJson(row.identified);
     entry["target_scores_higher"] = toJson(row.pairs);
     entry["frames_on_no_person"] = row.elsewhere;
     entry["frames"] = row.frames;

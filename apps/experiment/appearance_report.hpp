@@ -23,6 +23,7 @@ struct AppearanceRow {
   ConfusionCount without_pair;  ///< The second of the similar pair left out, as the paper does.
   Proportion clean;             ///< Wardrobes without any false positive or negative,
   Proportion clean_without;     ///< and the same without the second of the pair.
+  Proportion identified;        ///< Recordings most like their own person's model.
   Proportion pairs;             ///< Confusions in which the target scored higher side by side.
   int elsewhere = 0;            ///< Frames in which a place without a person was followed,
   int frames = 0;               ///< of so many in which somebody was in view.

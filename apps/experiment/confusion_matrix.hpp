@@ -16,10 +16,14 @@ namespace heel {
 
 /// One run: one person's recording, searched with one model.
 struct DetectionRun {
-  int frames_in_view = 0;  ///< Frames with the person in view; the next two are of these.
-  int followed = 0;        ///< The target is said to be at the person's place.
-  int blob = 0;            ///< A blob large and high enough for a person is at their place.
-  int elsewhere = 0;       ///< Frames in which the target is said to be at some other place.
+  int frames_in_view = 0;       ///< Frames with the person in view; the next two are of these.
+  int followed = 0;             ///< The target is said to be at the person's place.
+  int blob = 0;                 ///< A blob large and high enough for a person is at their place.
+  int elsewhere = 0;            ///< Frames in which the target is said to be at some other place.
+  double appearance_sum = 0.0;  ///< Of the confirmed track at the person's place, 0 without one.
+
+  /// Mean appearance in view; 0 if never in view.
+  double appearance() const { return frames_in_view == 0 ? 0.0 : appearance_sum / frames_in_view; }
 };
 
 /// When a run counts as a detection.
@@ -66,6 +70,10 @@ class ConfusionMatrix {
   /// @param without  A person to leave out, as the paper does with one of its similar pair.
   ConfusionCount count(DetectionRule rule, double min_share,
                        std::optional<std::size_t> without = {}) const;
+
+  /// The recordings that look more like their own person's model than like anybody else's: what
+  /// appearance alone can tell, whatever the threshold.
+  Proportion identified(std::optional<std::size_t> without = {}) const;
 
  private:
   std::vector<std::string> people_;

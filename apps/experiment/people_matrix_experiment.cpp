@@ -45,6 +45,7 @@ std::vector<DetectionRun> lookForAll(const std::filesystem::path& path, const Ca
       const Eigen::Vector2d place = *truth.placeOf(truth.people()[i], frame.number);
       const double appearance = appearanceAt(place, perception.tracks(), reach_m);
       ++row[i].frames_in_view;
+      row[i].appearance_sum += appearance;
       row[i].followed += appearance > perception_params.target.min_appearance ? 1 : 0;
       row[i].blob += blobScoreAt(place, step.observations, reach_m) > 0.0 ? 1 : 0;
     }

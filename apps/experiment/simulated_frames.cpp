@@ -4,7 +4,11 @@
 #include "apps/experiment/simulated_frames.hpp"
 
 #include "apps/experiment/scene_gate.hpp"
+#include "apps/follower/depth_images.hpp"
 #include "apps/simulation/simulator.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <array>
 #include <cmath>
@@ -58,6 +62,18 @@ SimulatedFrames renderFrames(const Scene& scene, const SimulatedFramesParams& pa
     now.people_m = placesInView(*readings, params.min_pixels);
   }
   return result;
+}
+
+void matchStereo(SimulatedFrames& recording, const StereoMatcherParams& params) {
+  using Range = tbb::blocked_range<std::size_t>;
+  tbb::parallel_for(Range(0, recording.frames.size()), [&](const Range& range) {
+    DepthImages depths(SensorKind::kStereo, recording.setup.camera, params);
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      Frame& frame = recording.frames[i].frame;
+      frame.depth_m = depths.of(frame).clone();
+    }
+  });
+  recording.setup.sensor = SensorKind::kRgbd;
 }
 
 }  // namespace heel

@@ -8,6 +8,7 @@
 #include "apps/follower/camera_setup.hpp"
 #include "apps/recording/frame.hpp"
 #include "apps/simulation/scene.hpp"
+#include "cloud/stereo_params.hpp"
 #include "tracking/geometric_gate.hpp"
 
 #include <Eigen/Core>
@@ -45,5 +46,9 @@ struct SimulatedFrames {
 
 /// Renders at the camera's rate. Deterministic.
 SimulatedFrames renderFrames(const Scene& scene, const SimulatedFramesParams& params);
+
+/// Matches every pair once, all over, so that the frames count as an RGB-D camera's: cheaper where
+/// many models look at the same recording. Matching only where a mask says gives the same.
+void matchStereo(SimulatedFrames& recording, const StereoMatcherParams& params);
 
 }  // namespace heel

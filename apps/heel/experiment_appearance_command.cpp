@@ -57,15 +57,16 @@ void printLaboratory(const WardrobeRuns& runs, double min_share) {
 
 void printRandom(const std::vector<WardrobeRuns>& runs, double min_share) {
   std::printf("%zu random wardrobes, each with one similar pair (95 %% intervals)\n", runs.size());
-  std::printf("  %-32s %-21s %-23s %-23s %-10s %-10s %s\n", "", "FN", "FP", "FP without the pair",
-              "no error", "w/o pair", "target higher");
+  std::printf("  %-32s %-21s %-23s %-23s %-9s %-9s %-14s %s\n", "", "FN", "FP",
+              "FP without the pair", "no error", "w/o pair", "target higher", "identified");
   for (const AppearanceRow& row : appearanceTable(runs, min_share)) {
-    std::printf("  %-32s %-21s %-23s %-23s %-10s %-10s %s\n", row.name.c_str(),
+    std::printf("  %-32s %-21s %-23s %-23s %-9s %-9s %-14s %s\n", row.name.c_str(),
                 withInterval(row.all.false_negatives).c_str(),
                 withInterval(row.all.false_positives).c_str(),
                 withInterval(row.without_pair.false_positives).c_str(), counted(row.clean).c_str(),
                 counted(row.clean_without).c_str(),
-                row.pairs.total == 0 ? "-" : counted(row.pairs).c_str());
+                row.pairs.total == 0 ? "-" : counted(row.pairs).c_str(),
+                counted(row.identified).c_str());
   }
 }
 
