@@ -6,8 +6,7 @@
 #include "apps/experiment/model_lessons.hpp"
 #include "apps/experiment/seen_at.hpp"
 #include "apps/experiment/simulated_frames.hpp"
-#include "apps/follower/acquisition.hpp"
-#include "apps/follower/depth_images.hpp"
+#include "apps/experiment/simulated_lesson.hpp"
 #include "apps/simulation/random.hpp"
 
 #include <tbb/parallel_for.h>
@@ -23,50 +22,6 @@ namespace {
 constexpr double kEnters_s = 1.2;  // So long people take into view.
 
 using Models = std::vector<std::optional<AppearanceModel>>;
-
-/// The points whose pixels are surely the person's.
-pcl::Indices personPoints(const AcquisitionStep& step) {
-  pcl::Indices indices;
-  const auto* labels = step.labels.ptr<std::uint8_t>();
-  for (const auto i : *step.view->candidates) {
-    if (labels[i] == AcquisitionStep::kTorso || labels[i] == AcquisitionStep::kLegs) {
-      indices.push_back(i);
-    }
-  }
-  return indices;
-}
-
-/// Phase 1 for all models at once.
-class Lesson {
- public:
-  Lesson(const CameraSetup& setup, const AppearanceExperimentParams& params)
-      : depths_(setup.sensor, setup.camera, params.perception.stereo),
-        acquisition_(setup.camera.left, setup.T_base_camera, acquisitionParams(params)),
-        lessons_(params.models) {}
-
-  void add(const Frame& frame) {
-    const AcquisitionStep& step =
-        acquisition_.step(frame.stamp_s, frame.image_bgr, depths_.of(frame));
-    if (!step.usable) return;
-    lessons_.addRoom(frame.image_bgr, step.labels == AcquisitionStep::kScene);
-    if (step.person >= 0) lessons_.addPerson(*step.view->cloud, personPoints(step));
-  }
-
-  const AcquisitionResult& result() const { return acquisition_.result(); }
-  ModelLessons takeLessons() { return std::move(lessons_); }
-
- private:
-  static AcquisitionParams acquisitionParams(const AppearanceExperimentParams& params) {
-    AcquisitionParams acquisition;
-    acquisition.background_s = params.empty_s;
-    acquisition.person_s = params.person_s;
-    return acquisition;
-  }
-
-  DepthImages depths_;
-  Acquisition acquisition_;
-  ModelLessons lessons_;
-};
 
 /// With what the map of the recording's room rules out.
 PerceptionParams perceptionParams(const SimulatedFrames& recording,
@@ -184,12 +139,11 @@ class Experiment {
       span.to_s = span.from_s + params_.person_s;
       const SimulatedFrames person =
           record(rooms_.acquisition(wardrobe_.people[i], params_.empty_s, span.seed), span);
-      Lesson lesson(empty.setup, params_);
-      for (const SimulatedFrame& now : empty.frames) lesson.add(now.frame);
-      for (const SimulatedFrame& now : person.frames) lesson.add(now.frame);
+      SimulatedLesson lesson =
+          takeLesson({&empty, &person}, params_.models, params_.empty_s, params_.person_s);
       result_.acquired.push_back(
-          {wardrobe_.people[i].name, lesson.result().person_frames, lesson.result().end});
-      lessons_.push_back(lesson.takeLessons());
+          {wardrobe_.people[i].name, lesson.result.person_frames, lesson.result.end});
+      lessons_.push_back(std::move(lesson.lessons));
       done(0.4 * static_cast<double>(i + 1) / static_cast<double>(size_));
     }
   }

@@ -10,5 +10,6 @@
 namespace heel {
 
 void addAppearanceExperiment(CLI::App& verb);
+void addPerceptionExperiment(CLI::App& verb);
 
 }  // namespace heel
