@@ -3,56 +3,14 @@
 
 #include "apps/experiment/experiments.hpp"
 #include "apps/experiment/truth_frames.hpp"
-#include "apps/follower/depth_images.hpp"
+#include "apps/experiment/truth_lessons.hpp"
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 
 namespace heel {
 namespace {
-
-/// What the first half of a person's exact frames, and the empty scene, teach of each of them.
-std::vector<AppearanceModel> learnEveryone(const std::filesystem::path& path,
-                                           const CameraSetup& setup, const TruthFrames& truth,
-                                           const ExperimentParams& params) {
-  std::vector<AppearanceLearner> learners(truth.people().size(),
-                                          AppearanceLearner(params.appearance));
-  std::vector<std::set<std::size_t>> frames_of;
-  for (const std::string& person : truth.people()) {
-    const auto frames = truth.exactFrames(person);
-    frames_of.emplace_back(frames.begin(),
-                           frames.begin() + static_cast<std::ptrdiff_t>(frames.size() / 2));
-  }
-  const auto recording = openRecording(path);
-  DepthImages depths(setup.sensor, setup.camera);
-  ColorCloud cloud;
-  pcl::Indices near;
-  Frame frame;
-  const double radius_m2 = params.learn_radius_m * params.learn_radius_m;
-  while (recording->next(frame)) {
-    if (frame.stamp_s <= params.background_s) {
-      for (AppearanceLearner& learner : learners) learner.addRoom(frame.image_bgr);
-      continue;
-    }
-    makeColorCloud(depths.of(frame), frame.image_bgr, setup.camera.left, setup.T_base_camera,
-                   cloud);
-    for (std::size_t i = 0; i < learners.size(); ++i) {
-      if (frames_of[i].count(frame.number) == 0) continue;
-      const Eigen::Vector2f place = truth.placeOf(truth.people()[i], frame.number)->cast<float>();
-      near.clear();
-      for (std::size_t p = 0; p < cloud.size(); ++p) {
-        const auto offset = cloud[p].getVector3fMap().head<2>() - place;
-        if (offset.squaredNorm() < static_cast<float>(radius_m2)) {
-          near.push_back(static_cast<pcl::index_t>(p));
-        }
-      }
-      learners[i].addPerson(cloud, near);
-    }
-  }
-  std::vector<AppearanceModel> models;
-  for (const AppearanceLearner& learner : learners) models.push_back(learner.learn());
-  return models;
-}
 
 /// Looks for one person in the second half of their exact frames, in all three ways.
 TargetResult lookFor(const std::string& person, const AppearanceModel& model,
@@ -98,10 +56,12 @@ std::vector<TargetResult> runTargetsExperiment(const std::filesystem::path& path
                                                const ExperimentParams& params) {
   const TruthFrames truth(path);
   const CameraSetup setup = findCameraSetup(*openRecording(path));
-  const auto models = learnEveryone(path, setup, truth, params);
+  const auto lessons = learnEveryone(path, setup, truth, {{"", params.appearance}}, params);
   std::vector<TargetResult> results;
-  for (std::size_t i = 0; i < models.size(); ++i) {
-    results.push_back(lookFor(truth.people()[i], models[i], path, setup, truth, params));
+  for (std::size_t i = 0; i < lessons.size(); ++i) {
+    const auto model = lessons[i].learn(0);
+    if (!model) throw std::runtime_error(truth.people()[i] + ": nothing of them could be learned");
+    results.push_back(lookFor(truth.people()[i], *model, path, setup, truth, params));
   }
   return results;
 }

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "apps/experiment/experiments.hpp"
+#include "apps/experiment/offered_models.hpp"
 #include "apps/heel/commands.hpp"
+#include "apps/heel/experiment_commands.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -42,31 +44,8 @@ void runDetector(const Options& options) {
               total_ms / result.frames);
 }
 
-/// A model that the experiments compare.
-struct OfferedModel {
-  const char* name;
-  AppearanceParams params;
-};
-
-std::vector<OfferedModel> offeredModels() {
-  const auto make = [](ColorModel model, int colors, std::vector<BodyBand> bands) {
-    AppearanceParams params;
-    params.model = model;
-    params.principal_colors.count = colors;
-    params.bands = std::move(bands);
-    return params;
-  };
-  return {{"paper, k = 1", make(ColorModel::kPrincipalColors, 1, upperBody())},
-          {"paper, k from the data", make(ColorModel::kPrincipalColors, 0, upperBody())},
-          {"paper, k = 1, torso + head", make(ColorModel::kPrincipalColors, 1, torsoAndHead())},
-          {"paper, k = 1, + legs", make(ColorModel::kPrincipalColors, 1, wholeBody())},
-          {"ratio to the room", make(ColorModel::kColorRatio, 1, upperBody())},
-          {"ratio, torso + head (default)", AppearanceParams()},
-          {"ratio, torso + head + legs", make(ColorModel::kColorRatio, 1, wholeBody())}};
-}
-
-void printRow(const char* name, const TargetMetrics& m) {
-  std::printf("  %-32s recall %.3f  wrong person %.3f  (%d frames)\n", name, m.recall(),
+void printRow(const std::string& name, const TargetMetrics& m) {
+  std::printf("  %-32s recall %.3f  wrong person %.3f  (%d frames)\n", name.c_str(), m.recall(),
               m.wrongPersonShare(), m.frames_in_view);
 }
 
@@ -76,11 +55,11 @@ void runProtocol(const Options& options) {
     ExperimentParams params = options.params;
     params.appearance = offered.params;
     const ProtocolResult result = runProtocolExperiment(options.recording, params);
-    std::printf("%s: %s learned in %d frames\n", offered.name, result.person.c_str(),
+    std::printf("%s: %s learned in %d frames\n", offered.name.c_str(), result.person.c_str(),
                 result.learned.acquisition.person_frames);
-    printRow(options.recording.filename().c_str(), result.following);
+    printRow(options.recording.filename().string(), result.following);
     if (!options.other.empty()) {
-      printRow(options.other.filename().c_str(),
+      printRow(options.other.filename().string(),
                runFollowingExperiment(options.other, result.learned.model, result.person, params));
     }
   }
@@ -105,8 +84,8 @@ void runTargets(const Options& options) {
   for (const OfferedModel& offered : offeredModels()) {
     ExperimentParams params = options.params;
     params.appearance = offered.params;
-    std::printf("%s\n  %-26s %5s   best blob   started   found by looks\n", offered.name, "person",
-                "n");
+    std::printf("%s\n  %-26s %5s   best blob   started   found by looks\n", offered.name.c_str(),
+                "person", "n");
     Sum best, started, cold;
     for (const TargetResult& result : runTargetsExperiment(options.recording, params)) {
       Sum one_best, one_started, one_cold;
@@ -158,6 +137,8 @@ void addExperiment(CLI::App& app) {
   auto [protocol, options] =
       add("protocol", "The first person learned while alone, then followed", runProtocol);
   protocol->add_option("OTHER", options->other, "another recording of the same person");
+  addAppearanceExperiment(*verb);
+  addPerceptionExperiment(*verb);
 }
 
 }  // namespace heel

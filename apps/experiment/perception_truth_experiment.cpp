@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/experiment/perception_truth_experiment.hpp"
+
+#include "apps/experiment/simulated_frames.hpp"
+#include "apps/experiment/simulated_lesson.hpp"
+#include "apps/simulation/random.hpp"
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace heel {
+namespace {
+
+constexpr std::uint8_t kTarget = 1;  // Of the instance mask: the scene's first person.
+constexpr double kEnters_s = 1.2;    // So long people take into view.
+
+double shareOf(std::int64_t part, std::int64_t whole) {
+  if (whole == 0) return std::numeric_limits<double>::quiet_NaN();
+  return static_cast<double>(part) / static_cast<double>(whole);
+}
+
+/// Heights over the floor of one pixel after the other.
+class TrueHeights {
+ public:
+  explicit TrueHeights(const CameraSetup& setup)
+      : camera_(setup.camera.left), T_(setup.T_base_camera) {}
+
+  /// NaN where the depth is.
+  double at(int u, int v, float depth_m) const {
+    const Eigen::Vector3d ray((u - camera_.cx) / camera_.fx, (v - camera_.cy) / camera_.fy, 1.0);
+    return (T_ * Eigen::Vector3d(ray * static_cast<double>(depth_m))).z();
+  }
+
+ private:
+  PinholeCamera camera_;
+  Eigen::Isometry3d T_;
+};
+
+/// @param passed  CV_8UC1, not 0 where the stage lets pass.
+void count(const cv::Mat& passed, const SimulatedFrame& now, const TrueHeights& heights,
+           const std::vector<BodyBand>& bands, PixelCount& result) {
+  for (int v = 0; v < passed.rows; ++v) {
+    const auto* mask = passed.ptr<std::uint8_t>(v);
+    const auto* people = now.people.ptr<std::uint8_t>(v);
+    const auto* depth = now.true_depth_m.ptr<float>(v);
+    for (int u = 0; u < passed.cols; ++u) {
+      result.passed += mask[u] != 0 ? 1 : 0;
+      if (people[u] != kTarget) continue;
+      result.on_target += mask[u] != 0 ? 1 : 0;
+      const double height_m = heights.at(u, v, depth[u]);
+      bool known = false;
+      for (const BodyBand& band : bands) known = known || band.contains(height_m);
+      if (!known) continue;
+      ++result.wanted;
+      result.found += mask[u] != 0 ? 1 : 0;
+    }
+  }
+}
+
+AppearanceModel learn(const WardrobeRooms& rooms, const ScenePerson& person, std::uint64_t seed,
+                      const PerceptionTruthParams& params) {
+  SimulatedFramesParams span;
+  span.seed = hashOf(seed, 21);
+  const Scene scene = rooms.acquisition(person, params.empty_s, span.seed);
+  span.to_s = params.empty_s + kEnters_s + params.person_s;
+  SimulatedFrames recording = renderFrames(scene, span);
+  matchStereo(recording, params.perception.stereo);
+  const SimulatedLesson lesson =
+      takeLesson({&recording}, {{"", params.appearance}}, params.empty_s, params.person_s);
+  auto model = lesson.lessons.learn(0);
+  if (!model) {
+    throw std::runtime_error("wardrobe " + std::to_string(seed) +
+                             ": nothing of the person could be learned");
+  }
+  return std::move(*model);
+}
+
+}  // namespace
+
+double PixelCount::precision() const { return shareOf(on_target, passed); }
+double PixelCount::recall() const { return shareOf(found, wanted); }
+
+void PixelCount::add(const PixelCount& other) {
+  passed += other.passed;
+  on_target += other.on_target;
+  wanted += other.wanted;
+  found += other.found;
+}
+
+PerceptionTruthRun runPerceptionTruthExperiment(std::uint64_t seed,
+                                                const PerceptionTruthParams& params) {
+  const Wardrobe wardrobe = randomWardrobe(seed);
+  const WardrobeRooms rooms(params.scenes, seed);
+  PerceptionTruthRun run;
+  run.seed = seed;
+  run.similar = seed % 5 == 0;
+  const ScenePerson& target = wardrobe.people[run.similar ? 0 : 2];
+  const ScenePerson& other = wardrobe.people[run.similar ? 1 : 3];
+  const AppearanceModel model = learn(rooms, target, seed, params);
+
+  SimulatedFramesParams span;
+  span.seed = hashOf(seed, 22);
+  span.to_s = params.follow_s;
+  const SimulatedFrames recording = renderFrames(rooms.trial({target, other}, span.seed), span);
+  PerceptionParams perception_params = params.perception;
+  perception_params.gate = recording.gate;
+  Perception perception(recording.setup, model, perception_params);
+  const TrueHeights heights(recording.setup);
+  std::vector<TargetFrame> target_frames;
+  std::vector<TrackingFrame> mot_frames;
+  cv::Mat standing;
+  for (const SimulatedFrame& now : recording.frames) {
+    const PerceptionStep& step = perception.step(now.frame);
+    count(step.mask, now, heights, model.params().bands, run.filter);
+    standing.create(step.mask.size(), CV_8UC1);
+    standing.setTo(0);
+    for (const pcl::index_t i : step.standing) standing.data[i] = 255;
+    count(standing, now, heights, model.params().bands, run.standing);
+
+    TargetFrame& frame = target_frames.emplace_back();
+    TrackingFrame& mot = mot_frames.emplace_back();
+    frame.stamp_s = now.frame.stamp_s;
+    frame.target_m = now.people_m[0];
+    if (now.people_m[0]) mot.truth.push_back({0, *now.people_m[0]});
+    if (now.people_m[1]) frame.others_m.push_back(*now.people_m[1]);
+    if (!step.target.hasPlace()) continue;
+    frame.estimate_m = step.target.motion.position_m();
+    mot.estimates.push_back({step.target.track_id, step.target.motion.position_m()});
+  }
+  run.target = targetMetrics(target_frames, params.place_error_m);
+  ClearMotParams mot_params;
+  mot_params.match_distance_m = params.place_error_m;
+  run.mot = clearMot(mot_frames, mot_params);
+  return run;
+}
+
+PerceptionTruthRun sumOf(const std::vector<PerceptionTruthRun>& runs) {
+  PerceptionTruthRun sum;
+  for (const PerceptionTruthRun& run : runs) {
+    sum.filter.add(run.filter);
+    sum.standing.add(run.standing);
+    TargetMetrics& target = sum.target;
+    target.frames += run.target.frames;
+    target.frames_in_view += run.target.frames_in_view;
+    target.right += run.target.right;
+    target.wrong_person += run.target.wrong_person;
+    target.nobody += run.target.nobody;
+    target.none += run.target.none;
+    target.contested += run.target.contested;
+    target.absent_wrong_person += run.target.absent_wrong_person;
+    target.absent_nobody += run.target.absent_nobody;
+    target.error_sum_m += run.target.error_sum_m;
+    target.duration_s += run.target.duration_s;
+    target.wrong_target_s += run.target.wrong_target_s;
+    target.reacquisition_delays_s.insert(target.reacquisition_delays_s.end(),
+                                         run.target.reacquisition_delays_s.begin(),
+                                         run.target.reacquisition_delays_s.end());
+    target.not_reacquired += run.target.not_reacquired;
+    sum.mot.frames += run.mot.frames;
+    sum.mot.truths += run.mot.truths;
+    sum.mot.matches += run.mot.matches;
+    sum.mot.misses += run.mot.misses;
+    sum.mot.false_positives += run.mot.false_positives;
+    sum.mot.mismatches += run.mot.mismatches;
+    sum.mot.distance_sum_m += run.mot.distance_sum_m;
+  }
+  return sum;
+}
+
+}  // namespace heel

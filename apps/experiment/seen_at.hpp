@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// What the perception makes of one place on the floor.
+#pragma once
+
+#include "tracking/observation.hpp"
+#include "tracking/track.hpp"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+namespace heel {
+
+/// Whether a place is known and no further than that.
+bool isNear(const Eigen::Vector2d& a, const std::optional<Eigen::Vector2d>& b, double distance_m);
+
+/// The appearance of the confirmed track nearest to a place; 0 without one within the distance.
+double appearanceAt(const Eigen::Vector2d& place, const std::vector<Track>& tracks,
+                    double distance_m);
+
+/// The score of the blob nearest to a place; 0 without one within the distance.
+double blobScoreAt(const Eigen::Vector2d& place, const std::vector<Observation>& observations,
+                   double distance_m);
+
+}  // namespace heel

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/experiment/simulated_frames.hpp"
+
+#include "apps/experiment/scene_gate.hpp"
+#include "apps/follower/depth_images.hpp"
+#include "apps/simulation/simulator.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace heel {
+namespace {
+
+/// Who is in view, and where in the robot's frame.
+std::vector<std::optional<Eigen::Vector2d>> placesInView(const Readings& readings, int min_pixels) {
+  std::array<int, 256> pixels{};
+  const cv::Mat& people = readings.stereo->people;
+  for (int v = 0; v < people.rows; ++v) {
+    const auto* row = people.ptr<std::uint8_t>(v);
+    for (int u = 0; u < people.cols; ++u) ++pixels[row[u]];
+  }
+  const FloorPose& robot = readings.truth.robot;
+  std::vector<std::optional<Eigen::Vector2d>> places(readings.truth.people.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (pixels[i + 1] < min_pixels) continue;
+    places[i] =
+        Eigen::Rotation2Dd(-robot.yaw_rad) * (readings.truth.people[i].position - robot.position);
+  }
+  return places;
+}
+
+}  // namespace
+
+SimulatedFrames renderFrames(const Scene& scene, const SimulatedFramesParams& params) {
+  SimulatorOptions options;
+  options.seed = params.seed;
+  Simulator simulator(scene, options);
+  SimulatedFrames result;
+  result.setup.sensor = SensorKind::kStereo;
+  result.setup.camera = simulator.camera();
+  result.setup.T_base_camera = simulator.T_base_camera();
+  result.setup.is_configured = true;
+  result.gate = mapGate(scene, simulator.camera());
+  const double step_s = 1.0 / scene.robot.camera.rate_hz;
+  const auto count = std::lround(std::ceil((params.to_s - params.from_s) / step_s - 1e-6));
+  for (long i = 0; i < count; ++i) {
+    const Readings* readings = &simulator.step(i == 0 ? params.from_s : step_s);
+    SimulatedFrame& now = result.frames.emplace_back();
+    now.frame.number = result.frames.size();
+    now.frame.stamp_s = readings->stamp_s;
+    now.frame.name = scene.name;
+    now.frame.image_bgr = readings->stereo->left_bgr.clone();
+    now.frame.right_bgr = readings->stereo->right_bgr.clone();
+    now.true_depth_m = readings->stereo->depth_m.clone();
+    now.people = readings->stereo->people.clone();
+    now.people_m = placesInView(*readings, params.min_pixels);
+  }
+  return result;
+}
+
+void matchStereo(SimulatedFrames& recording, const StereoMatcherParams& params) {
+  using Range = tbb::blocked_range<std::size_t>;
+  tbb::parallel_for(Range(0, recording.frames.size()), [&](const Range& range) {
+    DepthImages depths(SensorKind::kStereo, recording.setup.camera, params);
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      Frame& frame = recording.frames[i].frame;
+      frame.depth_m = depths.of(frame).clone();
+    }
+  });
+  recording.setup.sensor = SensorKind::kRgbd;
+}
+
+}  // namespace heel

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Recordings that are rendered straight into memory, with their truth.
+#pragma once
+
+#include "apps/follower/camera_setup.hpp"
+#include "apps/recording/frame.hpp"
+#include "apps/simulation/scene.hpp"
+#include "cloud/stereo_params.hpp"
+#include "tracking/geometric_gate.hpp"
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace heel {
+
+/// A frame, and what is true of it.
+struct SimulatedFrame {
+  Frame frame;
+  cv::Mat true_depth_m;  ///< CV_32FC1 of the left image.
+  cv::Mat people;        ///< CV_8UC1: 0, or 1 + the number of the person in the scene.
+  /// Where everyone of the scene is, in the robot's base frame; none: not in view.
+  std::vector<std::optional<Eigen::Vector2d>> people_m;
+};
+
+/// What is rendered.
+struct SimulatedFramesParams {
+  double from_s = 0.0;  ///< The world lives before, but is not rendered.
+  double to_s = 6.0;    ///< The last frame comes before.
+  std::uint64_t seed = 1;
+  int min_pixels = 500;  ///< Somebody of whom less is seen is not in view.
+};
+
+/// A robot that stands still and looks.
+struct SimulatedFrames {
+  CameraSetup setup;
+  GeometricGate gate;  ///< What the map says, see mapGate().
+  std::vector<SimulatedFrame> frames;
+};
+
+/// Renders at the camera's rate. Deterministic.
+SimulatedFrames renderFrames(const Scene& scene, const SimulatedFramesParams& params);
+
+/// Matches every pair once, all over, so that the frames count as an RGB-D camera's: cheaper where
+/// many models look at the same recording. Matching only where a mask says gives the same.
+void matchStereo(SimulatedFrames& recording, const StereoMatcherParams& params);
+
+}  // namespace heel

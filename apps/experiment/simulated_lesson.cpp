@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/experiment/simulated_lesson.hpp"
+
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+/// The points whose pixels are surely the person's.
+pcl::Indices personPoints(const AcquisitionStep& step) {
+  pcl::Indices indices;
+  const auto* labels = step.labels.ptr<std::uint8_t>();
+  for (const auto i : *step.view->candidates) {
+    if (labels[i] == AcquisitionStep::kTorso || labels[i] == AcquisitionStep::kLegs) {
+      indices.push_back(i);
+    }
+  }
+  return indices;
+}
+
+}  // namespace
+
+SimulatedLesson takeLesson(const std::vector<const SimulatedFrames*>& recordings,
+                           const std::vector<OfferedModel>& models, double empty_s,
+                           double person_s) {
+  if (recordings.empty()) throw std::invalid_argument("takeLesson: there is no recording");
+  AcquisitionParams params;
+  params.background_s = empty_s;
+  params.person_s = person_s;
+  const CameraSetup& setup = recordings.front()->setup;
+  Acquisition acquisition(setup.camera.left, setup.T_base_camera, params);
+  SimulatedLesson lesson{ModelLessons(models), {}};
+  for (const SimulatedFrames* recording : recordings) {
+    for (const SimulatedFrame& now : recording->frames) {
+      const Frame& frame = now.frame;
+      const AcquisitionStep& step = acquisition.step(frame.stamp_s, frame.image_bgr, frame.depth_m);
+      if (!step.usable) continue;
+      lesson.lessons.addRoom(frame.image_bgr, step.labels == AcquisitionStep::kScene);
+      if (step.person >= 0) lesson.lessons.addPerson(*step.view->cloud, personPoints(step));
+    }
+  }
+  lesson.result = acquisition.result();
+  return lesson;
+}
+
+}  // namespace heel

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// The experiments, each a subcommand of `heel experiment`.
+#pragma once
+
+#include <CLI/App.hpp>
+
+namespace heel {
+
+void addAppearanceExperiment(CLI::App& verb);
+void addPerceptionExperiment(CLI::App& verb);
+
+}  // namespace heel
