@@ -40,6 +40,19 @@ std::string stillName(std::size_t frame) {
   return name;
 }
 
+/// Removes the film and the stills of a former run into the same folder, which would not go with
+/// the new tables.
+void removeFormerPictures(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> former = {folder / "tracks.mp4", folder / "tracks.avi"};
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind("frame_", 0) == 0 && entry.path().extension() == ".png") {
+      former.push_back(entry.path());
+    }
+  }
+  for (const auto& file : former) std::filesystem::remove(file);
+}
+
 /// Frames per second at which a film of the recording shows real time.
 double rateOf(const RecordingInfo& info) {
   const bool has_rate = info.frame_count > 1 && info.duration_s > 0.0;
@@ -197,6 +210,7 @@ void TrackOutput::commit(const std::vector<SkippedFrame>& skipped,
   writeJson(summary_file, summary);
   files_.close();
   if (film_) film_->close();
+  removeFormerPictures(folder_);
   files_.commit();
   if (film_) film_->commit();
   for (AtomicFile& still : stills) still.commit();

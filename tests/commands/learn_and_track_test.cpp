@@ -30,8 +30,12 @@ class LearnAndTrack : public testing::Test {
     EXPECT_THAT(run.out, HasSubstr("wrote "));
   }
 
-  HeelRun track(const std::string& model, const std::string& out) {
-    return heel({"track", folder_ / "room", "--model", folder_ / model, "--out", folder_ / out});
+  HeelRun track(const std::string& model, const std::string& out,
+                const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words = {"track",         folder_ / "room", "--model",
+                                      folder_ / model, "--out",          folder_ / out};
+    words.insert(words.end(), more.begin(), more.end());
+    return heel(words);
   }
 
   nlohmann::json evaluate(const std::string& tracks) {
@@ -101,6 +105,17 @@ TEST_F(LearnAndTrack, GivesTheSameBytesOnEveryRun) {
       EXPECT_TRUE(readText(first / file) == readText(second / file)) << file << " differs";
     }
   }
+}
+
+TEST_F(LearnAndTrack, LeavesNoPictureOfAFormerRunBesideNewTables) {
+  SmallRecording{3, 6}.write(folder_ / "room");
+  writeSmallModel(folder_ / "rosa.yaml");
+  ASSERT_TRUE(succeeds(track("rosa.yaml", "out")));
+  EXPECT_GT(filesBelow(folder_ / "out").size(), 5U);
+  ASSERT_TRUE(succeeds(track("rosa.yaml", "out", {"--no-film"})));
+  EXPECT_THAT(
+      filesBelow(folder_ / "out"),
+      testing::UnorderedElementsAre("tracks.csv", "frames.csv", "timing.csv", "summary.json"));
 }
 
 TEST_F(LearnAndTrack, SaysWhatEveryStageLeftOfEveryFrame) {
