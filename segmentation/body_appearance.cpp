@@ -100,10 +100,11 @@ double bodyAppearance(const BodyView& view, const WorldBlob& blob,
   const Eigen::Isometry3f T = view.T_base_camera.cast<float>();
   const Board narrow = boardAt(blob.position_m, view.T_base_camera, params.board_half_width_m);
   const Board wide = boardAt(blob.position_m, view.T_base_camera, params.radius_m);
+  const double top_m = std::max(blob.max_height_m, params.least_height_m);
   return meanOverBands(bands, [&](const AppearanceBand& band) {
     Coverage coverage(params.prior_points);
-    const cv::Rect board = pixelsOf(narrow, band.body.min_height_m,
-                                    std::min(band.body.max_height_m, blob.max_height_m), view);
+    const cv::Rect board =
+        pixelsOf(narrow, band.body.min_height_m, std::min(band.body.max_height_m, top_m), view);
     const cv::Rect body =
         pixelsOf(wide, band.body.min_height_m, band.body.max_height_m, view) | board;
     for (int v = body.y; v < body.y + body.height; ++v) {

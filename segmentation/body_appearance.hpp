@@ -22,6 +22,9 @@ struct BodyAppearanceParams {
   /// Where depth is not known: half width of the upright board, facing the camera, whose pixels are
   /// taken for the body's.
   double board_half_width_m = 0.12;
+  /// The board reaches up to the blob's height, but at least so high: where somebody's head has not
+  /// the target's colours, the blob ends below it.
+  double least_height_m = 1.7;
   /// So many points, half of them with the target's colours, are taken to have been seen in each
   /// band beforehand: few points say little, none say 0.5.
   double prior_points = 40.0;
@@ -40,7 +43,8 @@ struct BodyView {
 /// lets some pixels pass too; what gives them away is all the rest of them.
 ///
 /// A pixel belongs to the body if its point lies in the cylinder around the blob's place and in the
-/// band; without a depth, if it lies on the board, which ends at the blob's height.
+/// band; without a depth, if it lies on the board, which ends at the blob's height (see
+/// least_height_m).
 /// @param blob  Where the body is, in the base frame, and how high.
 double bodyAppearance(const BodyView& view, const WorldBlob& blob,
                       const std::vector<AppearanceBand>& bands,

@@ -38,7 +38,7 @@ struct TrackerParams {
   /// While a track is seen, its motion says who it is. Where it was not, in the frame before, its
   /// looks must: an observation whose appearance differs by more than this factor (as a natural
   /// logarithm) is somebody else, who came in as it went out.
-  double max_log_change_unseen = 1.1;
+  double max_log_change_unseen = 0.8;
   /// Time over which a track's appearance is averaged: it forgets 1 - 1/e of its past in this time.
   double appearance_memory_s = 0.7;
   double birth_clearance_m = 0.4;  ///< Closer to a track in view, what is left is its fragment.

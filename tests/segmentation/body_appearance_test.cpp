@@ -106,6 +106,7 @@ TEST(BodyAppearance, OfAnImageWithoutDepthCountsTheBoard) {
 TEST(BodyAppearance, OfAnImageWithoutDepthEndsAtTheBlobsHeight) {
   BodyAppearanceParams params = withoutPrior();
   params.board_half_width_m = 0.15;
+  params.least_height_m = 1.5;
   BodyView view = viewOfABoard(kNaN);
   view.image_bgr.rowRange(0, 52).setTo(cv::Scalar(0, 0, 0));  // all that is above 1.65 m
   const std::vector<AppearanceBand> bands = {bandOf(1, 2, 100)};
