@@ -141,8 +141,9 @@ class Experiment {
           record(rooms_.acquisition(wardrobe_.people[i], params_.empty_s, span.seed), span);
       SimulatedLesson lesson =
           takeLesson({&empty, &person}, params_.models, params_.empty_s, params_.person_s);
+      const ScenePerson& learned = wardrobe_.people[i];
       result_.acquired.push_back(
-          {wardrobe_.people[i].name, lesson.result.person_frames, lesson.result.end});
+          {learned.name, learned.outfit, lesson.result.person_frames, lesson.result.end});
       lessons_.push_back(std::move(lesson.lessons));
       done(0.4 * static_cast<double>(i + 1) / static_cast<double>(size_));
     }

@@ -60,9 +60,10 @@ struct ModelRuns {
   std::vector<PairTest> pairs;  ///< One for each confusion by Heel's rule.
 };
 
-/// On what a person's models rest.
+/// Somebody, and on what their models rest.
 struct Acquired {
   std::string person;
+  Outfit outfit;
   int frames = 0;  ///< That show the person.
   AcquisitionEnd end = AcquisitionEnd::kNotYet;
 };

@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <cmath>
+#include <cstdio>
 
 namespace heel {
 namespace {
@@ -60,6 +62,38 @@ nlohmann::ordered_json toJson(const Proportion& proportion) {
 nlohmann::ordered_json toJson(const ConfusionCount& count) {
   return {{"false_negatives", toJson(count.false_negatives)},
           {"false_positives", toJson(count.false_positives)}};
+}
+
+/// "#rrggbb", as scene files have it.
+std::string hexOf(const Rgb& color) {
+  std::array<int, 3> level{};
+  for (int c = 0; c < 3; ++c) {
+    level[static_cast<std::size_t>(c)] =
+        static_cast<int>(std::lround(255.0F * toDisplay(color[c])));
+  }
+  std::array<char, 8> text{};
+  std::snprintf(text.data(), text.size(), "#%02x%02x%02x", level[0] & 0xFF, level[1] & 0xFF,
+                level[2] & 0xFF);
+  return text.data();
+}
+
+void writePeople(const std::filesystem::path& file, const std::vector<WardrobeRuns>& wardrobes) {
+  CsvWriter csv(file, {"wardrobe", "person", "top", "trousers", "hair", "skin", "learned_frames",
+                       "learning_ended"});
+  for (const WardrobeRuns& wardrobe : wardrobes) {
+    for (const Acquired& someone : wardrobe.acquired) {
+      csv.integer(static_cast<std::int64_t>(wardrobe.seed))
+          .text(someone.person)
+          .text(hexOf(someone.outfit.top.front.color))
+          .text(hexOf(someone.outfit.trousers.front.color))
+          .text(hexOf(someone.outfit.hair))
+          .text(hexOf(someone.outfit.skin))
+          .integer(someone.frames)
+          .text(toText(someone.end))
+          .endRow();
+    }
+  }
+  csv.commit();
 }
 
 void writeRuns(const std::filesystem::path& file, const std::vector<WardrobeRuns>& wardrobes,
@@ -175,6 +209,7 @@ void writeAppearanceFiles(const std::filesystem::path& folder,
                           const std::vector<WardrobeRuns>& wardrobes, double min_share) {
   if (wardrobes.empty()) return;
   makeResultFolder(folder);
+  if (!wardrobes.front().acquired.empty()) writePeople(folder / "people.csv", wardrobes);
   writeRuns(folder / "runs.csv", wardrobes, min_share);
   writePairs(folder / "pairs.csv", wardrobes);
   nlohmann::ordered_json summary;

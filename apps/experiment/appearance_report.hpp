@@ -34,7 +34,8 @@ struct AppearanceRow {
 std::vector<AppearanceRow> appearanceTable(const std::vector<WardrobeRuns>& wardrobes,
                                            double min_share);
 
-/// runs.csv (one line a run), pairs.csv (one a two-people test), summary.json and confusion.png: of
+/// people.csv (what each wears, and how they were learned; of simulated people), runs.csv (one line
+/// a run), pairs.csv (one a two-people test), summary.json and confusion.png: of
 /// one wardrobe the share of the time in which each was followed, of several the share of the
 /// wardrobes in which each was detected.
 /// @throws std::runtime_error  as CsvWriter.

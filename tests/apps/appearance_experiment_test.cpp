@@ -106,7 +106,8 @@ TEST(AppearanceExperiment, TellsCrimsonFromNavyAndWritesItDown) {
 
   const test::TempFolder folder;
   writeAppearanceFiles(folder.path() / "a", {runs}, 0.25);
-  for (const char* name : {"runs.csv", "pairs.csv", "summary.json", "confusion.png"}) {
+  for (const char* name :
+       {"people.csv", "runs.csv", "pairs.csv", "summary.json", "confusion.png"}) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "a" / name)) << name;
   }
   const std::string table = test::readText(folder / "a/runs.csv");
