@@ -3,13 +3,13 @@
 #   ./demo.sh [DATA]     DATA: the folder that holds the recordings six_people and one_person, which
 #                        are tracked as well where they are (default: $HEEL_DATA, else ../shared/data)
 set -euo pipefail
+data=$(realpath -m "${1:-${HEEL_DATA:-$(dirname "$0")/../shared/data}}")
 cd "$(dirname "$0")"
 
 .ci/setup
 [ -f build/release/build.ninja ] || cmake --preset release --log-level=WARNING
 cmake --build --preset release --target heel_command
 heel=build/release/apps/heel/heel
-data=${1:-${HEEL_DATA:-../shared/data}}
 
 echo
 echo "== A simulated room: who is Anna, and where does she go?"

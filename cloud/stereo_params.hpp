@@ -7,7 +7,7 @@
 
 namespace heel {
 
-/// Semi-global block matching. Defaults suit people indoors from 0.7 m at 640x480 (focal length
+/// Semi-global block matching. Defaults suit people indoors from 0.8 m at 640x480 (focal length
 /// about 500 px, baseline about 0.1 m); `disparities` bounds the nearest depth, fx * baseline / it.
 struct StereoMatcherParams {
   int disparities = 64;    ///< 0, 1, ... this many less one are tried; a multiple of 16, <= 256.

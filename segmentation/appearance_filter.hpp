@@ -18,9 +18,9 @@ namespace heel {
 ///
 /// Behaves as any pcl::FilterIndices: honours setIndices, setNegative, setKeepOrganized,
 /// setUserFilterValue and getRemovedIndices. Points with non-finite x, y or z are always removed.
-/// Without a table it reports a PCL_ERROR and keeps nothing. `filter(Indices&)` on one cloud after
-/// another allocates nothing once its lists have grown; PCL's `filter(PointCloud&)` on top of it
-/// does.
+/// Without a table it reports a PCL_ERROR and both its lists are empty. `filter(Indices&)` on one
+/// cloud after another allocates nothing once its lists have grown; PCL's `filter(PointCloud&)` on
+/// top of it does.
 ///
 /// @tparam PointT  A PCL point with x, y, z, r, g, b. Instantiated for all of PCL's own; for
 /// another,

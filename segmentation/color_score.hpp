@@ -35,7 +35,7 @@ struct PrincipalColorParams {
 ColorScore principalColorScore(const ColorHistogram& person,
                                const PrincipalColorParams& params = {});
 
-/// How colours are smoothed and compared with the room's. Lengths are in natural logarithms.
+/// How colours are smoothed and compared with the room's. Units are at each field.
 struct ColorRatioParams {
   /// Added to each channel before its logarithm: below it, colours count as alike.
   double dark_offset = 12.0;

@@ -79,8 +79,12 @@ void Acquisition::findPerson(double stamp_s) {
     step_.person = -1;
   };
   const auto& people = step_.view->people;
-  const bool entered = result_.state == AcquisitionState::kPerson;
-  if (somebodyElseIsThere(stamp_s)) {
+  bool entered = result_.state == AcquisitionState::kPerson;
+  const bool is_sure = result_.person_frames >= params_.confirm_frames;
+  if (entered && !is_sure && people.size() == 1 && somebodyElseIsThere(stamp_s)) {
+    forgetPerson();  // the first look was noise, or this one is: begin with the newest
+    entered = false;
+  } else if (somebodyElseIsThere(stamp_s)) {
     if (++frames_with_others_ >= params_.confirm_frames) end(AcquisitionEnd::kSecondPerson);
     return;
   }
@@ -92,10 +96,8 @@ void Acquisition::findPerson(double stamp_s) {
   if (people.empty()) {
     ++(entered ? result_.missed_frames : result_.waiting_frames);
     if (!entered || stamp_s - result_.last_seen_s <= params_.max_missing_s + kSameTime_s) return;
-    if (result_.person_frames >= params_.confirm_frames) return end(AcquisitionEnd::kPersonLeft);
-    result_.state = AcquisitionState::kWaiting;  // it was noise: nobody has entered yet
-    result_.person_frames = result_.missed_frames = 0;
-    return;
+    if (is_sure) return end(AcquisitionEnd::kPersonLeft);
+    return forgetPerson();  // it was noise: nobody has entered yet
   }
   if (!entered) {
     result_.state = AcquisitionState::kPerson;
@@ -105,6 +107,13 @@ void Acquisition::findPerson(double stamp_s) {
   result_.last_seen_s = stamp_s;
   ++result_.person_frames;
   step_.person = people.front();
+}
+
+void Acquisition::forgetPerson() {
+  result_.state = AcquisitionState::kWaiting;
+  result_.person_frames = result_.missed_frames = 0;
+  result_.points = result_.torso_points = 0;
+  result_.first_seen_s = result_.last_seen_s = 0.0;
 }
 
 // Several people, or one who can't have come there from the person's last place.

@@ -102,6 +102,7 @@ class Acquisition {
  private:
   void findPerson(double stamp_s);
   bool somebodyElseIsThere(double stamp_s) const;
+  void forgetPerson();
   void labelPixels();
   bool looksLikeTheWall() const;
 

@@ -23,7 +23,7 @@ const cv::Mat& DepthImages::of(const Frame& frame) {
       break;
   }
   if (frame.cloud == nullptr || frame.image_bgr.empty()) {
-    throw std::invalid_argument(frame.name + ": the cloud is not organized like an image");
+    throw std::invalid_argument("the cloud is not organized like an image");
   }
   depthOf(*frame.cloud, depth_m_);
   return depth_m_;

@@ -50,11 +50,14 @@ LearnedPerson learnPerson(Recording& recording, const CameraSetup& setup,
   }
   skipped.insert(skipped.end(), recording.skipped().begin(), recording.skipped().end());
   const AcquisitionResult& result = acquisition.result();
-  if (result.empty_frames == 0) throw std::runtime_error(nothingReadMessage(recording));
-  if (result.person_frames == 0) {
-    throw std::runtime_error(recording.info().name +
-                             ": nobody entered after the empty scene; a person model needs about 5 "
-                             "s of the empty room, then one person for about 10 s");
+  if (result.empty_frames == 0) throw std::runtime_error(nothingReadMessage(recording, skipped));
+  if (result.person_frames < params.acquisition.confirm_frames) {
+    const bool several = result.end == AcquisitionEnd::kSecondPerson;
+    throw std::runtime_error(
+        recording.info().name +
+        (several ? ": several people entered together" : ": nobody entered after the empty scene") +
+        "; a person model needs about 5 s of the empty room, then one person "
+        "for about 10 s");
   }
   return {learner.learn(), result, std::move(skipped)};
 }

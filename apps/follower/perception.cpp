@@ -188,12 +188,14 @@ double Perception::appearanceOf(const WorldBlob& blob, const Frame& frame) const
 
 // Silence is what users of trackers complain of most: name the first stage that left nothing.
 const char* Perception::whyNotSeen() const {
+  if (step_.target.reason == TargetReason::kFrameSkipped) return toText(step_.target.reason);
   if (step_.target.status == TargetStatus::kFollowed) return "";
   if (step_.color_pixels == 0) return "no pixel has the target's colours";
   if (step_.color_points == 0) return "no pixel of the target's colours has a depth";
   if (step_.standing.empty()) return "the target's colours are not at a person's height";
   if (step_.blobs.empty()) return "too few points of the target's colours in one place";
   if (step_.observations.empty()) return "no blob is as large and high as a person";
+  if (step_.target.reason == TargetReason::kRejectedByGate) return toText(step_.target.verdict);
   return toText(step_.target.reason);
 }
 

@@ -31,7 +31,7 @@ const char* toText(Stage stage);
 /// What a blob must be to be looked at as a person. Lenient: only the parts of a body that have the
 /// target's colours are seen.
 struct CandidateParams {
-  int min_cells = 10;
+  int min_cells = 10;          ///< Of the plan view.
   double min_score = 12.0;     ///< Sum of the cells' heights [m].
   double min_height_m = 1.25;  ///< Of its highest point.
   /// To start a track: a head and a shoulder. A track goes on with less, for of a person half

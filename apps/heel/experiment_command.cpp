@@ -112,7 +112,8 @@ void runTargets(const Options& options) {
 }  // namespace
 
 void addExperiment(CLI::App& app) {
-  CLI::App* verb = app.add_subcommand("experiment", "Repeat the README's measurements");
+  CLI::App* verb =
+      app.add_subcommand("experiment", "Measure Heel on recordings with truth, and in simulation");
   verb->require_subcommand(1);
   verb->footer(
       "Example:\n"

@@ -58,7 +58,7 @@ class BestView {
     scene_.camera = setup_.camera.left;
     scene_.T_floor_camera = setup_.T_base_camera;
     scene_.state = "learned";
-    scene_.reason = "the marked pixels above 1 m are what the model was learned from";
+    scene_.reason = "the marked pixels are the person's";
     scene_.tone = Tone::kGood;
     cv::Mat picture;
     annotate(scene_, {}, picture);
@@ -151,8 +151,10 @@ void addLearn(CLI::App& app) {
           [options](int count) {
             options->params.appearance.model = ColorModel::kPrincipalColors;
             options->params.appearance.principal_colors.count = count;
+            options->params.appearance.bands = upperBody();
           },
           "use the paper's model with this many principal colours; 1 is the paper's, 0 chooses")
+      ->check(CLI::Range(0, 8))
       ->type_name("K");
   verb->add_flag_callback(
       "--legs", [options] { options->params.appearance.bands = wholeBody(); },

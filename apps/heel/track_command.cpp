@@ -94,7 +94,7 @@ void run(const Options& options) {
     progress.show(frame.number);
   }
   skipped.insert(skipped.end(), recording->skipped().begin(), recording->skipped().end());
-  if (output.frames() == 0) throw std::runtime_error(nothingReadMessage(*recording));
+  if (output.frames() == 0) throw std::runtime_error(nothingReadMessage(*recording, skipped));
   for (const SkippedFrame& frame_left_out : skipped) warn(frame_left_out.reason);
   output.commit(skipped, warnings);
   print(output, options, skipped.size());

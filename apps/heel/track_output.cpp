@@ -146,7 +146,8 @@ void TrackOutput::draw(const Frame& frame, const Perception& perception,
     if (track.status == TrackStatus::kTentative) continue;
     double& height_m = heights_m[track.id] =
         heights_m_.count(track.id) ? heights_m_[track.id] : 1.75;
-    if (track.observation != Track::kUnseen) {
+    const bool is_new = perception.report().status != StepStatus::kSkipped;
+    if (is_new && track.observation != Track::kUnseen) {
       const int blob = step.blob_of_observation[static_cast<std::size_t>(track.observation)];
       height_m = std::max(height_m, step.blobs[static_cast<std::size_t>(blob)].max_height_m);
     }

@@ -45,7 +45,11 @@ std::unique_ptr<Recording> openRecording(const fs::path& path, const RecordingPa
 }
 
 std::string nothingReadMessage(const Recording& recording) {
-  const auto& skipped = recording.skipped();
+  return nothingReadMessage(recording, recording.skipped());
+}
+
+std::string nothingReadMessage(const Recording& recording,
+                               const std::vector<SkippedFrame>& skipped) {
   const std::size_t frames = recording.info().frame_count;
   std::string message =
       frames == 1 ? "the only frame" : "none of the " + std::to_string(frames) + " frames";

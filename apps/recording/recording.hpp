@@ -78,4 +78,8 @@ std::unique_ptr<Recording> openRecording(const std::filesystem::path& path,
 /// first was left out.
 std::string nothingReadMessage(const Recording& recording);
 
+/// The same, for frames that were left out by the caller as well.
+std::string nothingReadMessage(const Recording& recording,
+                               const std::vector<SkippedFrame>& skipped);
+
 }  // namespace heel

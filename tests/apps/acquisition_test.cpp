@@ -123,6 +123,7 @@ TEST_F(AcquisitionTest, EndsWhenASecondPersonIsSeenTwiceAndUsesNeitherFrame) {
 
 TEST_F(AcquisitionTest, SomebodyElsewhereIsASecondPersonToo) {
   act(ActedScene().person(2.5, 0.9));
+  act(ActedScene().person(2.5, 0.9));
   act(ActedScene().person(3.5, -2.0));  // 3.1 m away, twice
   act(ActedScene().person(3.5, -2.0));
   EXPECT_EQ(acquisition.result().end, AcquisitionEnd::kSecondPerson);
@@ -134,6 +135,13 @@ TEST_F(AcquisitionTest, BearsAFrameOfNoiseThatLooksLikeASecondPerson) {
   EXPECT_TRUE(act(ActedScene().person(2.5, 0.5)).usable);
   act(ActedScene().person(3.5, -1.0).person(2.5, 0.5));
   EXPECT_EQ(acquisition.result().state, AcquisitionState::kPerson);
+}
+
+TEST_F(AcquisitionTest, BeginsAnewWithThePersonAfterAFrameOfNoiseElsewhere) {
+  act(ActedScene().person(3.5, -2.0));
+  for (int i = 0; i < 3; ++i) act(ActedScene().person(2.5, 0.9));
+  EXPECT_EQ(acquisition.result().state, AcquisitionState::kPerson);
+  EXPECT_EQ(acquisition.result().person_frames, 3);
 }
 
 TEST_F(AcquisitionTest, AFrameOfNoiseIsNotThePerson) {

@@ -29,7 +29,7 @@ std::string colorMessage(const std::filesystem::path& file) {
   return messageOf([&] { heel::ImageReader().readColor(file, image); });
 }
 
-TEST(ImageReader, ReadsColourExactlyAndReusesTheMemory) {
+TEST(ImageReader, ReadsColourExactly) {
   const TempFolder folder;
   const cv::Mat written = noise(40, 30);
   cv::imwrite((folder / "a.png").string(), written);
@@ -38,9 +38,6 @@ TEST(ImageReader, ReadsColourExactlyAndReusesTheMemory) {
   reader.readColor(folder / "a.png", read);
   ASSERT_EQ(read.type(), CV_8UC3);
   EXPECT_EQ(cv::norm(read, written, cv::NORM_INF), 0.0);
-  const auto* memory = read.data;
-  reader.readColor(folder / "a.png", read);
-  EXPECT_EQ(read.data, memory);
 }
 
 TEST(ImageReader, ReadsGreyAsColour) {

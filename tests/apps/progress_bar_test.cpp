@@ -41,7 +41,9 @@ TEST(ProgressBar, IsSilentWithoutATotal) {
 
 TEST(ProgressBar, IsDrawnOverItselfOnATerminal) {
   int screen = -1, terminal = -1;
-  ASSERT_EQ(openpty(&screen, &terminal, nullptr, nullptr, nullptr), 0);
+  if (openpty(&screen, &terminal, nullptr, nullptr, nullptr) != 0) {
+    GTEST_SKIP() << "this machine gives no terminals (is /dev/pts mounted?)";
+  }
   std::FILE* out = fdopen(terminal, "w");
   {
     heel::ProgressBar bar("track", 2, out);

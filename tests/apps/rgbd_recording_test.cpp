@@ -101,17 +101,6 @@ TEST_F(RgbdFolder, TellsWhatHoldsForTheWhole) {
       (*info.T_base_camera * Eigen::Vector3d(0, 0, 2)).isApprox(Eigen::Vector3d(2, 0, 1.5)));
 }
 
-TEST_F(RgbdFolder, UsesTheSameMemoryForEveryFrame) {
-  recording = openRecording(folder.path());
-  ASSERT_TRUE(recording->next(frame));
-  const auto* color_memory = frame.image_bgr.data;
-  const auto* depth_memory = frame.depth_m.data;
-  while (recording->next(frame)) {
-    EXPECT_EQ(frame.image_bgr.data, color_memory);
-    EXPECT_EQ(frame.depth_m.data, depth_memory);
-  }
-}
-
 TEST_F(RgbdFolder, LeavesOutFramesThatAreDamagedAndSaysWhy) {
   std::filesystem::remove(color(1));
   heel::test::truncateBy(depth(2), 20);
