@@ -54,7 +54,7 @@ class Recording {
 
   const RecordingInfo& info() const { return info_; }
 
-  /// Reads the next frame into `frame`, reusing its memory.
+  /// Reads the next frame into `frame`, whatever it held before.
   /// A frame that can't be read, or whose stamp does not come after the one before it, is left out
   /// and added to `skipped()`.
   /// @return false at the end.

@@ -30,7 +30,7 @@ struct SimulateResult {
   double duration_s = 0.0;
 };
 
-/// Runs a scene with the robot on its own path (or still) and writes a recording:
+/// Runs a scene with the robot standing still and writes a recording:
 ///
 /// | file | holds |
 /// | --- | --- |
