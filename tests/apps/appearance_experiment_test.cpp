@@ -6,7 +6,7 @@
 #include "apps/experiment/appearance_report.hpp"
 #include "apps/experiment/scene_gate.hpp"
 #include "apps/experiment/simulated_frames.hpp"
-#include "tests/apps/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>

@@ -4,7 +4,7 @@
 #include "apps/report/atomic_file.hpp"
 
 #include "tests/apps/full_disk.hpp"
-#include "tests/apps/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 

@@ -4,8 +4,8 @@
 #include "apps/recording/pcd_recording.hpp"
 
 #include "apps/recording/pcd_file.hpp"
-#include "tests/apps/temp_folder.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <pcl/common/point_tests.h>

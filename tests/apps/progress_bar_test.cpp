@@ -3,7 +3,7 @@
 
 #include "apps/report/progress_bar.hpp"
 
-#include "tests/apps/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <pty.h>

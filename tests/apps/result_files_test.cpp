@@ -4,8 +4,8 @@
 #include "apps/report/result_files.hpp"
 
 #include "tests/apps/full_disk.hpp"
-#include "tests/apps/temp_folder.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

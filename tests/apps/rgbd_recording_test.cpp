@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "apps/recording/recording.hpp"
-#include "tests/apps/temp_folder.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>

@@ -3,7 +3,7 @@
 
 #include "apps/recording/stamps.hpp"
 
-#include "tests/apps/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 

@@ -3,8 +3,8 @@
 
 #include "apps/recording/folder_files.hpp"
 #include "apps/recording/recording.hpp"
-#include "tests/apps/temp_folder.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>

@@ -4,7 +4,7 @@
 #include "apps/report/video_writer.hpp"
 
 #include "tests/apps/full_disk.hpp"
-#include "tests/apps/temp_folder.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>

@@ -5,6 +5,7 @@
 
 #include "cloud/stereo_calibration.hpp"
 #include "tests/support/data.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,7 +13,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -39,31 +39,11 @@ struct RawPair {
 /// A folder of its own for each test, removed at the end.
 class StereoCalibration : public testing::Test {
  protected:
-  StereoCalibration()
-      : folder_(fs::path(testing::TempDir()) /
-                testing::UnitTest::GetInstance()->current_test_info()->name()) {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~StereoCalibration() override { fs::remove_all(folder_); }
-
   fs::path write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
+    return folder_.write(name, text);
   }
 
-  /// What a reader says about a bad file.
-  template <typename Read>
-  static std::string complaint(Read&& read) {
-    try {
-      read();
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "nothing";
-  }
-
-  fs::path folder_;
+  test::TempFolder folder_;
 };
 
 void store(cv::FileStorage& storage, const RawPair& pair,
@@ -162,8 +142,8 @@ TEST_F(StereoCalibration, ReadsTheTwoFilesOfOpenCvsSample) {
   const RawPair pair;
   storePair(folder_ / "intrinsics.yml", pair, {"M1", "D1", "M2", "D2", "", ""}, false);
   storePair(folder_ / "extrinsics.yml", pair, {"", "", "", "", "R", "T"}, false);
-  EXPECT_NEAR(readStereoRig(folder_, kSize).camera().baseline_m, cv::norm(pair.T), 1e-9);
-  EXPECT_THAT(complaint([&] { readStereoRig(folder_); }),
+  EXPECT_NEAR(readStereoRig(folder_.path(), kSize).camera().baseline_m, cv::norm(pair.T), 1e-9);
+  EXPECT_THAT(test::messageOf([&] { readStereoRig(folder_.path()); }),
               AllOf(HasSubstr("intrinsics.yml"), HasSubstr("size of the images is not given")));
 }
 
@@ -206,12 +186,14 @@ TEST_F(StereoCalibration, HandsRectifiedImagesOnUntouched) {
 }
 
 TEST_F(StereoCalibration, NamesTheFileAndTheReason) {
-  const auto said = [&](const fs::path& file) { return complaint([&] { readStereoRig(file); }); };
+  const auto said = [&](const fs::path& file) {
+    return test::messageOf([&] { readStereoRig(file); });
+  };
   const auto stored = [&](const RawPair& pair, const std::vector<std::string>& names) {
     return said(storePair(folder_ / "bad.yml", pair, names));
   };
   EXPECT_THAT(said(folder_ / "none.yml"), AllOf(HasSubstr("none.yml"), HasSubstr("no such file")));
-  EXPECT_THAT(complaint([&] { readOpenCvCalibration({folder_ / "none.yml"}); }),
+  EXPECT_THAT(test::messageOf([&] { readOpenCvCalibration({folder_ / "none.yml"}); }),
               AllOf(HasSubstr("none.yml"), HasSubstr("no such file")));
   EXPECT_THAT(said(write("text.yml", "hello\n")),
               AllOf(HasSubstr("text.yml"), HasSubstr("not an OpenCV calibration")));
@@ -253,14 +235,14 @@ const char* const kRightP = "[500, 0, 320, -60, 0, 500, 240, 0, 0, 0, 1, 0]";
 TEST_F(StereoCalibration, ReadsAPairOfRosFiles) {
   write("left.yaml", cameraInfo(kLeftP));
   write("right.yaml", cameraInfo(kRightP));
-  const StereoRig raw = readStereoRig(folder_);
+  const StereoRig raw = readStereoRig(folder_.path());
   EXPECT_DOUBLE_EQ(raw.camera().baseline_m, 0.12);
   EXPECT_DOUBLE_EQ(raw.camera().left.fx, 500.0);
   EXPECT_EQ(raw.camera().left.height, 480);
   EXPECT_FALSE(raw.isRectified());
   write("left.yaml", cameraInfo(kLeftP, "[0, 0, 0, 0, 0]"));
   write("right.yaml", cameraInfo(kRightP, "[]"));
-  EXPECT_TRUE(readStereoRig(folder_).isRectified());
+  EXPECT_TRUE(readStereoRig(folder_.path()).isRectified());
 }
 
 TEST_F(StereoCalibration, ReadsEchoedRosMessages) {
@@ -277,9 +259,9 @@ TEST_F(StereoCalibration, SaysWhatIsWrongWithARosFile) {
   const fs::path left = write("left.yaml", cameraInfo(kLeftP));
   const auto said = [&](const std::string& right) {
     const fs::path file = write("right.yaml", right);
-    return complaint([&] { readCameraInfo(left, file); });
+    return test::messageOf([&] { readCameraInfo(left, file); });
   };
-  EXPECT_THAT(complaint([&] { readStereoRig(folder_); }),
+  EXPECT_THAT(test::messageOf([&] { readStereoRig(folder_.path()); }),
               AllOf(HasSubstr("right.yaml"), HasSubstr("no such file")));
   EXPECT_THAT(said(cameraInfo(kLeftP)), AllOf(HasSubstr("right.yaml"), HasSubstr("no baseline")));
   EXPECT_THAT(said(cameraInfo("[500, 0, 320, 60, 0, 500, 240, 0, 0, 0, 1, 0]")),
@@ -309,18 +291,18 @@ TEST_F(StereoCalibration, ReadsMiddleburysFile) {
   EXPECT_DOUBLE_EQ(rig.camera().disparity_offset, 30.0);
   EXPECT_DOUBLE_EQ(rig.camera().left.fy, 1001.0);
   EXPECT_EQ(rig.camera().left.width, 718);
-  EXPECT_DOUBLE_EQ(readStereoRig(folder_).camera().baseline_m, 0.176252);
+  EXPECT_DOUBLE_EQ(readStereoRig(folder_.path()).camera().baseline_m, 0.176252);
   const auto said = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     text.replace(text.find(from), from.size(), to);
-    return complaint([&] { readStereoRig(write("calib.txt", text)); });
+    return test::messageOf([&] { readStereoRig(write("calib.txt", text)); });
   };
   EXPECT_THAT(said("baseline=176.252", ""),
               AllOf(HasSubstr("calib.txt"), HasSubstr("baseline is")));
   EXPECT_THAT(said("176.252", "0"), HasSubstr("no baseline"));
   EXPECT_THAT(said("cam0=[1000 0", "cam0=[1000"), HasSubstr("cam0 has not 9 numbers"));
   EXPECT_THAT(said("cam0=[1000", "cam0=[0"), HasSubstr("focal length"));
-  EXPECT_THAT(complaint([&] { readMiddleburyCalibration(folder_ / "no.txt"); }),
+  EXPECT_THAT(test::messageOf([&] { readMiddleburyCalibration(folder_ / "no.txt"); }),
               HasSubstr("no such file"));
 }
 

@@ -4,9 +4,9 @@
 /// @file
 /// Clouds that can't be used.
 
-#include "tests/apps/temp_folder.hpp"
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_model.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 

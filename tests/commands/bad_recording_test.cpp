@@ -4,10 +4,10 @@
 /// @file
 /// Recordings that are damaged in part, or of no use.
 
-#include "tests/apps/temp_folder.hpp"
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_model.hpp"
 #include "tests/commands/small_recording.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

@@ -4,10 +4,10 @@
 /// @file
 /// Stereo recordings whose set-up is wrong.
 
-#include "tests/apps/temp_folder.hpp"
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_model.hpp"
 #include "tests/support/stereo_scene.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <opencv2/imgcodecs.hpp>

@@ -6,10 +6,10 @@
 
 #include "tests/apps/full_disk.hpp"
 
-#include "tests/apps/temp_folder.hpp"
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_model.hpp"
 #include "tests/commands/small_recording.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 

@@ -4,10 +4,10 @@
 /// @file
 /// The main road: learn somebody, follow them, compare with the truth.
 
-#include "tests/apps/temp_folder.hpp"
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_model.hpp"
 #include "tests/commands/small_recording.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

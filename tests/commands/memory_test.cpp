@@ -4,10 +4,10 @@
 /// @file
 /// A recording is streamed: its length does not cost memory.
 
-#include "tests/apps/temp_folder.hpp"
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_model.hpp"
 #include "tests/commands/small_recording.hpp"
+#include "tests/support/temp_folder.hpp"
 
 namespace heel::test {
 namespace {

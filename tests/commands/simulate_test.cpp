@@ -4,8 +4,8 @@
 /// @file
 /// heel simulate, on a scene that is quickly rendered.
 
-#include "tests/apps/temp_folder.hpp"
 #include "tests/commands/heel.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 

@@ -4,14 +4,12 @@
 #include "segmentation/appearance_model_io.hpp"
 
 #include "tests/segmentation/painted_person.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -24,15 +22,6 @@ using testing::HasSubstr;
 
 class AppearanceFile : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "heel-appearance-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-    file_ = folder_ / "person.yaml";
-  }
-
-  void TearDown() override { fs::remove_all(folder_); }
-
   static AppearanceModel makeModel() {
     AppearanceParams params;
     params.model = ColorModel::kPrincipalColors;
@@ -44,12 +33,9 @@ class AppearanceFile : public testing::Test {
     return model;
   }
 
-  std::string text() const {
-    std::ifstream in(file_);
-    return (std::ostringstream() << in.rdbuf()).str();
-  }
+  std::string text() const { return test::readText(file_); }
 
-  void write(const std::string& text) const { std::ofstream(file_) << text; }
+  void write(const std::string& text) const { test::writeText(file_, text); }
 
   /// Saves a good model with one piece of its text replaced.
   void saveWith(const std::string& what, const std::string& instead) const {
@@ -61,16 +47,11 @@ class AppearanceFile : public testing::Test {
   }
 
   std::string complaint() const {
-    try {
-      loadAppearance(file_);
-    } catch (const std::runtime_error& e) {
-      return e.what();
-    }
-    return "no complaint";
+    return test::messageOf([&] { loadAppearance(file_); });
   }
 
-  fs::path folder_;
-  fs::path file_;
+  test::TempFolder folder_;
+  fs::path file_ = folder_ / "person.yaml";
 };
 
 TEST_F(AppearanceFile, GivesBackTheModel) {
@@ -173,7 +154,7 @@ TEST_F(AppearanceFile, IsLeftAloneWhenItCannotBeWritten) {
 
 TEST_F(AppearanceFile, LeavesNothingBesideIt) {
   saveAppearance(makeModel(), file_);
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1);
 }
 
 TEST_F(AppearanceFile, SaysThatTheDiskIsFull) {

@@ -3,6 +3,7 @@
 
 #include "apps/simulation/scene.hpp"
 #include "tests/simulation/scenes.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,14 +18,9 @@ using ::testing::HasSubstr;
 
 /// What is wrong with a scene: the message of its error.
 std::string complaint(const std::string& text) {
-  const test::TempFolder folder("bad_scene");
+  const test::TempFolder folder;
   const std::string file = folder.write("bad.yaml", text);
-  try {
-    loadScene(file);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "no complaint";
+  return test::messageOf([&] { loadScene(file); });
 }
 
 const char* const kRobot = "robot: {start: [1, 1]}\n";
@@ -49,7 +45,7 @@ TEST(SceneFile, LoadsEveryShippedScene) {
 }
 
 TEST(SceneFile, ReadsWhatItSays) {
-  const test::TempFolder folder("scene");
+  const test::TempFolder folder;
   const Scene scene = loadScene(folder.write("s.yaml", std::string(kWalls) + R"(
 furniture:
   - {name: crate, box: [1, 0.5, 0.4], at: [2, 3, 0], yaw_deg: 90, in_map: false}

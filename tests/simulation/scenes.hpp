@@ -7,8 +7,6 @@
 
 #include "apps/simulation/scene.hpp"
 
-#include <filesystem>
-#include <fstream>
 #include <string>
 
 namespace heel::test {
@@ -16,33 +14,6 @@ namespace heel::test {
 inline std::string sceneFile(const std::string& name) {
   return std::string(HEEL_SCENES) + "/" + name + ".yaml";
 }
-
-/// A folder that is removed with everything in it.
-class TempFolder {
- public:
-  explicit TempFolder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() / ("heel_simulation_" + name)) {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  ~TempFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
-  /// Writes a text file and returns its path.
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name) << text;
-    return (path_ / name).string();
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// A square room of 6 m with a lamp and a small camera 1 m above the floor, in its middle, that
 /// looks along +x.

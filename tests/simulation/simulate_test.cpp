@@ -5,24 +5,16 @@
 
 #include "apps/recording/recording.hpp"
 #include "tests/simulation/scenes.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include <fstream>
-#include <iterator>
-#include <sstream>
-
 namespace heel {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string contents(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 Scene smallScene() {
   Scene scene = test::squareRoom();
@@ -39,7 +31,7 @@ SimulateOptions optionsFor(const fs::path& out, int threads = 0) {
 }
 
 TEST(Simulate, WritesARecordingWithItsTruth) {
-  const test::TempFolder folder("recording");
+  const test::TempFolder folder;
   const SimulateResult result = simulate(smallScene(), optionsFor(folder / "out"));
   EXPECT_EQ(result.frames, 5U);
   const fs::path out = folder / "out";
@@ -49,8 +41,8 @@ TEST(Simulate, WritesARecordingWithItsTruth) {
     EXPECT_TRUE(fs::exists(out / name)) << name;
   }
   EXPECT_EQ(cv::imread((out / "left/000001.png").string()).size(), cv::Size(160, 120));
-  EXPECT_EQ(contents(out / "times.txt"), "0.000\n0.100\n0.200\n0.300\n0.400\n");
-  EXPECT_THAT(contents(out / "truth.csv"),
+  EXPECT_EQ(test::readText(out / "times.txt"), "0.000\n0.100\n0.200\n0.300\n0.400\n");
+  EXPECT_THAT(test::readText(out / "truth.csv"),
               testing::StartsWith("stamp_s,frame,person,x_m,y_m,exact\n"
                                   "0.000,1,eva,2.0000,0.3000,1\n"));
   const cv::Mat depth = cv::imread((out / "truth/depth/000001.png").string(), cv::IMREAD_UNCHANGED);
@@ -59,7 +51,7 @@ TEST(Simulate, WritesARecordingWithItsTruth) {
 }
 
 TEST(Simulate, WritesWhatTheRecordingReadersRead) {
-  const test::TempFolder folder("readable");
+  const test::TempFolder folder;
   const Scene scene = smallScene();
   simulate(scene, optionsFor(folder / "out"));
   const auto recording = openRecording(folder / "out");
@@ -81,30 +73,30 @@ TEST(Simulate, WritesWhatTheRecordingReadersRead) {
 }
 
 TEST(Simulate, LeavesOutWhoIsNotInView) {
-  const test::TempFolder folder("not_in_view");
+  const test::TempFolder folder;
   Scene scene = test::squareRoom();
   scene.people.push_back(test::standingPerson("eva", -2.0, 0.3));
   simulate(scene, optionsFor(folder / "out"));
-  EXPECT_EQ(contents(folder / "out/truth.csv"), "stamp_s,frame,person,x_m,y_m,exact\n");
-  EXPECT_THAT(contents(folder / "out/people.csv"), testing::HasSubstr("eva,-2.0000,0.3000"));
+  EXPECT_EQ(test::readText(folder / "out/truth.csv"), "stamp_s,frame,person,x_m,y_m,exact\n");
+  EXPECT_THAT(test::readText(folder / "out/people.csv"), testing::HasSubstr("eva,-2.0000,0.3000"));
 }
 
 TEST(Simulate, WritesTheSameBytesTwice) {
-  const test::TempFolder folder("same_bytes");
+  const test::TempFolder folder;
   simulate(smallScene(), optionsFor(folder / "a", 1));
   simulate(smallScene(), optionsFor(folder / "b", 3));
   int files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder / "a")) {
     if (!entry.is_regular_file()) continue;
     const fs::path twin = folder / "b" / fs::relative(entry.path(), folder / "a");
-    EXPECT_EQ(contents(entry.path()), contents(twin)) << twin;
+    EXPECT_EQ(test::readText(entry.path()), test::readText(twin)) << twin;
     ++files;
   }
   EXPECT_EQ(files, 4 * 5 + 8);
 }
 
 TEST(Simulate, DoesNotTouchAFolderThatHoldsSomething) {
-  const test::TempFolder folder("not_empty");
+  const test::TempFolder folder;
   fs::create_directories(folder / "out");
   folder.write("out/precious.txt", "mine");
   try {
@@ -113,11 +105,11 @@ TEST(Simulate, DoesNotTouchAFolderThatHoldsSomething) {
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), testing::EndsWith("out: holds something already"));
   }
-  EXPECT_EQ(contents(folder / "out/precious.txt"), "mine");
+  EXPECT_EQ(test::readText(folder / "out/precious.txt"), "mine");
 }
 
 TEST(Simulate, SaysWhichFolderCannotBeMade) {
-  const test::TempFolder folder("no_folder");
+  const test::TempFolder folder;
   folder.write("file", "not a folder");
   EXPECT_THROW(simulate(smallScene(), optionsFor(folder / "file/out")), std::runtime_error);
 }

@@ -16,6 +16,11 @@
 
 namespace heel::test {
 
+inline void writeText(const std::filesystem::path& file, const std::string& text) {
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << text;
+}
+
 /// A new folder that is removed with everything in it.
 class TempFolder {
  public:
@@ -34,14 +39,15 @@ class TempFolder {
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
+  /// Writes a text file and returns its path.
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    writeText(path_ / name, text);
+    return path_ / name;
+  }
+
  private:
   std::filesystem::path path_;
 };
-
-inline void writeText(const std::filesystem::path& file, const std::string& text) {
-  std::filesystem::create_directories(file.parent_path());
-  std::ofstream(file, std::ios::binary) << text;
-}
 
 inline std::string readText(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
