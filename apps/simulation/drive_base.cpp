@@ -9,27 +9,11 @@
 namespace heel {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
-
 double towards(double from, double to, double most) {
   return from + std::clamp(to - from, -most, most);
 }
 
 }  // namespace
-
-Eigen::Isometry3d basePose(const FloorPose& pose) {
-  return Eigen::Translation3d(pose.position.x(), pose.position.y(), 0.0) *
-         Eigen::Isometry3d(Eigen::AngleAxisd(pose.yaw_rad, Eigen::Vector3d::UnitZ()));
-}
-
-FloorPose alongArc(const FloorPose& pose, double distance_m, double turn_rad) {
-  // The chord of an arc points along its middle heading.
-  const double half = turn_rad / 2.0;
-  const double chord = distance_m * (std::abs(half) < 1e-9 ? 1.0 : std::sin(half) / half);
-  const double heading = pose.yaw_rad + half;
-  return {pose.position + chord * Eigen::Vector2d(std::cos(heading), std::sin(heading)),
-          std::remainder(pose.yaw_rad + turn_rad, kTwoPi)};
-}
 
 DriveBase::DriveBase(const RobotParams& params)
     : params_(params), pose_{params.start, params.start_yaw_rad} {}

@@ -7,28 +7,10 @@
 
 #include "apps/simulation/random.hpp"
 #include "apps/simulation/scene.hpp"
-
-#include <Eigen/Geometry>
+#include "mapping/floor_pose.hpp"
+#include "planning/velocity_command.hpp"
 
 namespace heel {
-
-/// A place and a heading on the floor.
-struct FloorPose {
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();
-  double yaw_rad = 0.0;
-};
-
-/// What the robot is told to do.
-struct VelocityCommand {
-  double forward_mps = 0.0;
-  double turn_radps = 0.0;  ///< To the left is positive.
-};
-
-/// Base frame to world, for a robot that stands on the floor.
-Eigen::Isometry3d basePose(const FloorPose& pose);
-
-/// `pose` after `distance_m` along an arc that turns by `turn_rad`.
-FloorPose alongArc(const FloorPose& pose, double distance_m, double turn_rad);
 
 /// A robot that obeys its limits of speed and acceleration.
 class DriveBase {
