@@ -85,8 +85,9 @@ void run(const Options& options) {
   while (recording->next(frame)) {
     Clock clock;
     try {
-      const PerceptionStep& step = perception.step(
-          frame, [&](Stage stage) { times_ms[static_cast<std::size_t>(stage)] = clock.lap_ms(); });
+      const PerceptionStep& step = perception.step(frame, {}, [&](Stage stage) {
+        times_ms[static_cast<std::size_t>(stage)] = clock.lap_ms();
+      });
       output.add(frame, perception, step, times_ms);
     } catch (const std::invalid_argument& error) {
       skipped.push_back({frame.number, frame.name + ": " + error.what()});
