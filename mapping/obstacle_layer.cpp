@@ -129,7 +129,8 @@ void ObstacleLayer::begin(double stamp_s, const FloorPose& T_world_base,
   const GridCell middle = worldCell(T_world_base.position);
   roll({middle.x - cells_per_edge_ / 2, middle.y - cells_per_edge_ / 2});
   forgetUnderRobot();
-  for (Cell* const cell : touched_) cell->frame_points = 0;  // of a frame without its finish()
+  for (const std::size_t i : touched_)
+    cells_[i].frame_points = 0;  // of a frame without its finish()
   touched_.clear();
   begun_ = true;
 }
@@ -232,9 +233,10 @@ void ObstacleLayer::addPoint(const Eigen::Vector3f& point) {
   const Eigen::Vector2d in_world = T_world_base_ * floor;
   const GridCell at = worldCell(in_world);
   if (!inWindow(at) || leftOut(in_world)) return;
-  Cell& cell = cells_[slot(at)];
+  const std::size_t index = slot(at);
+  Cell& cell = cells_[index];
   if (cell.frame_points == 0) {
-    touched_.push_back(&cell);
+    touched_.push_back(index);
     cell.frame_at_laser_height = false;
   }
   if (cell.frame_points < params_.min_points) ++cell.frame_points;
@@ -265,13 +267,14 @@ void ObstacleLayer::addPoints(const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
 void ObstacleLayer::finish() {
   requireFrame();
   begun_ = false;
-  for (Cell* const cell : touched_) {
-    if (cell->frame_points >= params_.min_points) {
-      const bool again = remembered(cell->points);
-      see(cell->points);
-      cell->at_laser_height = cell->frame_at_laser_height || (again && cell->at_laser_height);
+  for (const std::size_t i : touched_) {
+    Cell& cell = cells_[i];
+    if (cell.frame_points >= params_.min_points) {
+      const bool again = remembered(cell.points);
+      see(cell.points);
+      cell.at_laser_height = cell.frame_at_laser_height || (again && cell.at_laser_height);
     }
-    cell->frame_points = 0;
+    cell.frame_points = 0;
   }
   touched_.clear();
 

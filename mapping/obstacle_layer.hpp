@@ -160,7 +160,7 @@ class ObstacleLayer {
   std::optional<double> stamp_s_;
   FloorPose T_world_base_;
   std::optional<FloorDisc> target_;
-  std::vector<Cell*> touched_;  // cells with points in this frame
+  std::vector<std::size_t> touched_;  // cells with points in this frame
 
   OccupancyGrid window_;
   std::vector<Eigen::Vector2d> obstacles_;
