@@ -280,9 +280,13 @@ void ObstacleLayer::finish() {
 
   window_.setOrigin(params_.cell_size_m * Eigen::Vector2d(corner_.x, corner_.y));
   obstacles_.clear();
-  for (int y = 0; y < cells_per_edge_; ++y) {
-    for (int x = 0; x < cells_per_edge_; ++x) {
-      Cell& cell = cells_[slot({corner_.x + x, corner_.y + y})];
+  // The ring's cell of each window's cell, without a division for each.
+  const int n = cells_per_edge_;
+  const int first = modulo(corner_.x, n);
+  for (int y = 0; y < n; ++y) {
+    Cell* const row = &cells_[window_.index({0, modulo(corner_.y + y, n)})];
+    for (int x = 0; x < n; ++x) {
+      Cell& cell = row[first + x < n ? first + x : first + x - n];
       cell.laser.known = remembered(cell.laser);
       cell.points.known = remembered(cell.points);
       const bool occupied = cell.laser.known || cell.points.known;
