@@ -54,6 +54,7 @@ void Localization::startAt(const FloorPose& pose, double place_m, double heading
   search_everywhere_ = false;
   news_ = true;
   unfit_ = false;
+  confirmed_ = params_.confirming_scans;
   cluster_pose_ = pose;
   estimate_ = {};
   estimate_.pose = pose;
@@ -69,6 +70,7 @@ void Localization::startAnywhere() {
   search_everywhere_ = true;
   news_ = true;
   unfit_ = false;
+  confirmed_ = 0;
   estimate_ = {};
 }
 
@@ -159,6 +161,7 @@ void Localization::findCluster() {
       change.position.norm() > params_.cluster_m || std::abs(change.yaw_rad) > params_.cluster_rad;
   // What was thought of another place says nothing about this one.
   if (elsewhere) estimate_.fit = -1.0;
+  confirmed_ = elsewhere ? 0 : confirmed_ + 1;
   cluster_pose_ = estimate_.pose = mean;
 }
 
@@ -169,7 +172,7 @@ void Localization::judge() {
   const double fit = e.residuals.fit();
   e.fit = e.fit < 0.0 ? fit : e.fit + params_.fast_rate * (fit - e.fit);
   unfit_ = e.fit < params_.lost_fit || e.fit < params_.lost_drop * e.usual_fit;
-  e.lost = unfit_ || e.cluster_share < params_.sure_share;
+  e.lost = unfit_ || e.cluster_share < params_.sure_share || confirmed_ < params_.confirming_scans;
   if (!e.lost) e.usual_fit += params_.slow_rate * (fit - e.usual_fit);
 }
 

@@ -41,6 +41,7 @@ struct LocalizationParams {
   double cluster_m = 0.5;       ///< Particles this near to a cluster's mean belong to it ...
   double cluster_rad = 0.5;     ///< ... if their headings are this near as well.
   double sure_share = 0.8;      ///< Weight that the largest cluster must have.
+  int confirming_scans = 8;     ///< So many weighed scans must agree with a place found anew.
   double near_m = 0.2;          ///< An end this near to where the map has it is explained.
   double lost_fit = 0.65;       ///< Lost where the fit is worse on average (ScanResiduals::fit) ...
   double lost_drop = 0.75;      ///< ... or has fallen to this share of what was usual.
@@ -58,7 +59,8 @@ struct LocalizationEstimate {
   ScanResiduals residuals;                               ///< Of the last scan, at the pose.
   double fit = 1.0;                                      ///< Short average of the residuals' fit.
   double usual_fit = 1.0;                                ///< Long average of it.
-  /// The pose should not be used: the scans do not fit to it, or it is one of several.
+  /// The pose should not be used: the scans do not fit to it, or it is one of several, or it was
+  /// found too few weighed scans ago. A robot that stands still does not get out of the last two.
   bool lost = true;
 };
 
@@ -117,6 +119,7 @@ class Localization {
   LocalizationEstimate estimate_;
   bool search_everywhere_ = true;
   bool news_ = true;    // The particles were started and not weighed yet.
+  int confirmed_ = 0;   // Weighed scans since the cluster's place was found anew.
   bool unfit_ = false;  // The scans do not fit.
 };
 
