@@ -25,7 +25,7 @@ struct LocalizationParams {
   ScanBeamsParams scan;
   PoseSearchParams search;
 
-  std::size_t min_particles = 300;
+  std::size_t min_particles = 500;
   std::size_t max_particles = 5000;
   double kld_error = 0.05;      ///< See kldParticles().
   double kld_quantile = 2.326;  ///< Of 99 %.

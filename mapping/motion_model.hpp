@@ -10,13 +10,14 @@
 namespace heel {
 
 /// Errors of the odometry as standard deviations that grow with the root of the way, so that it
-/// does not matter in how many increments a way is told. The defaults are about twice as wide as a
-/// good differential drive needs: too narrow loses the robot, too wide costs particles.
+/// does not matter in how many increments a way is told. The defaults are what a SLAM program's
+/// corrections of a real differential drive's log amount to: too narrow loses the robot, too wide
+/// costs particles.
 struct MotionModelParams {
-  double distance_noise = 0.05;  ///< Of the way gone, per root of a metre [m].
-  double side_noise = 0.02;      ///< Across it, per root of a metre [m].
-  double turn_noise = 0.06;      ///< Of the heading, per root of a radian turned [rad].
-  double drift_noise = 0.04;     ///< Of the heading, per root of a metre gone [rad].
+  double distance_noise = 0.1;  ///< Of the way gone, per root of a metre [m].
+  double side_noise = 0.03;     ///< Across it, per root of a metre [m].
+  double turn_noise = 0.12;     ///< Of the heading, per root of a radian turned [rad].
+  double drift_noise = 0.06;    ///< Of the heading, per root of a metre gone [rad].
 };
 
 /// A motion put together from increments of the odometry.
