@@ -23,6 +23,7 @@ void addLearn(CLI::App& app);
 void addTrack(CLI::App& app);
 void addFilter(CLI::App& app);
 void addInspect(CLI::App& app);
+void addLocalize(CLI::App& app);
 void addSimulate(CLI::App& app);
 void addEvaluate(CLI::App& app);
 void addExperiment(CLI::App& app);

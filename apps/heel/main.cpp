@@ -88,6 +88,7 @@ int main(int argc, char** argv) {
   heel::addTrack(app);
   heel::addFilter(app);
   heel::addInspect(app);
+  heel::addLocalize(app);
   heel::addSimulate(app);
   heel::addEvaluate(app);
   heel::addExperiment(app);
