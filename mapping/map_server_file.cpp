@@ -170,6 +170,15 @@ OccupancyGrid loadMapServer(const fs::path& yaml) {
   return gridFromImage(yaml.parent_path() / map.text("image"), cell_size_m, params);
 }
 
+bool isMapServerFile(const fs::path& file) {
+  try {
+    const YAML::Node root = YAML::Load(readWholeFile(file));
+    return root.IsMap() && root["image"];
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
 void saveMapServer(const OccupancyGrid& grid, const fs::path& yaml) {
   if (grid.empty()) throw std::invalid_argument("saveMapServer: the grid is empty");
   std::string image =

@@ -35,6 +35,9 @@ OccupancyGrid gridFromImage(const std::filesystem::path& image, double cell_size
 /// @throws std::runtime_error  one sentence that names the file and the reason.
 OccupancyGrid loadMapServer(const std::filesystem::path& yaml);
 
+/// Whether a file looks like the YAML half of a map_server pair: a map with the key 'image'.
+bool isMapServerFile(const std::filesystem::path& file);
+
 /// Writes a map_server pair: `yaml` and beside it a PGM of the same name. What is read back equals
 /// what was written.
 /// @throws std::runtime_error     if a file cannot be written.
