@@ -24,6 +24,7 @@ void addTrack(CLI::App& app);
 void addFilter(CLI::App& app);
 void addInspect(CLI::App& app);
 void addLocalize(CLI::App& app);
+void addMap(CLI::App& app);
 void addSimulate(CLI::App& app);
 void addEvaluate(CLI::App& app);
 void addExperiment(CLI::App& app);

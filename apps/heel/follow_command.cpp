@@ -5,7 +5,7 @@
 #include "apps/heel/commands.hpp"
 #include "apps/heel/follow_output.hpp"
 #include "apps/heel/lap_clock.hpp"
-#include "apps/heel/scene_files.hpp"
+#include "apps/heel/scene_argument.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "planning/plan_file.hpp"
 
@@ -31,7 +31,7 @@ struct Options {
 
 Scene sceneOf(const Options& options) {
   return options.random ? randomEpisode(options.loop.seed, sceneFolder())
-                        : findScene(options.scene);
+                        : loadScene(sceneFile(options.scene).string());
 }
 
 std::string commandOf(const Options& options) {
@@ -51,7 +51,7 @@ void print(const FollowSummary& summary, const Options& options, const FollowOut
 
 void run(Options& options) {
   const Scene scene = sceneOf(options);
-  const PetriPlan plan = loadPlan(findPlan(options.plan), followingVocabulary());
+  const PetriPlan plan = loadPlan(planFile(options.plan), followingVocabulary());
   FollowOutput output(options.out, !options.no_film);
   ProgressBar progress("following", static_cast<std::size_t>(options.loop.limit_s));
   LapClock clock;

@@ -89,6 +89,7 @@ int main(int argc, char** argv) {
   heel::addFilter(app);
   heel::addInspect(app);
   heel::addLocalize(app);
+  heel::addMap(app);
   heel::addSimulate(app);
   heel::addEvaluate(app);
   heel::addExperiment(app);

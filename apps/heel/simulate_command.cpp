@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "apps/heel/commands.hpp"
-#include "apps/heel/scene_files.hpp"
+#include "apps/heel/scene_argument.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "apps/simulation/simulate.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -22,7 +21,7 @@ struct Options {
 };
 
 void run(Options& options) {
-  const Scene scene = findScene(options.scene);
+  const Scene scene = loadScene(sceneFile(options.scene).string());
   ProgressBar progress("simulating", 100);
   options.simulate.progress = [&](double share) {
     progress.show(static_cast<std::size_t>(100.0 * share));
