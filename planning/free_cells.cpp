@@ -14,7 +14,7 @@ void freeCellsNear(const ClearanceMap& map, const GridWave& wave, const Eigen::V
   const int middle = map.cellOf(point), width = map.width();
   const int reach = static_cast<int>(std::min(within_m / map.cell_size_m() + 1.0, 1e6));
   const int mx = middle % width, my = middle / width;
-  const auto distance = [&](int cell) { return (map.centerOf(cell) - point).squaredNorm(); };
+  const auto distance = [&](int cell) { return (wave.placeOf(cell) - point).squaredNorm(); };
   for (int y = std::max(0, my - reach); y <= std::min(map.height() - 1, my + reach); ++y) {
     for (int x = std::max(0, mx - reach); x <= std::min(width - 1, mx + reach); ++x) {
       const int cell = y * width + x;

@@ -13,7 +13,7 @@
 
 namespace heel {
 
-/// Cells on whose middle the wave's body can stand and whose middle is within `within_m` of the
+/// Free cells of the wave whose place is within `within_m` of the
 /// point, the nearest first.
 void freeCellsNear(const ClearanceMap& map, const GridWave& wave, const Eigen::Vector2d& point,
                    double within_m, std::vector<int>& cells);

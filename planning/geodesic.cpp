@@ -16,7 +16,7 @@ GeodesicField::GeodesicField(const OccupancyGrid& map, double radius_m, bool unk
 
 void GeodesicField::setObstacles(const std::vector<BlockedDisc>& discs,
                                  const OccupancyGrid* cells) {
-  map_.setLayer(discs, cells);
+  wave_.mend(map_.setLayer(discs, cells));
 }
 
 bool GeodesicField::measureFrom(const Eigen::Vector2d& point, double within_m) {
@@ -27,7 +27,7 @@ bool GeodesicField::measureFrom(const Eigen::Vector2d& point, double within_m) {
   seeds_.clear();
   const auto cell_size = static_cast<float>(map_.cell_size_m());
   if (!near_.empty()) {
-    const double offset_m = (map_.centerOf(near_.front()) - point).norm();
+    const double offset_m = (wave_.placeOf(near_.front()) - point).norm();
     seeds_.push_back({near_.front(), static_cast<float>(offset_m) / cell_size});
   }
   wave_.begin(seeds_);

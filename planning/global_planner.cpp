@@ -18,14 +18,13 @@ constexpr double kJoinCells = 2.5;
 constexpr double kKeptMayBeLonger = 1.02;
 
 GlobalPlannerParams checked(const GlobalPlannerParams& p) {
-  const double sum = p.robot_radius_m + p.safety_m + p.comfort_m + p.crowding + p.longer_share +
-                     p.goal_tolerance_m + p.escape_m + p.keep_root_m;
+  const double sum = p.robot_radius_m + p.safety_m + p.comfort_m + p.crowding + p.goal_tolerance_m +
+                     p.escape_m + p.keep_root_m;
   if (!std::isfinite(sum)) throw std::invalid_argument("a planner's parameters must be finite");
   if (!(p.robot_radius_m > 0.0 && p.comfort_m > 0.0)) {
     throw std::invalid_argument("a planner's robot radius and comfort must be positive");
   }
-  if (std::min({p.safety_m, p.crowding, p.longer_share, p.goal_tolerance_m, p.escape_m,
-                p.keep_root_m}) < 0.0) {
+  if (std::min({p.safety_m, p.crowding, p.goal_tolerance_m, p.escape_m, p.keep_root_m}) < 0.0) {
     throw std::invalid_argument("a planner's lengths and shares must not be negative");
   }
   return p;
@@ -66,9 +65,10 @@ GlobalPlanner::GlobalPlanner(const OccupancyGrid& map, const GlobalPlannerParams
 void GlobalPlanner::setObstacles(const std::vector<BlockedDisc>& discs,
                                  const OccupancyGrid* cells) {
   const std::vector<int>& changed = map_.setLayer(discs, cells);
-  if (changed.empty() || !has_root_) return;
+  if (changed.empty()) return;
+  mended_ = true;
   // A root that something has come near to is of no use; its ways out may be cut.
-  has_root_ = wave_.mend(changed) && isClear(root_, root_);
+  has_root_ = wave_.mend(changed) && has_root_ && isClear(root_, root_);
 }
 
 GlobalPlan GlobalPlanner::plan(const Eigen::Vector2d& start, const Eigen::Vector2d& goal) {
@@ -111,7 +111,7 @@ bool GlobalPlanner::beginAt(const Eigen::Vector2d& start) {
   const double cell = map_.cell_size_m();
   freeCellsNear(map_, wave_, start, kJoinCells * cell, near_start_);
   for (const int near : near_start_) {
-    const Eigen::Vector2d middle = map_.centerOf(near);
+    const Eigen::Vector2d middle = wave_.placeOf(near);
     if (!isClear(start, middle)) continue;
     seeds_.push_back({near, static_cast<float>((middle - start).norm() / cell)});
   }
@@ -121,15 +121,16 @@ bool GlobalPlanner::beginAt(const Eigen::Vector2d& start) {
     if (room <= 0.0) return false;
     freeCellsNear(map_, wave_, start, params_.escape_m, near_start_);
     const auto way_out = std::find_if(near_start_.begin(), near_start_.end(), [&](int near) {
-      return map_.isClear(start, map_.centerOf(near), room);
+      return map_.isClear(start, wave_.placeOf(near), room);
     });
     if (way_out == near_start_.end()) return false;
-    const double length = (map_.centerOf(*way_out) - start).norm();
+    const double length = (wave_.placeOf(*way_out) - start).norm();
     seeds_.push_back({*way_out, static_cast<float>(length / cell)});
   }
   wave_.begin(seeds_);
   root_ = start;
   has_root_ = true;
+  mended_ = false;
   return true;
 }
 
@@ -139,7 +140,7 @@ bool GlobalPlanner::findPath(const Eigen::Vector2d& start, const Eigen::Vector2d
   if (isClear(goal, goal)) {
     freeCellsNear(map_, wave_, goal, kJoinCells * map_.cell_size_m(), near_goal_);
     for (const int near : near_goal_) {
-      if (!isClear(map_.centerOf(near), goal) || !wave_.reach(near)) continue;
+      if (!isClear(wave_.placeOf(near), goal) || !wave_.reach(near)) continue;
       plan.end = goal;
       return trace(near, start, goal, plan);
     }
@@ -147,7 +148,7 @@ bool GlobalPlanner::findPath(const Eigen::Vector2d& start, const Eigen::Vector2d
   freeCellsNear(map_, wave_, goal, params_.goal_tolerance_m, near_goal_);
   for (const int near : near_goal_) {
     if (!wave_.reach(near)) continue;
-    plan.end = map_.centerOf(near);
+    plan.end = wave_.placeOf(near);
     return trace(near, start, goal, plan);
   }
   finish(PlanStatus::kGoalUnreachable, plan);
@@ -160,8 +161,8 @@ bool GlobalPlanner::trace(int cell, const Eigen::Vector2d& start, const Eigen::V
                           GlobalPlan& plan) {
   FloorPath& path = plan.path;
   path.clear();
-  if (plan.end != map_.centerOf(cell)) path.push_back(plan.end);
-  for (int at = cell; at >= 0; at = wave_.parent(at)) path.push_back(map_.centerOf(at));
+  if (plan.end != wave_.placeOf(cell)) path.push_back(plan.end);
+  for (int at = cell; at >= 0; at = wave_.parent(at)) path.push_back(wave_.placeOf(at));
   const bool escapes = !isClear(root_, path.back());
   if (escapes && start != root_) return false;
   if (!escapes) {
@@ -169,7 +170,7 @@ bool GlobalPlanner::trace(int cell, const Eigen::Vector2d& start, const Eigen::V
     if (start != root_) path.push_back(start);
   }
   std::reverse(path.begin(), path.end());
-  if (!plan.searched_anew) {
+  if (mended_) {
     // Mending looks at cells; here is made sure that nothing new stands between two of them.
     for (std::size_t i = 1; i < path.size(); ++i) {
       if (!isClear(path[i - 1], path[i])) return false;
@@ -178,11 +179,10 @@ bool GlobalPlanner::trace(int cell, const Eigen::Vector2d& start, const Eigen::V
   taut_.pull(path);
   if (!plan.searched_anew && start != root_) {
     const double from_root_m =
-        wave_.cost(cell) * map_.cell_size_m() + (plan.end - map_.centerOf(cell)).norm();
+        wave_.cost(cell) * map_.cell_size_m() + (plan.end - wave_.placeOf(cell)).norm();
     const double least_m = from_root_m - (start - root_).norm();
     if (pathLength(path) > kKeptMayBeLonger * least_m) return false;
   }
-  taut_.giveRoom(path, params_.comfort_m, params_.longer_share);
   if (escapes) {
     plan.escape_m = (path.front() - start).norm();
     path.insert(path.begin(), start);

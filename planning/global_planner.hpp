@@ -23,7 +23,6 @@ struct GlobalPlannerParams {
   double safety_m = 0.01;         ///< Paths keep this much more than the radius away.
   double comfort_m = 0.2;         ///< More room than this, beyond both, is worth no detour.
   double crowding = 0.02;         ///< A way without that room counts as longer by up to this share.
-  double longer_share = 0.01;     ///< A path may get longer by this share to keep off corners.
   double goal_tolerance_m = 0.5;  ///< How far from a goal that can't be reached a path may end.
   double escape_m = 0.6;         ///< How far to look for room when the robot is too near something.
   double keep_root_m = 0.6;      ///< How far the robot may move before a search begins anew.
@@ -60,7 +59,7 @@ struct GlobalPlan {
 /// Plans any-angle paths for a round robot. A search spreads from the robot over the free cells and
 /// is kept: when the goal moves, it goes on where it stopped; when the robot has moved a little, or
 /// obstacles have come or gone, what still holds of it is used. Its path is then pulled taut, which
-/// undoes the grid's few directions, and given room. Every piece of the path is exactly clear.
+/// undoes the grid's few directions. Every piece of the path is exactly clear.
 ///
 /// A passage that is narrower than the robot with its safety by less than a cell more may be
 /// missed: the search stands on cells' middles. No allocation once warm.
@@ -103,6 +102,7 @@ class GlobalPlanner {
   GridWave wave_;
   TautPath taut_;
   bool has_root_ = false;
+  bool mended_ = false;                             ///< Since the kept search began.
   Eigen::Vector2d root_ = Eigen::Vector2d::Zero();  ///< Where the kept search began.
   std::vector<WaveSeed> seeds_;
   std::vector<int> near_goal_, near_start_;

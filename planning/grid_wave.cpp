@@ -22,6 +22,10 @@ constexpr Move kMoves[16] = {{1, 0, 1.0F},     {0, 1, 1.0F},     {-1, 0, 1.0F}, 
                              {2, 1, kRoot5},   {1, 2, kRoot5},   {-1, 2, kRoot5},  {-2, 1, kRoot5},
                              {-2, -1, kRoot5}, {-1, -2, kRoot5}, {1, -2, kRoot5},  {2, -1, kRoot5}};
 
+/// The points that a cell may stand for: its middle and those of its rim, in half cells from it.
+constexpr int kSpots[9][2] = {{0, 0}, {1, 0},  {0, 1},   {-1, 0}, {0, -1},
+                              {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+
 constexpr std::uint8_t kUnknownYet = 0, kHolds = 1, kBroken = 2;
 
 }  // namespace
@@ -42,10 +46,63 @@ GridWave::GridWave(const ClearanceMap& map, const GridWaveParams& params)
     throw std::invalid_argument("a wave's radius must be within the reach of the clearances");
   }
   const auto size = index(width_ * height_);
+  next_.assign(size, -1);
+  previous_.assign(size, -1);
+  lists_.assign(index(2 * (width_ + height_)), -1);
   cost_.assign(size, kFar);
   parent_.assign(size, -1);
   state_.assign(size, kNew);
   mark_.assign(size, kUnknownYet);
+  spot_.assign(size, 0);
+  room_.assign(size, 0.0F);
+  half_price_.assign(size, kFar);
+  for (int cell = 0; cell < width_ * height_; ++cell) measure(cell);
+}
+
+Eigen::Vector2d GridWave::placeOf(int cell) const {
+  const int* spot = kSpots[spot_[index(cell)]];
+  return map_->centerOf(cell) + 0.5 * map_->cell_size_m() * Eigen::Vector2d(spot[0], spot[1]);
+}
+
+/// Chooses the cell's place and what it costs there.
+/// @return  whether anything has changed.
+bool GridWave::measure(int cell) {
+  const std::size_t i = index(cell);
+  const std::uint8_t old_spot = spot_[i];
+  const float old_room = room_[i];
+  spot_[i] = 0;
+  room_[i] = map_->clearanceInCells(cell);
+  if (room_[i] < radius_ && room_[i] > radius_ - 0.5F * kRoot2) chooseSpot(cell);
+  half_price_[i] = kFar;
+  if (room_[i] >= radius_) {
+    const float share = (room_[i] - radius_) / comfort_;
+    half_price_[i] = 0.5F * (1.0F + crowding_ * std::max(0.0F, 1.0F - share));
+  }
+  return spot_[i] != old_spot || room_[i] != old_room;
+}
+
+/// Looks for a place on the rim, if the cell lies on the middle line of a passage: nowhere else
+/// does the search need it.
+void GridWave::chooseSpot(int cell) {
+  const int x = cell % width_, y = cell / width_;
+  if (x == 0 || y == 0 || x == width_ - 1 || y == height_ - 1) return;
+  const float here = room_[index(cell)];
+  const auto is_ridge = [&](int across) {
+    const float a = map_->clearanceInCells(cell - across),
+                b = map_->clearanceInCells(cell + across);
+    return here >= a && here >= b && here > std::min(a, b);
+  };
+  if (!is_ridge(1) && !is_ridge(width_) && !is_ridge(width_ + 1) && !is_ridge(width_ - 1)) return;
+  const Eigen::Vector2d middle = map_->centerOf(cell);
+  for (std::uint8_t k = 1; k < 9; ++k) {
+    const Eigen::Vector2d offset(kSpots[k][0], kSpots[k][1]);
+    const Eigen::Vector2d place = middle + 0.5 * map_->cell_size_m() * offset;
+    const auto room = static_cast<float>(map_->clearance(place) / map_->cell_size_m());
+    if (room < radius_ || room <= room_[index(cell)]) continue;
+    room_[index(cell)] = room;
+    spot_[index(cell)] = k;
+  }
+  if (spot_[index(cell)] != 0) spotted_.push_back(cell);
 }
 
 void GridWave::begin(const std::vector<WaveSeed>& seeds) {
@@ -53,117 +110,106 @@ void GridWave::begin(const std::vector<WaveSeed>& seeds) {
     cost_[index(cell)] = kFar;
     state_[index(cell)] = kNew;
   }
+  std::fill(lists_.begin(), lists_.end(), -1);
+  list_ = 0;
   touched_.clear();
-  heap_.clear();
   seeds_.clear();
-  goal_ = -1;
   for (const WaveSeed& seed : seeds) {
     if (!isFree(seed.cell)) throw std::invalid_argument("a wave must begin on free cells");
-    cost_[index(seed.cell)] = seed.cost;
-    parent_[index(seed.cell)] = -1;
-    state_[index(seed.cell)] = kOpen;
-    touched_.push_back(seed.cell);
+    open(seed.cell, seed.cost, -1);
     seeds_.push_back(seed.cell);
-    heap_.push_back({seed.cost, seed.cost, seed.cell});
   }
-  std::make_heap(heap_.begin(), heap_.end());
-}
-
-/// Cost so far and the length of the shortest moves to the goal, if nothing is in the way.
-float GridWave::bound(int cell) const {
-  if (goal_ < 0) return cost_[index(cell)];
-  const int dx = std::abs(cell % width_ - goal_x_), dy = std::abs(cell / width_ - goal_y_);
-  const auto most = static_cast<float>(std::max(dx, dy)),
-             least = static_cast<float>(std::min(dx, dy));
-  const float rest = most >= 2.0F * least
-                         ? most - 2.0F * least + kRoot5 * least
-                         : kRoot5 * (most - least) + kRoot2 * (2.0F * least - most);
-  return cost_[index(cell)] + rest;
-}
-
-void GridWave::aimAt(int goal) {
-  if (goal == goal_) return;
-  goal_ = goal;
-  if (goal >= 0) {
-    goal_x_ = goal % width_;
-    goal_y_ = goal / width_;
-  }
-  std::size_t kept = 0;
-  for (const Entry& entry : heap_) {
-    if (state_[index(entry.cell)] != kOpen || entry.cost != cost_[index(entry.cell)]) continue;
-    heap_[kept++] = {bound(entry.cell), entry.cost, entry.cell};
-  }
-  heap_.resize(kept);
-  std::make_heap(heap_.begin(), heap_.end());
 }
 
 bool GridWave::reach(int goal) {
-  if (!isFree(goal)) return false;
-  aimAt(goal);
-  run();
-  return cost_[index(goal)] < kFar;
+  if (isFree(goal)) run(goal);
+  return isFree(goal) && cost_[index(goal)] < kFar;
 }
 
-void GridWave::reachAll() {
-  aimAt(-1);
-  run();
-}
+void GridWave::reachAll() { run(-1); }
 
-void GridWave::run() {
-  while (!heap_.empty()) {
-    const Entry top = heap_.front();
-    if (goal_ >= 0 && top.bound >= cost_[index(goal_)]) return;
-    std::pop_heap(heap_.begin(), heap_.end());
-    heap_.pop_back();
-    if (state_[index(top.cell)] != kOpen || top.cost != cost_[index(top.cell)]) continue;
-    state_[index(top.cell)] = kDone;
-    spreadFrom(top.cell, false);
+void GridWave::run(int goal) {
+  for (; list_ < static_cast<int>(lists_.size()); ++list_) {
+    // All that is open costs as much as the list at least.
+    if (goal >= 0 && cost_[index(goal)] <= static_cast<float>(list_)) return;
+    for (int cell = lists_[index(list_)]; cell >= 0; cell = lists_[index(list_)]) {
+      unlink(cell);
+      state_[index(cell)] = kDone;
+      spreadFrom(cell);
+    }
   }
 }
 
-/// Relaxes the moves out of a cell, or those from finished cells into it.
-void GridWave::spreadFrom(int cell, bool only_into_it) {
+void GridWave::open(int cell, float cost, int parent) {
+  if (state_[index(cell)] == kOpen) unlink(cell);
+  if (cost_[index(cell)] == kFar) touched_.push_back(cell);
+  cost_[index(cell)] = cost;
+  parent_[index(cell)] = parent;
+  state_[index(cell)] = kOpen;
+  const int list = listOf(cost);
+  if (index(list) >= lists_.size()) lists_.resize(2 * index(list), -1);
+  list_ = std::min(list_, list);
+  const int first = lists_[index(list)];
+  next_[index(cell)] = first;
+  previous_[index(cell)] = -1;
+  if (first >= 0) previous_[index(first)] = cell;
+  lists_[index(list)] = cell;
+}
+
+void GridWave::unlink(int cell) {
+  const int next = next_[index(cell)], previous = previous_[index(cell)];
+  if (next >= 0) previous_[index(next)] = previous;
+  (previous >= 0 ? next_[index(previous)] : lists_[index(listOf(cost_[index(cell)]))]) = next;
+}
+
+/// Relaxes the moves out of a cell.
+void GridWave::spreadFrom(int cell) {
+  const int x = cell % width_, y = cell / width_;
+  for (const Move& move : kMoves) {
+    const int nx = x + move.x, ny = y + move.y;
+    if (nx < 0 || ny < 0 || nx >= width_ || ny >= height_) continue;
+    relax(cell, ny * width_ + nx, move.length);
+  }
+}
+
+/// Relaxes the moves into a cell from finished ones.
+void GridWave::spreadInto(int cell) {
   const int x = cell % width_, y = cell / width_;
   for (const Move& move : kMoves) {
     const int nx = x + move.x, ny = y + move.y;
     if (nx < 0 || ny < 0 || nx >= width_ || ny >= height_) continue;
     const int neighbour = ny * width_ + nx;
-    if (!only_into_it) {
-      relax(cell, neighbour, move.length);
-    } else if (state_[index(neighbour)] == kDone) {
-      relax(neighbour, cell, move.length);
-    }
+    if (state_[index(neighbour)] == kDone) relax(neighbour, cell, move.length);
   }
-}
-
-float GridWave::crowdingAt(int cell) const {
-  const float room = (map_->clearanceInCells(cell) - radius_) / comfort_;
-  return crowding_ * std::max(0.0F, 1.0F - room);
 }
 
 /// Clearance changes by no more than the way: with enough at both ends there is enough between.
 bool GridWave::canMove(int from, int to, float length) const {
-  const float room = map_->clearanceInCells(from) + map_->clearanceInCells(to);
-  return room >= 2.0F * radius_ + length ||
-         map_->isClear(map_->centerOf(from), map_->centerOf(to), radius_m_);
+  const float room = room_[index(from)] + room_[index(to)];
+  return room >= 2.0F * radius_ + length || map_->isClear(placeOf(from), placeOf(to), radius_m_);
 }
 
 void GridWave::relax(int from, int to, float length) {
-  if (!isFree(to)) return;
-  float cost = cost_[index(from)];
-  if (cost + length >= cost_[index(to)]) return;
-  cost += length * (1.0F + 0.5F * (crowdingAt(from) + crowdingAt(to)));
+  if ((spot_[index(from)] | spot_[index(to)]) != 0) {
+    length = static_cast<float>((placeOf(to) - placeOf(from)).norm() / map_->cell_size_m());
+  }
+  const float price = half_price_[index(from)] + half_price_[index(to)];
+  const float cost = cost_[index(from)] + length * price;
   if (cost >= cost_[index(to)] || !canMove(from, to, length)) return;
-  if (cost_[index(to)] == kFar) touched_.push_back(to);
-  cost_[index(to)] = cost;
-  parent_[index(to)] = from;
-  state_[index(to)] = kOpen;
-  heap_.push_back({bound(to), cost, to});
-  std::push_heap(heap_.begin(), heap_.end());
+  open(to, cost, from);
 }
 
 bool GridWave::mend(const std::vector<int>& changed) {
-  for (const int cell : changed) mark_[index(cell)] = kBroken;
+  // A point on a rim may have lost its room though the middle of its cell has not.
+  broken_.assign(spotted_.begin(), spotted_.end());
+  spotted_.clear();
+  broken_.insert(broken_.end(), changed.begin(), changed.end());
+  for (const int cell : broken_) {
+    if (mark_[index(cell)] == kUnknownYet) mark_[index(cell)] = measure(cell) ? kBroken : kHolds;
+  }
+  for (const int cell : broken_) {
+    if (mark_[index(cell)] == kHolds) mark_[index(cell)] = kUnknownYet;
+  }
   bool holds = true;
   for (const int cell : seeds_) holds = holds && mark_[index(cell)] != kBroken;
 
@@ -189,16 +235,17 @@ bool GridWave::mend(const std::vector<int>& changed) {
   for (const int cell : touched_) mark_[index(cell)] = kUnknownYet;
   for (const int cell : lost_) {
     mark_[index(cell)] = kUnknownYet;
+    if (state_[index(cell)] == kOpen) unlink(cell);
     cost_[index(cell)] = kFar;
     state_[index(cell)] = kNew;
   }
-  for (const int cell : changed) mark_[index(cell)] = kUnknownYet;
+  for (const int cell : broken_) mark_[index(cell)] = kUnknownYet;
   if (!holds) return false;
   for (const int cell : lost_) {
-    if (isFree(cell)) spreadFrom(cell, true);
+    if (isFree(cell)) spreadInto(cell);
   }
-  for (const int cell : changed) {
-    if (isFree(cell)) spreadFrom(cell, true);
+  for (const int cell : broken_) {
+    if (isFree(cell)) spreadInto(cell);
   }
   return true;
 }

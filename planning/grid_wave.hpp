@@ -27,10 +27,12 @@ struct WaveSeed {
   float cost = 0.0F;  ///< In cells.
 };
 
-/// A* on cells' middles with 16 moves (a straight line is at most 2.8 % longer by them), from its
-/// seeds to any goal. The costs of finished cells are least costs whatever goal they were found
-/// for, so a new goal only needs the open ones sorted anew. Every move is exact: the body clears
-/// all of it. Memory is flat and reused.
+/// Dijkstra's search on cells with 16 moves (a straight line is at most 2.8 % longer by them), from
+/// its seeds outwards until the goal is reached. Every move is exact: the body clears all of it. A
+/// cell stands for its middle; in a narrow place whose middle line falls between the cells, for the
+/// point of its rim that has the most room. As hardly a move is shorter than a cell, the order
+/// among cells whose costs differ by less hardly matters: the queue is a row of lists, threaded
+/// through flat memory, and a cell that was finished too early is opened again.
 class GridWave {
  public:
   static constexpr float kFar = std::numeric_limits<float>::infinity();
@@ -38,8 +40,10 @@ class GridWave {
   /// @param map  Must outlive this; after a change of its layer call mend().
   GridWave(const ClearanceMap& map, const GridWaveParams& params);
 
-  /// Whether the body can stand on the cell's middle.
-  bool isFree(int cell) const { return map_->clearanceInCells(cell) >= radius_; }
+  /// Whether the body can stand on the cell's place.
+  bool isFree(int cell) const { return half_price_[index(cell)] < kFar; }
+  /// The point that the cell stands for [m].
+  Eigen::Vector2d placeOf(int cell) const;
 
   /// Forgets everything and begins at the seeds, which must be free.
   void begin(const std::vector<WaveSeed>& seeds);
@@ -61,34 +65,34 @@ class GridWave {
 
  private:
   enum State : std::uint8_t { kNew, kOpen, kDone };
-  struct Entry {
-    float bound;  ///< Of a whole path through here.
-    float cost;
-    int cell;
-    friend bool operator<(const Entry& a, const Entry& b) {  // For a heap with the least on top.
-      return a.bound > b.bound || (a.bound == b.bound && a.cell > b.cell);
-    }
-  };
   static std::size_t index(int cell) { return static_cast<std::size_t>(cell); }
-  float bound(int cell) const;
-  void aimAt(int goal);
-  void run();
+  void run(int goal);
+  void open(int cell, float cost, int parent);
+  void unlink(int cell);
   void relax(int from, int to, float length);
   bool canMove(int from, int to, float length) const;
-  float crowdingAt(int cell) const;
-  void spreadFrom(int cell, bool only_into_it);
+  bool measure(int cell);
+  void chooseSpot(int cell);
+  void spreadFrom(int cell);
+  void spreadInto(int cell);
+  static int listOf(float cost) { return static_cast<int>(cost); }
 
   const ClearanceMap* map_;
   int width_, height_;
   double radius_m_;
   float radius_, comfort_, crowding_;  ///< In cells.
+  std::vector<float> room_;            ///< Clearance of a cell's place, in cells.
+  std::vector<float> half_price_;      ///< Of a cell's length there; infinite where not free.
+  std::vector<std::uint8_t> spot_;     ///< Which point the cell stands for; 0 is its middle.
+  std::vector<int> spotted_;           ///< Cells that stand for another.
   std::vector<float> cost_;
   std::vector<int> parent_;
   std::vector<std::uint8_t> state_;
-  std::vector<std::uint8_t> mark_;  ///< While mending: whether a cell's way back still holds.
-  std::vector<Entry> heap_;
-  std::vector<int> touched_, seeds_, chain_, lost_;
-  int goal_ = -1, goal_x_ = 0, goal_y_ = 0;  ///< -1: everywhere.
+  std::vector<std::uint8_t> mark_;    ///< While mending: whether a cell's way back still holds.
+  std::vector<int> next_, previous_;  ///< In a cell's list; -1 ends it.
+  std::vector<int> lists_;            ///< First open cell of each cost in whole cells.
+  int list_ = 0;                      ///< No open cell is in a list before this one.
+  std::vector<int> touched_, seeds_, chain_, lost_, broken_;
 };
 
 }  // namespace heel

@@ -117,6 +117,4 @@ void TautPath::cutBends(FloorPath& path) {
   path.swap(next_);
 }
 
-void TautPath::giveRoom(FloorPath& /*path*/, double /*comfort_m*/, double /*longer_share*/) {}
-
 }  // namespace heel

@@ -16,13 +16,9 @@ class TautPath {
   /// @param map  Must outlive this.
   TautPath(const ClearanceMap& map, double radius_m) : map_(&map), radius_m_(radius_m) {}
 
-  /// Shortens a path whose pieces are clear; they stay so, exactly, and no piece gets longer way
-  /// round. Bends become a few points on the tangents of the curve that the string would follow.
+  /// Shortens a path whose pieces are clear; they stay so, exactly. Bends become a few points on
+  /// the tangents of the curve that the string would follow.
   void pull(FloorPath& path);
-
-  /// Moves way points away from what they are near to, up to `comfort_m` more than the radius and
-  /// the middle of a narrow place, while the path gets no longer than by `longer_share` in all.
-  void giveRoom(FloorPath& path, double comfort_m, double longer_share);
 
  private:
   bool isClear(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
