@@ -17,31 +17,41 @@ constexpr std::size_t kStride = 5;  // The slow terms look at every fifth pose.
 
 double square(double x) { return x * x; }
 
-/// The pose that the option gets to before anything is touched.
-const FloorPose& lastClear(const DriveScene& scene, const DriveOption& option) {
-  return option.clear_steps > 0 ? option.poses[option.clear_steps - 1] : scene.now.pose;
+/// The pose at `step`, or the last one before anything is touched.
+const FloorPose& clearPose(const DriveScene& scene, const DriveOption& option, std::size_t step) {
+  return option.clear_steps > 0 ? option.poses[std::min(step, option.clear_steps - 1)]
+                                : scene.now.pose;
 }
 
+/// Early progress counts too: of two futures that end at one place the faster is better.
 double progress(const DriveLimits& limits, const DriveScene& scene, const DriveOption& option) {
-  const PathAhead::Place end = scene.path->locate(lastClear(scene, option).position);
-  const double before = scene.start.left_m + scene.start.off_m;
-  const double possible =
-      std::min(limits.max_speed_mps * limits.period_s * static_cast<double>(option.steps), before);
-  if (possible < 1e-3) return 0.0;
-  return 1.0 - std::clamp((before - end.left_m - end.off_m) / possible, -1.0, 1.0);
+  constexpr std::size_t kParts = 3;
+  constexpr double kOff = 0.4;  // What a metre beside the path is worth of one along it.
+  const double before = scene.start.left_m + kOff * scene.start.off_m;
+  double made = 0.0, possible = 0.0;
+  for (std::size_t part = 1; part <= kParts; ++part) {
+    const std::size_t step = part * option.steps / kParts;
+    const FloorPose& pose = clearPose(scene, option, step - 1);
+    const PathAhead::Place place = scene.path->locate(pose.position);
+    made += before - place.left_m - kOff * place.off_m;
+    possible +=
+        std::min(limits.max_speed_mps * limits.period_s * static_cast<double>(step), before);
+  }
+  return possible < 1e-3 ? 0.0 : 1.0 - std::clamp(made / possible, -1.0, 1.0);
 }
 
 double offPath(const DriveTermParams& params, const DriveScene& scene, const DriveOption& option) {
   double sum = 0.0;
   int count = 0;
   for (std::size_t i = kStride - 1; i < option.steps; i += kStride, ++count) {
-    sum += square(scene.path->locate(option.poses[i].position).off_m / params.path_off_m);
+    const double off2 = square(scene.path->locate(option.poses[i].position).off_m);
+    sum += off2 / (off2 + square(params.path_off_m));
   }
   return count > 0 ? sum / count : 0.0;
 }
 
 double headingOff(const DriveScene& scene, const DriveOption& option) {
-  const FloorPose& end = lastClear(scene, option);
+  const FloorPose& end = clearPose(scene, option, option.steps - 1);
   const double direction = scene.path->locate(end.position).direction_rad;
   return 0.5 - 0.5 * std::cos(end.yaw_rad - direction);
 }
@@ -59,16 +69,18 @@ double nearThings(const DriveTermParams& params, const DriveOption& option) {
 double nearPeople(const DriveLimits& limits, const DriveTermParams& params, const DriveScene& scene,
                   const DriveOption& option) {
   if (scene.people->empty()) return 0.0;
-  double worst = 0.0;
+  double sum = 0.0, weights = 0.0;
   for (std::size_t i = 0; i < option.steps; ++i) {
     const double t = limits.period_s * static_cast<double>(i + 1);
     if (t > params.foresight_s) break;
+    const double weight = 1.0 - 0.5 * t / params.foresight_s;
+    weights += weight;
     const double room = roomToPeople(*scene.people, option.poses[i].position, limits.radius_m, t);
-    if (room >= params.people_comfort_m) continue;
-    const double lack = std::min(1.0 - room / params.people_comfort_m, 2.5);
-    worst = std::max(worst, square(lack) * (1.0 - 0.5 * t / params.foresight_s));
+    // Who is as near as can be does not come nearer: people don't walk through the robot.
+    const double lack = std::clamp(1.0 - room / params.people_comfort_m, 0.0, 1.2);
+    sum += weight * square(lack);
   }
-  return worst;
+  return weights > 0.0 ? sum / weights : 0.0;
 }
 
 double outOfView(const DriveTermParams& params, const DriveScene& scene,

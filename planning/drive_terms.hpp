@@ -17,8 +17,8 @@ namespace heel {
 
 /// The costs, in the order of `DriveScores`.
 enum class DriveTerm : std::size_t {
-  kProgress,   ///< Share of the possible way along the path that it does not make; -1 to 1, + 1.
-  kPath,       ///< Mean squared distance to the path, in units of `path_off_m`.
+  kProgress,   ///< Share of the possible way along the path that it does not make, 0 to 2.
+  kPath,       ///< Mean distance to the path, 0 to 1; half at `path_off_m`.
   kHeading,    ///< Angle to the path's direction at the end, 0 to 1.
   kClearance,  ///< How much things that stand come within `comfort_m`, mean of squares.
   kPeople,     ///< How much people come within `people_comfort_m`; sooner counts more.
@@ -30,7 +30,7 @@ using DriveScores = std::array<double, kDriveTerms>;
 const char* nameOf(DriveTerm term);
 
 struct DriveTermParams {
-  DriveScores weights = {10.0, 1.0, 1.5, 2.0, 8.0, 1.5, 0.4};
+  DriveScores weights = {10.0, 2.0, 1.5, 2.0, 16.0, 1.5, 0.4};
   double path_off_m = 0.3;
   double comfort_m = 0.25;         ///< Room to walls and furniture from which on more is no better.
   double people_comfort_m = 0.35;  ///< The same for people.

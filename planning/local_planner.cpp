@@ -15,6 +15,7 @@ using Eigen::Vector2d;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kNoWorse_m = 1e-6;
+constexpr double kComes_mps = 0.15;
 constexpr double kStands_mps = 0.02;
 constexpr double kStands_radps = 0.05;
 
@@ -103,8 +104,12 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
     path_.take(path, pose.position, reach);
     scene.start = path_.locate(pose.position);
   }
-  const bool threatened =
-      roomToWays(people, pose.position, radius, params_.give_way_s) < params_.give_way_gap_m;
+  const bool threatened = isThreatened(scene, plan.people_gap_m);
+  DriveScores weights = params_.terms.weights;
+  if (threatened) {  // To make room comes before getting on, and before ease.
+    weights[static_cast<std::size_t>(DriveTerm::kProgress)] = 0.0;
+    weights[static_cast<std::size_t>(DriveTerm::kSmooth)] *= 0.1;
+  }
   layOut(scene, threatened);
   plan.options = futures_.size();
 
@@ -116,7 +121,7 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
     const DriveOption option{futures_.row(i), gaps_m_.data(), futures_.steps, clear,
                              futures_.commands[i]};
     const DriveScores costs = driveCosts(params_.limits, params_.terms, scene, option);
-    const double cost = total(costs, params_.terms.weights);
+    const double cost = total(costs, weights);
     if (!(cost < least)) continue;
     least = cost;
     plan.costs = costs;
@@ -153,17 +158,31 @@ bool LocalPlanner::hasArrived(const std::vector<Vector2d>& path, const Vector2d&
   return arrived_;
 }
 
+bool LocalPlanner::isThreatened(const DriveScene& scene, double room_m) const {
+  if (room_m < 0.5 * params_.people_margin_m) return true;
+  const double radius = params_.limits.radius_m;
+  for (const MovingPerson& p : *scene.people) {
+    const Vector2d to = scene.now.pose.position - p.position;
+    if (p.velocity.dot(to) <= kComes_mps * to.norm()) continue;
+    const Vector2d way = params_.give_way_s * p.velocity;
+    const double share = std::clamp(to.dot(way) / way.squaredNorm(), 0.0, 1.0);
+    if ((to - share * way).norm() < p.radius_m + radius + params_.give_way_gap_m) return true;
+  }
+  return false;
+}
+
 void LocalPlanner::layOut(const DriveScene& scene, bool threatened) {
   const DriveLimits& limits = params_.limits;
   futures_.clear();
   if (path_.empty()) {
     const double turn = scene.face ? turnToFace(limits, scene.now, *scene.face, params_.facing) : 0;
     addHeld(limits, scene.now, {0.0, turn}, futures_);
-    if (turn != 0.0) addHeld(limits, scene.now, {0.0, 0.0}, futures_);
   } else {
-    for (const double aside : {0.0, -0.15, 0.15, -0.3, 0.3, -0.5, 0.5}) {
+    for (const double aside : {0.0, -0.2, 0.2, -0.4, 0.4, -0.65, 0.65}) {
       for (const double share : {1.0, 0.5}) {
-        addPursuit(limits, scene.now, path_, {share * limits.max_speed_mps, 0.35, aside}, futures_);
+        addPursuit(limits, scene.now, path_,
+                   {share * limits.max_speed_mps, std::max(0.35, 0.7 * std::abs(aside)), aside},
+                   futures_);
       }
     }
     addPursuit(limits, scene.now, path_, {limits.max_speed_mps, 0.2, 0.0}, futures_);

@@ -17,7 +17,7 @@ struct LocalPlannerParams {
   DriveLimits limits;
   DriveTermParams terms;
   FacingParams facing;
-  double horizon_s = 3.0;         ///< How far the futures reach.
+  double horizon_s = 4.0;         ///< How far the futures reach.
   int latency_periods = 1;        ///< How late the brakes may act, besides the period itself.
   double margin_m = 0.04;         ///< Room that is left to things when the robot has braked.
   double people_margin_m = 0.1;   ///< The same for people, wherever on their way they are then.
@@ -100,6 +100,8 @@ class LocalPlanner {
   std::optional<DriveReason> findFault(const DriveScene& scene,
                                        const std::vector<Eigen::Vector2d>& path) const;
   bool hasArrived(const std::vector<Eigen::Vector2d>& path, const Eigen::Vector2d& position);
+  /// Whether somebody walks at the robot, or stands all but at it.
+  bool isThreatened(const DriveScene& scene, double room_m) const;
   void layOut(const DriveScene& scene, bool threatened);
   Braking brake(const DriveScene& scene, const VelocityCommand& command, Clearance clearance) const;
   std::size_t measure(const DriveScene& scene, std::size_t option, Clearance clearance);

@@ -125,7 +125,6 @@ void LineWalker::step(double dt_s, const Vector2d& robot, double robot_radius_m)
   const Vector2d way = to - person.position;
   if (way.norm() < 0.05) {
     person.velocity = Vector2d::Zero();
-    if (stays_at_end) return;
     std::swap(from, to);
     return;
   }
@@ -133,6 +132,11 @@ void LineWalker::step(double dt_s, const Vector2d& robot, double robot_radius_m)
   const Vector2d off = robot - (person.position + dt_s * velocity);
   const bool into =
       off.dot(velocity) > 0.0 && off.norm() - person.radius_m - robot_radius_m < stop_gap_m;
+  waited_s = into ? waited_s + dt_s : 0.0;
+  if (waited_s > patience_s) {
+    waited_s = 0.0;
+    std::swap(from, to);
+  }
   person.velocity = into ? Vector2d::Zero() : velocity;
   person.position += dt_s * person.velocity;
 }

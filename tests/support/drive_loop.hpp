@@ -51,7 +51,8 @@ struct LineWalker {
   Eigen::Vector2d from, to;
   double speed_mps = 1.0;
   double stop_gap_m = 0.15;
-  bool stays_at_end = false;
+  double patience_s = 3.0;  ///< Turns back after waiting this long.
+  double waited_s = 0.0;
   MovingPerson person;
 
   void step(double dt_s, const Eigen::Vector2d& robot, double robot_radius_m);
