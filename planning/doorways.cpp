@@ -47,12 +47,13 @@ class DoorwaySearch {
     return way;
   }
 
-  bool isOpen(const Vector2d& p, const Vector2d& along, const Vector2d& across,
-              double width) const {
-    const double reach = freeWay(p, along, params_.within_m);
+  /// Whether the way across gets to be `more` wider within `within` metres.
+  bool widens(const Vector2d& p, const Vector2d& along, const Vector2d& across, double width,
+              double more, double within) const {
+    const double reach = freeWay(p, along, within);
     for (double t = map_.cell_size_m(); t <= reach; t += map_.cell_size_m()) {
       const Vector2d there = p + t * along;
-      const double most = width + params_.widens_m;
+      const double most = width + more;
       if (freeWay(there, across, most) + freeWay(there, -across, most) >= most) return true;
     }
     return false;
@@ -87,8 +88,16 @@ class DoorwaySearch {
             freeWay(place.center, -place.through, depth) < depth) {
           continue;
         }
-        if (isOpen(place.center, place.through, across, least) ||
-            isOpen(place.center, -place.through, across, least)) {
+        // A doorway is short: it ends on both sides, and at least one of them is a room.
+        const double edge = 0.9 * cell;
+        const auto ends = [&](const Vector2d& along) {
+          return widens(place.center, along, across, least, edge, params_.depth_m);
+        };
+        const auto opens = [&](const Vector2d& along) {
+          return widens(place.center, along, across, least, params_.widens_m, params_.within_m);
+        };
+        if (ends(place.through) && ends(-place.through) &&
+            (opens(place.through) || opens(-place.through))) {
           out.push_back(place);
         }
       }
@@ -171,8 +180,8 @@ class DoorwaySearch {
 std::vector<DoorwayOnMap> findDoorways(const OccupancyGrid& map, const DoorwayParams& params) {
   if (map.empty()) throw std::invalid_argument("a map without cells has no doorways");
   if (!(params.min_width_m > 0.0) || !(params.max_width_m > params.min_width_m) ||
-      !(params.widens_m > 0.0) || !(params.within_m > 0.0) || !(params.detour_m > 0.0) ||
-      !(params.room_m2 >= 0.0) || !(params.apart_m >= 0.0)) {
+      !(params.widens_m > 0.0) || !(params.depth_m > 0.0) || !(params.within_m > 0.0) ||
+      !(params.detour_m > 0.0) || !(params.room_m2 >= 0.0) || !(params.apart_m >= 0.0)) {
     throw std::invalid_argument("the doorways' parameters are out of order");
   }
   return DoorwaySearch(map, params).run();

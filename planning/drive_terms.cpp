@@ -69,6 +69,8 @@ double nearThings(const DriveTermParams& params, const DriveOption& option) {
 double nearPeople(const DriveLimits& limits, const DriveTermParams& params, const DriveScene& scene,
                   const DriveOption& option) {
   if (scene.people->empty()) return 0.0;
+  constexpr double kTouch = 1.2;
+  bool touched = false;
   double sum = 0.0, weights = 0.0;
   for (std::size_t i = 0; i < option.steps; ++i) {
     const double t = limits.period_s * static_cast<double>(i + 1);
@@ -76,8 +78,10 @@ double nearPeople(const DriveLimits& limits, const DriveTermParams& params, cons
     const double weight = 1.0 - 0.5 * t / params.foresight_s;
     weights += weight;
     const double room = roomToPeople(*scene.people, option.poses[i].position, limits.radius_m, t);
-    // Who is as near as can be does not come nearer: people don't walk through the robot.
-    const double lack = std::clamp(1.0 - room / params.people_comfort_m, 0.0, 1.2);
+    // After a touch the future ends: people don't walk through the robot.
+    touched = touched || room <= 0.0;
+    const double lack =
+        touched ? kTouch : std::clamp(1.0 - room / params.people_comfort_m, 0.0, 1.0);
     sum += weight * square(lack);
   }
   return weights > 0.0 ? sum / weights : 0.0;
