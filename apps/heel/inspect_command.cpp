@@ -4,6 +4,7 @@
 #include "apps/follower/camera_setup.hpp"
 #include "apps/follower/depth_images.hpp"
 #include "apps/heel/commands.hpp"
+#include "apps/heel/inspect_plan.hpp"
 #include "apps/report/drawing.hpp"
 #include "apps/report/video_writer.hpp"
 #include "segmentation/appearance_model_io.hpp"
@@ -112,7 +113,9 @@ void run(const Options& options) {
   }
   const fs::path extension = options.what.extension();
   const bool is_model = extension == ".yaml" || extension == ".yml";
-  const cv::Mat picture = is_model ? inspectModel(options.what) : inspectRecording(options.what);
+  const cv::Mat picture = is_model               ? inspectModel(options.what)
+                          : extension == ".pnml" ? inspectPlan(options.what)
+                                                 : inspectRecording(options.what);
   if (picture.empty()) return;
   writePicture(options.out, picture);
   std::printf("wrote %s\n", options.out.string().c_str());
@@ -122,13 +125,15 @@ void run(const Options& options) {
 
 void addInspect(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb = app.add_subcommand("inspect", "Tell what is in a model or a recording");
+  CLI::App* verb = app.add_subcommand("inspect", "Tell what is in a model, a plan or a recording");
   verb->footer(
       "Examples:\n"
       "  heel inspect person.yaml\n"
+      "  heel inspect plan.pnml --out plan.png\n"
       "  heel inspect recordings/kitchen\n"
       "  heel inspect scene.pcd --out scene.png");
-  verb->add_option("WHAT", options->what, "model (.yaml), recording (folder), or PCD file")
+  verb->add_option("WHAT", options->what,
+                   "model (.yaml), plan (.pnml), recording (folder), or PCD file")
       ->required();
   verb->add_option("--out", options->out, "where to write the picture")->capture_default_str();
   verb->callback([options] { run(*options); });
