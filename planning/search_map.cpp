@@ -184,7 +184,7 @@ void SearchMap::sumUp() {
   }
 }
 
-std::optional<SearchView> SearchMap::nextView(const FloorPose& camera) const {
+std::optional<SearchView> SearchMap::nextView(const FloorPose& camera) {
   if (walked_m_.empty()) return std::nullopt;
   floor_.walkingDistances(floor_.nearestFree(camera.position), way_m_, way_open_);
   // First the place, by all that is in view around it: who goes to a room looks all around in it.

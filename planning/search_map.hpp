@@ -76,7 +76,7 @@ class SearchMap {
   /// The place from which there is most to see per time, getting there and turning once around
   /// included, and the look from it that promises most. None before start(), or where no chance is
   /// left within reach. Ask again after each look.
-  std::optional<SearchView> nextView(const FloorPose& camera) const;
+  std::optional<SearchView> nextView(const FloorPose& camera);
 
  private:
   static constexpr std::size_t kHeadings = kWays.size();
@@ -107,8 +107,8 @@ class SearchMap {
   int reach_cells_ = 0;               ///< Half the edge of a window around a view.
   std::vector<int> view_cells_;       ///< Places to look from.
   std::vector<bool> is_visible_;      ///< Of the cells in the window around each view, row by row.
-  mutable std::vector<float> way_m_;  ///< Of the robot; memory of nextView().
-  mutable CoarseFloor::Open way_open_;
+  std::vector<float> way_m_;  ///< Of the robot; memory of nextView().
+  CoarseFloor::Open way_open_;
 };
 
 }  // namespace heel

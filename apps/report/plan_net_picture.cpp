@@ -158,6 +158,19 @@ class NetPicture {
               palette::kInk, kTextSizeSmall, Align::kCenter);
   }
 
+  /// A line of a label, centred; arcs that pass below it are dimmed.
+  void writeLine(const std::string& text, const Vector2d& at, const cv::Scalar& color,
+                 double size) {
+    const double half = 0.5 * textWidth(text, size) + 3.0, height = 0.5 * kLine;
+    fillOutline(picture_,
+                {{at.x() - half, at.y() - height},
+                 {at.x() + half, at.y() - height},
+                 {at.x() + half, at.y() + height},
+                 {at.x() - half, at.y() + height}},
+                palette::kPaper, 0.8);
+    drawText(picture_, text, pixel(at), color, size, Align::kCenter);
+  }
+
   void drawPlace(std::size_t p) {
     const PetriPlace& place = plan_.net.places[p];
     const PlaceRole& role = plan_.places[p];
@@ -175,7 +188,7 @@ class NetPicture {
                Align::kCenter);
     }
     const Vector2d label = middle + Vector2d(0.0, kRadius + 15.0) + place.graphics.label_offset;
-    drawText(picture_, place.name, pixel(label), palette::kInk, kTextSize, Align::kCenter);
+    writeLine(place.name, label, palette::kInk, kTextSize);
   }
 
   void drawTransition(std::size_t t) {
@@ -189,8 +202,8 @@ class NetPicture {
     Vector2d at = middle + Vector2d(0.0, below) + transition.graphics.label_offset;
     for (const std::string& line : lines) {
       const bool is_guard = line.front() == '[';
-      drawText(picture_, line, pixel(at), is_guard ? palette::kWarning : palette::kInkSoft,
-               is_guard ? kTextSize : kTextSizeSmall, Align::kCenter);
+      writeLine(line, at, is_guard ? palette::kWarning : palette::kInkSoft,
+                is_guard ? kTextSize : kTextSizeSmall);
       at.y() += kLine;
     }
   }
