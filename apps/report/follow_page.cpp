@@ -20,6 +20,10 @@
 namespace heel {
 namespace {
 
+std::string timesText(int count) {
+  return count == 1 ? "once" : count == 2 ? "twice" : std::to_string(count) + " times";
+}
+
 std::string lead(const FollowLog& log, const FollowSummary& sum) {
   const std::string who = log.person.empty() ? "the person" : escapedHtml(log.person);
   std::string text = "The robot went <strong>" + shownNumber(sum.distance_m, 1, "m") +
@@ -28,12 +32,10 @@ std::string lead(const FollowLog& log, const FollowSummary& sum) {
   if (std::isfinite(sum.last_distance_m)) {
     text += " and was " + shownNumber(sum.last_distance_m, 2, "m") + " from them at the end";
   }
-  text += sum.losses == 0   ? ". It never lost sight of them for more than half a second."
-          : sum.losses == 1 ? ". It lost them once."
-                            : ". It lost them " + std::to_string(sum.losses) + " times.";
+  text += sum.losses == 0 ? ". It never lost sight of them for more than half a second."
+                          : ". It lost them " + timesText(sum.losses) + ".";
   if (sum.contacts > 0) {
-    text += " <strong class=\"bad\">It touched something " +
-            (sum.contacts == 1 ? "once" : std::to_string(sum.contacts) + " times") + ".</strong>";
+    text += " <strong class=\"bad\">It touched something " + timesText(sum.contacts) + ".</strong>";
   }
   return text;
 }
@@ -51,12 +53,12 @@ std::string tiles(const FollowSummary& sum) {
               "least clearance " + shownNumber(sum.min_clearance_m, 2, "m"),
               sum.contacts == 0 ? Tone::kGood : Tone::kBad) +
          tile("Target in view", share(sum.elapsed_s > 0 ? sum.with_target_s / sum.elapsed_s : 0.0),
-              "lost " + std::to_string(sum.losses) + (sum.losses == 1 ? " time" : " times")) +
+              "lost " + timesText(sum.losses)) +
          tile("Wrong person", shownNumber(sum.wrong_person_s, 1, "s"),
               share(sum.wrongShare()) + " of the time",
               sum.wrongShare() < 0.01 ? Tone::kGood : Tone::kBad) +
          tile("Place in the map", shownNumber(sum.position_rms_m, 3, "m"),
-              "and " + shownNumber(yaw_deg, 1, "\u00b0") + " RMS error") +
+              "and " + shownNumber(yaw_deg, 1) + "\u00b0 RMS error") +
          tile("Nearest to the person", shownNumber(sum.best_distance_m, 2, "m"),
               shownNumber(sum.last_distance_m, 2, "m") + " at the end");
 }
@@ -100,7 +102,7 @@ std::string charts(const FollowLog& log, const TimeScale& scale) {
   distance.style = "person";
   distance.least_top = 2.0;
   distance.limit = 1.0;
-  distance.limit_text = "dashed: 1 m, where it stops and turns to face";
+  distance.limit_text = "dashed: 1 m, where it stops; red: target lost";
   ChartParams speed;
   speed.title = "Speed";
   speed.unit = "m/s";
@@ -115,13 +117,15 @@ std::string charts(const FollowLog& log, const TimeScale& scale) {
   clearance.least_top = 0.5;
   clearance.most_top = 2.0;
   clearance.limit_text = "gap between the robot and the nearest thing or person";
+  const std::string lost = lostTimes(log.samples, scale);
   return timeChart(
-             log.samples, scale, [](const auto& s) { return s.person_distance_m; }, distance) +
+             log.samples, scale, [](const auto& s) { return s.person_distance_m; }, distance,
+             lost) +
          timeChart(
              log.samples, scale, [](const auto& s) { return std::abs(s.speed_true.forward_mps); },
              speed) +
          timeChart(
-             log.samples, scale, [](const auto& s) { return s.clearance_m; }, clearance);
+             log.samples, scale, [](const auto& s) { return s.clearance_m; }, clearance, lost);
 }
 
 std::string snapshots(const FollowLog& log, const TimeScale& scale) {

@@ -69,9 +69,29 @@ TimeScale::TimeScale(const std::vector<FollowSample>& samples) {
   if (last_s > first_s) duration_s = last_s - first_s;
 }
 
+std::string lostTimes(const std::vector<FollowSample>& samples, const TimeScale& scale) {
+  std::string rects;
+  double lost_s = kNotKnown;
+  const auto tint = [&](double until_s) {
+    rects += "<rect class=\"lost-time\" x=\"" + fixedText(kWidth * scale.share(lost_s), 1) +
+             "\" y=\"0\" width=\"" + fixedText(kWidth * (until_s - lost_s) / scale.duration_s, 1) +
+             "\" height=\"100\"/>";
+    lost_s = kNotKnown;
+  };
+  for (const TargetEvent& event : targetEvents(samples)) {
+    if (event.is_found) {
+      tint(event.stamp_s);
+    } else {
+      lost_s = event.stamp_s;
+    }
+  }
+  if (std::isfinite(lost_s)) tint(samples.back().stamp_s);
+  return rects;
+}
+
 std::string timeChart(const std::vector<FollowSample>& samples, const TimeScale& scale,
                       const std::function<double(const FollowSample&)>& value,
-                      const ChartParams& params) {
+                      const ChartParams& params, const std::string& behind) {
   double highest = std::isfinite(params.limit) ? params.limit : 0.0;
   for (const FollowSample& sample : samples) highest = std::fmax(highest, value(sample));
   const double top = topOf(highest, params);
@@ -103,7 +123,7 @@ std::string timeChart(const std::vector<FollowSample>& samples, const TimeScale&
          params.unit + "]</span><span>" + params.limit_text + "</span></div><div class=\"scale\">" +
          labels + "</div><div class=\"plot\"><svg viewBox=\"0 0 1000 100\" " +
          "preserveAspectRatio=\"none\" role=\"img\" aria-label=\"" + params.title +
-         " over time\">" + lines + "<path class=\"area " + params.style + "\" d=\"" +
+         " over time\">" + behind + lines + "<path class=\"area " + params.style + "\" d=\"" +
          areaUnder(curve) + "\"/><path class=\"curve " + params.style + "\" d=\"" +
          svgPath(curve, 1) + "\"/></svg></div></div>\n";
 }

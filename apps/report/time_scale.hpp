@@ -37,11 +37,14 @@ struct ChartParams {
   bool limit_is_bad = false;
 };
 
+/// What lies behind the curves of all charts: the times without a target, tinted. SVG.
+std::string lostTimes(const std::vector<FollowSample>& samples, const TimeScale& scale);
+
 /// A curve of one value over time, with its scale: HTML around SVG. Values that are not finite
 /// break the curve.
 std::string timeChart(const std::vector<FollowSample>& samples, const TimeScale& scale,
                       const std::function<double(const FollowSample&)>& value,
-                      const ChartParams& params);
+                      const ChartParams& params, const std::string& behind = {});
 
 /// Marks of time under the charts.
 std::string timeTicks(const TimeScale& scale);

@@ -90,11 +90,12 @@ OccupancyGrid flatMap() {
     for (cell.x = 4; cell.x < 204; ++cell.x) grid.at(cell) = Occupancy::kFree;
   }
   const double walls[][4] = {
-      {-.05, -.05, 10.05, .05}, {-.05, 7.95, 10.05, 8.05}, {-.05, 0, .05, 8},     {9.95, 0, 10.05, 8},
-      {5.15, 0, 5.25, 3.5},     {5.15, 4.5, 5.25, 4.6},    {0, 4.55, 1.95, 4.65}, {2.85, 4.55, 5.75, 4.65},
-      {6.65, 4.55, 8.05, 4.65}, {8.95, 4.55, 10, 4.65},    {5.2, 3.35, 6.3, 3.45}, {7.3, 3.35, 10, 3.45},
+      {-.05, -.05, 10.05, .05}, {-.05, 7.95, 10.05, 8.05}, {-.05, 0, .05, 8},
+      {9.95, 0, 10.05, 8},      {5.15, 0, 5.25, 3.5},      {5.15, 4.5, 5.25, 4.6},
+      {0, 4.55, 1.95, 4.65},    {2.85, 4.55, 5.75, 4.65},  {6.65, 4.55, 8.05, 4.65},
+      {8.95, 4.55, 10, 4.65},   {5.2, 3.35, 6.3, 3.45},    {7.3, 3.35, 10, 3.45},
       {3.95, 4.6, 4.05, 8},     {6.95, 4.6, 7.05, 8}};
-  const double furniture[][4] = {{1.7, .1, 3.7, 1.0}, {8.2, 1.8, 9.4, 2.6}, {.1, 6.1, 2.1, 7.9},
+  const double furniture[][4] = {{1.7, .1, 3.7, 1.0},  {8.2, 1.8, 9.4, 2.6}, {.1, 6.1, 2.1, 7.9},
                                  {5.0, 7.2, 6.2, 7.9}, {9.1, 6.0, 9.9, 7.9}, {4.7, 1.7, 5.1, 2.7}};
   for (const auto& box : walls) fill(grid, box[0], box[1], box[2], box[3]);
   for (const auto& box : furniture) fill(grid, box[0], box[1], box[2], box[3]);
@@ -111,25 +112,46 @@ FollowLog flatRun() {
   log.person = "lena";
   log.map = flatMap();
   log.camera_rate_hz = 30.0;
-  log.stages = {{"colour filter", 1.1, 1.6}, {"stereo", 9.4, 12.8}, {"blobs and tracks", .8, 1.3},
+  log.stages = {{"colour filter", 1.1, 1.6}, {"stereo", 9.4, 12.8},  {"blobs and tracks", .8, 1.3},
                 {"localization", 1.9, 2.6},  {"planning", 2.7, 8.1}, {"behaviour", .02, .04}};
 
-  const Way person_way({{6.2, 4.0}, {4.4, 3.7}, {3.4, 2.2}, {4.2, 2.8}, {4.7, 3.7}, {6.8, 4.0},
-                        {6.8, 3.2}, {7.0, 1.6}, {6.8, 3.3}, {6.2, 4.0}, {6.2, 4.7}, {5.6, 6.2},
-                        {6.2, 4.6}, {5.4, 4.0}, {2.5, 3.8}, {2.4, 4.7}, {2.6, 5.9}});
-  const Way other_way({{8.5, 5.6}, {8.5, 4.2}, {4.5, 3.9}, {2.7, 2.3}, {2.4, 1.5}, {3.8, 1.5},
-                       {5.2, 4.0}, {8.5, 4.1}, {8.5, 5.8}});
+  const Way person_way({{6.2, 4.0},
+                        {4.4, 3.7},
+                        {2.4, 2.2},
+                        {3.6, 2.5},
+                        {4.7, 3.7},
+                        {6.8, 4.0},
+                        {6.8, 3.2},
+                        {7.0, 1.6},
+                        {6.8, 3.3},
+                        {6.2, 4.0},
+                        {6.2, 4.7},
+                        {5.6, 6.2},
+                        {6.2, 4.6},
+                        {5.4, 4.0},
+                        {2.5, 3.8},
+                        {2.4, 4.7},
+                        {2.6, 5.9}});
+  const Way other_way({{8.5, 5.6},
+                       {8.5, 4.2},
+                       {4.5, 3.9},
+                       {2.7, 2.3},
+                       {2.4, 1.5},
+                       {3.8, 1.5},
+                       {5.2, 4.0},
+                       {8.5, 4.1},
+                       {8.5, 5.8}});
   FloorPose robot{{0.8, 2.2}, 0.0};
   double person_m = 0.0, speed = 0.0;
   std::vector<Vector2d> trail;  // the robot goes where the person went
   Vector2d person = person_way.after(0.0);
   std::size_t reached = 0;
   std::optional<Vector2d> estimate;
-  for (int i = 0; i <= 1180; ++i) {
+  for (int i = 0; i <= 1290; ++i) {
     const double t = i * kStep_s - kLearn_s;
     const double gap = (person - robot.position).norm();
-    const bool waits = t > 0.0 && gap > 2.4;
-    if (t > -10.0 && !waits) person_m += kStep_s * (t < 0.0 ? 0.36 : 0.38);
+    const bool waits = t > 0.0 && gap > 2.0;
+    if (t > -10.0 && !waits) person_m += kStep_s * (t < 0.0 ? 0.46 : 0.38);
     person = person_way.after(person_m);
     trail.push_back(person);
 
@@ -142,9 +164,10 @@ FollowLog flatRun() {
     speed += std::clamp(wanted - speed, -0.05, 0.05);
     while (reached + 1 < trail.size() && (trail[reached] - robot.position).norm() < 0.25) ++reached;
     const Vector2d ahead = trail[reached] - robot.position;
-    const double turn = std::clamp(
-        wrapped(std::atan2(ahead.y(), ahead.x()) - robot.yaw_rad), -1.0 * kStep_s, 1.0 * kStep_s);
-    if (t > 0.0) robot = alongArc(robot, speed * kStep_s * std::max(0.0, 1.0 - 8.0 * std::abs(turn)), turn);
+    const double turn = std::clamp(wrapped(std::atan2(ahead.y(), ahead.x()) - robot.yaw_rad),
+                                   -1.0 * kStep_s, 1.0 * kStep_s);
+    if (t > 0.0)
+      robot = alongArc(robot, speed * kStep_s * std::max(0.0, 1.0 - 8.0 * std::abs(turn)), turn);
 
     if (t > -9.0 && !isHidden(t)) {
       estimate = person + 0.06 * Vector2d(std::sin(7.0 * t), std::cos(5.0 * t));
@@ -171,6 +194,43 @@ FollowLog flatRun() {
                    {43.2, "She is out of view behind the wall.", snapshotPicture(0.85)},
                    {95.0, "Found again in the hall.", snapshotPicture(0.55)}};
   return log;
+}
+
+FollowExperiment followExperiment() {
+  FollowExperiment experiment;
+  experiment.plans = {"paper", "look-around"};
+  experiment.command = "heel experiment follow --out experiment";
+  const auto episode = [](const std::string& name, unsigned long seed, const std::string& plan) {
+    const double wave = std::sin(1.7 * static_cast<double>(seed)),
+                 own = plan == "paper" ? 1.0 : 0.0;
+    FollowEpisode e{name, seed, plan,
+                    {},   {},   "heel follow " + name + " --seed " + std::to_string(seed)};
+    e.summary.outcome = "reached";
+    e.summary.distance_m = 24.0 + 4.0 * wave;
+    e.summary.elapsed_s = 105.0 + 14.0 * wave + 60.0 * own;
+    e.summary.seek_s = 9.0 + 5.0 * wave + 50.0 * own;
+    e.summary.moving_speed_mps = e.summary.distance_m / (e.summary.elapsed_s - e.summary.seek_s);
+    e.summary.min_clearance_m = 0.12 + 0.05 * wave;
+    e.summary.position_rms_m = 0.04 + 0.01 * std::cos(2.3 * static_cast<double>(seed));
+    return e;
+  };
+  for (const PaperRow& row : kPaperTable1) {
+    for (const std::string& plan : experiment.plans) {
+      experiment.table1.push_back(episode(row.name, 1 + experiment.table1.size(), plan));
+    }
+  }
+  for (unsigned long seed = 1; seed <= 100; ++seed) {
+    for (const std::string& plan : experiment.plans) {
+      experiment.episodes.push_back(episode("home-" + std::to_string(seed), seed, plan));
+    }
+  }
+  FollowEpisode& lost = experiment.episodes[36];
+  lost.summary.outcome = "failed";
+  lost.cause = "the person left through a door while the light was off";
+  FollowEpisode& late = experiment.episodes[85];
+  late.summary.outcome = "timeout";
+  late.cause = "a doorway was blocked by another person";
+  return experiment;
 }
 
 }  // namespace heel::test

@@ -5,6 +5,7 @@
 /// A made-up run of following through a flat of five rooms, for the tests of reports.
 #pragma once
 
+#include "apps/report/follow_experiment_page.hpp"
 #include "apps/report/follow_log.hpp"
 
 namespace heel::test {
@@ -15,5 +16,8 @@ OccupancyGrid flatMap();
 /// A robot that goes behind a person through the flat, loses them twice and finds them again, while
 /// somebody else walks about. The same on every call.
 FollowLog flatRun();
+
+/// The paper's three experiments and a hundred episodes with two plans, a few of which failed.
+FollowExperiment followExperiment();
 
 }  // namespace heel::test
