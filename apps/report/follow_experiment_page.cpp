@@ -40,36 +40,15 @@ std::string planName(const std::string& plan) { return escapedHtml(plan) + " pla
 std::string table1Rows(const FollowExperiment& experiment) {
   std::string rows;
   for (const PaperRow& paper : kPaperTable1) {
-    rows += runRow(std::string(paper.name) + ", reported", paper.distance_m, paper.elapsed_s,
-                   paper.seek_s, paper.moving_speed_mps);
+    rows += runRow(std::string(paper.name) + ", as reported", paper, "paper", true);
     for (const std::string& plan : experiment.plans) {
       for (const FollowEpisode& e : experiment.table1) {
         if (e.name != paper.name || e.plan != plan) continue;
-        const FollowSummary& s = e.summary;
         rows += runRow("\u2003" + planName(plan) + " <span class=\"badge " +
-                           classOf(toneOf(s.outcome)) + "\">" + escapedHtml(s.outcome) + "</span>",
-                       s.distance_m, s.elapsed_s, s.seek_s, s.moving_speed_mps,
-                       plan == experiment.plans.back() ? "ours" : "");
+                           classOf(toneOf(e.summary.outcome)) + "\">" +
+                           escapedHtml(e.summary.outcome) + "</span>",
+                       paperRow(e.summary), plan == experiment.plans.back() ? "ours" : "", true);
       }
-    }
-  }
-  return rows;
-}
-
-/// Seeking's share of the time, as bars beside each other.
-std::string seekBars(const FollowExperiment& experiment) {
-  std::string rows;
-  const auto add = [&](const std::string& name, double value, const std::string& tone) {
-    rows += "<tr>" + rowHead(name) + cell(share(value, 0)) +
-            cell("<span class=\"bar " + tone + "\"><i style=\"width:" +
-                     fixedText(100.0 * std::clamp(value, 0.0, 1.0), 1) + "%\"></i></span>",
-                 "grow") +
-            "</tr>\n";
-  };
-  for (const PaperRow& paper : kPaperTable1) {
-    add(std::string(paper.name) + ", reported", paper.seek_s / paper.elapsed_s, "quiet");
-    for (const FollowEpisode& e : experiment.table1) {
-      if (e.name == paper.name) add("\u2003" + planName(e.plan), e.summary.seekShare(), "");
     }
   }
   return rows;
@@ -116,22 +95,33 @@ std::string headCells(const std::vector<std::string>& plans) {
   return cells;
 }
 
-std::string histograms(const Episodes& episodes) {
-  const auto values = [&](auto&& of) {
-    std::vector<double> all;
-    for (const FollowEpisode& e : episodes) all.push_back(of(e.summary));
-    return all;
+std::string histogramsOf(const FollowExperiment& experiment, const std::string& plan) {
+  const auto of = [&](const std::string& title, const std::string& unit, auto&& value) {
+    std::vector<double> values;
+    for (const FollowEpisode& e : experiment.episodes) {
+      if (e.plan == plan) values.push_back(value(e.summary));
+    }
+    return histogram(title, unit, values);
   };
-  return histogram("Time", "s", values([](const auto& s) { return s.elapsed_s; })) +
-         histogram("Distance", "m", values([](const auto& s) { return s.distance_m; })) +
-         histogram("Speed when not seeking", "m/s",
-                   values([](const auto& s) { return s.moving_speed_mps; })) +
-         histogram("Time seeking", "%",
-                   values([](const auto& s) { return 100.0 * s.seekShare(); })) +
-         histogram("Least clearance", "m",
-                   values([](const auto& s) { return s.min_clearance_m; })) +
-         histogram("Error of the place in the map", "m",
-                   values([](const auto& s) { return s.position_rms_m; }));
+  using Summary = const FollowSummary&;
+  return "<h3>How they were spread, " + planName(plan) + "</h3><div class=\"histograms\">\n" +
+         of("Time", "s", [](Summary s) { return s.elapsed_s; }) +
+         of("Distance", "m", [](Summary s) { return s.distance_m; }) +
+         of("Speed when not seeking", "m/s", [](Summary s) { return s.moving_speed_mps; }) +
+         of("Time seeking", "%", [](Summary s) { return 100.0 * s.seekShare(); }) +
+         of("Least clearance", "m", [](Summary s) { return s.min_clearance_m; }) +
+         of("Error of the place in the map", "m", [](Summary s) { return s.position_rms_m; }) +
+         "</div>\n";
+}
+
+std::string histograms(const FollowExperiment& experiment) {
+  std::string all;
+  for (const std::string& plan : experiment.plans) {
+    if (countEpisodes(experiment.episodes, plan).episodes > 0) {
+      all += histogramsOf(experiment, plan);
+    }
+  }
+  return all;
 }
 
 std::string failures(const FollowExperiment& experiment) {
@@ -243,12 +233,12 @@ std::string followExperimentPage(const FollowExperiment& experiment) {
                          {"tiles", tiles(experiment)},
                          {"speed_limit", shownNumber(experiment.max_speed_mps, 1, "m/s")},
                          {"table1", table1Rows(experiment)},
-                         {"seek_bars", seekBars(experiment)},
+
                          {"episodes", std::to_string(experiment.episodes.size())},
                          {"counts", countRows(experiment)},
                          {"plans", headCells(experiment.plans)},
                          {"outcomes", outcomeRows(experiment)},
-                         {"histograms", histograms(experiment.episodes)},
+                         {"histograms", histograms(experiment)},
                          {"failed", std::to_string(failed)},
                          {"failures", failures(experiment)},
                          {"rows", episodeRows(experiment.episodes)},

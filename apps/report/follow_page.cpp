@@ -163,12 +163,8 @@ std::string film(const FollowLog& log, const FollowPageParams& params) {
 
 std::string table1(const FollowSummary& sum) {
   std::string rows;
-  for (const PaperRow& row : kPaperTable1) {
-    rows += runRow(std::string("Paper, ") + row.name, row.distance_m, row.elapsed_s, row.seek_s,
-                   row.moving_speed_mps);
-  }
-  return rows + runRow("This run", sum.distance_m, sum.elapsed_s, sum.seek_s, sum.moving_speed_mps,
-                       "ours");
+  for (const PaperRow& row : kPaperTable1) rows += runRow(std::string("Paper, ") + row.name, row);
+  return rows + runRow("This run", paperRow(sum), "ours");
 }
 
 std::string eyebrow(const FollowLog& log) {

@@ -96,6 +96,10 @@ const std::array<PaperRow, 3> kPaperTable1 = {{{"Experiment 1", 24.38, 290.41, 1
                                                {"Experiment 2", 18.17, 212.98, 131.21, 0.22},
                                                {"Experiment 3", 20.02, 206.20, 122.81, 0.24}}};
 
+PaperRow paperRow(const FollowSummary& summary, const char* name) {
+  return {name, summary.distance_m, summary.elapsed_s, summary.seek_s, summary.moving_speed_mps};
+}
+
 bool isSeeking(const std::string& state) { return state == "seek" || state == "search"; }
 
 FollowSummary summarize(const FollowLog& log) {

@@ -55,6 +55,10 @@ struct PaperRow {
   const char* name;
   double distance_m, elapsed_s, seek_s, moving_speed_mps;
 };
+
+/// A run's figures as such a row.
+PaperRow paperRow(const FollowSummary& summary, const char* name = "");
+
 extern const std::array<PaperRow, 3> kPaperTable1;
 
 /// The summary as it stands in summary.json; what is not finite is null.

@@ -43,7 +43,9 @@ class OutlineWalk {
  private:
   static constexpr GridCell kStep[4] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
 
-  bool isIn(int x, int y) const { return grid_.contains(GridCell{x, y}) && grid_.at(GridCell{x, y}) == what_; }
+  bool isIn(int x, int y) const {
+    return grid_.contains(GridCell{x, y}) && grid_.at(GridCell{x, y}) == what_;
+  }
   std::size_t node(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(grid_.width() + 1) +
            static_cast<std::size_t>(x);

@@ -10,16 +10,6 @@
 #include <cmath>
 
 namespace heel {
-namespace {
-
-/// A bar of a table: `share` of its width.
-std::string bar(double share) {
-  const double percent = 100.0 * std::clamp(std::isfinite(share) ? share : 0.0, 0.0, 1.0);
-  return "<span class=\"bar\"><i style=\"width:" + fixedText(percent, 1) + "%\"></i></span>";
-}
-
-}  // namespace
-
 const char* classOf(Tone tone) {
   switch (tone) {
     case Tone::kGood:
@@ -40,14 +30,20 @@ std::string tile(const std::string& name, const std::string& figure, const std::
          "</dd><dd>" + note + "</dd></div>\n";
 }
 
-std::string runRow(const std::string& name, double distance_m, double elapsed_s, double seek_s,
-                   double moving_speed_mps, const std::string& of_class) {
-  const double share = elapsed_s > 0.0 ? seek_s / elapsed_s : kNotKnown;
+std::string bar(double share, const std::string& of_class) {
+  const double percent = 100.0 * std::clamp(std::isfinite(share) ? share : 0.0, 0.0, 1.0);
+  return "<span class=\"bar " + of_class + "\"><i style=\"width:" + fixedText(percent, 1) +
+         "%\"></i></span>";
+}
+
+std::string runRow(const std::string& name, const PaperRow& row, const std::string& of_class,
+                   bool with_bar) {
+  const double share = row.elapsed_s > 0.0 ? row.seek_s / row.elapsed_s : kNotKnown;
   return "<tr class=\"" + of_class + "\"><th scope=\"row\">" + name + "</th><td>" +
-         shownNumber(distance_m, 2, "m") + "</td><td>" + shownNumber(elapsed_s, 1, "s") +
-         "</td><td>" + shownNumber(seek_s, 1, "s") + "</td><td>" +
-         shownNumber(100.0 * share, 0, "%") + "</td><td>" +
-         shownNumber(moving_speed_mps, 2, "m/s") + "</td></tr>\n";
+         shownNumber(row.distance_m, 2, "m") + "</td><td>" + shownNumber(row.elapsed_s, 1, "s") +
+         "</td><td>" + shownNumber(row.moving_speed_mps, 2, "m/s") + "</td><td>" +
+         shownNumber(row.seek_s, 1, "s") + "</td><td>" + shownNumber(100.0 * share, 0, "%") +
+         "</td>" + (with_bar ? "<td class=\"grow\">" + bar(share) + "</td>" : "") + "</tr>\n";
 }
 
 std::string timingTable(const std::vector<StageTime>& stages, double camera_rate_hz) {

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "apps/report/annotate.hpp"
-#include "apps/report/follow_log.hpp"
+#include "apps/report/follow_summary.hpp"
 
 #include <string>
 #include <vector>
@@ -20,9 +20,13 @@ const char* classOf(Tone tone);
 std::string tile(const std::string& name, const std::string& figure, const std::string& note,
                  Tone tone = Tone::kNeutral);
 
+/// A bar of a table: `share` of its width, in [0, 1].
+std::string bar(double share, const std::string& of_class = {});
+
 /// A row of the paper's Table 1. `name` is put in as it is.
-std::string runRow(const std::string& name, double distance_m, double elapsed_s, double seek_s,
-                   double moving_speed_mps, const std::string& of_class = {});
+/// @param with_bar  Ends with the share of seeking as a bar.
+std::string runRow(const std::string& name, const PaperRow& row, const std::string& of_class = {},
+                   bool with_bar = false);
 
 /// Milliseconds of each stage, their sum, and whether that keeps up with the camera.
 std::string timingTable(const std::vector<StageTime>& stages, double camera_rate_hz);

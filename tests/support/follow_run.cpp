@@ -3,6 +3,8 @@
 
 #include "tests/support/follow_run.hpp"
 
+#include "apps/report/state_tones.hpp"
+
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -147,7 +149,7 @@ FollowLog flatRun() {
   Vector2d person = person_way.after(0.0);
   std::size_t reached = 0;
   std::optional<Vector2d> estimate;
-  for (int i = 0; i <= 1290; ++i) {
+  for (int i = 0; i <= 1560; ++i) {
     const double t = i * kStep_s - kLearn_s;
     const double gap = (person - robot.position).norm();
     const bool waits = t > 0.0 && gap > 2.0;
@@ -162,12 +164,12 @@ FollowLog flatRun() {
     const bool drives = s.state == "follow" || s.state == "goToLastSeen" || s.state == "search";
     const double wanted = drives && gap > kStandOff_m ? 0.3 : 0.0;
     speed += std::clamp(wanted - speed, -0.05, 0.05);
-    while (reached + 1 < trail.size() && (trail[reached] - robot.position).norm() < 0.25) ++reached;
+    while (reached + 1 < trail.size() && (trail[reached] - robot.position).norm() < 0.35) ++reached;
     const Vector2d ahead = trail[reached] - robot.position;
     const double turn = std::clamp(wrapped(std::atan2(ahead.y(), ahead.x()) - robot.yaw_rad),
                                    -1.0 * kStep_s, 1.0 * kStep_s);
     if (t > 0.0)
-      robot = alongArc(robot, speed * kStep_s * std::max(0.0, 1.0 - 8.0 * std::abs(turn)), turn);
+      robot = alongArc(robot, speed * kStep_s * std::max(0.0, 1.0 - 6.0 * std::abs(turn)), turn);
 
     if (t > -9.0 && !isHidden(t)) {
       estimate = person + 0.06 * Vector2d(std::sin(7.0 * t), std::cos(5.0 * t));
@@ -231,6 +233,45 @@ FollowExperiment followExperiment() {
   late.summary.outcome = "timeout";
   late.cause = "a doorway was blocked by another person";
   return experiment;
+}
+
+FollowVideoFrame videoFrame(const FollowLog& log, std::size_t sample) {
+  const FollowSample& s = log.samples[sample];
+  FollowVideoFrame frame;
+  frame.view.image_bgr = snapshotPicture(0.5);
+  cv::inRange(frame.view.image_bgr, cv::Scalar(20, 100, 200), cv::Scalar(80, 140, 255),
+              frame.view.mask);
+  frame.view.camera = {640, 480, 530.0, 530.0, 319.5, 239.5};
+  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
+  T_base_camera.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  T_base_camera.translation().z() = 1.15;
+  frame.view.T_floor_camera = basePose(s.robot_true) * T_base_camera;
+  frame.view.stamp_s = s.stamp_s;
+  frame.view.state = wordsOf(s.state);
+  frame.view.reason = s.reason;
+  frame.view.tone = s.target_estimate ? Tone::kGood : Tone::kWarning;
+  if (s.target_estimate) {
+    DrawnTrack track;
+    track.id = 1;
+    track.position_m = *s.target_estimate;
+    track.is_target = true;
+    track.confidence = 0.93;
+    frame.view.tracks = {track};
+    frame.view.blobs = {{*s.target_estimate, 2200, true}};
+    frame.path = {s.robot_true.position, *s.target_estimate};
+  }
+  frame.robot_true = s.robot_true;
+  frame.robot_estimated = s.robot_estimated;
+  frame.position_sigma_m = s.position_sigma_m;
+  frame.person_true = s.person_true;
+  frame.target_estimate = s.target_estimate;
+  frame.others_true = s.others_true;
+  for (int i = 0; i < 8; ++i) frame.obstacles.emplace_back(3.4 + 0.05 * i, 3.45);
+  for (std::size_t i = sample > 80 ? sample - 80 : 0; i <= sample; ++i) {
+    frame.robot_trail.push_back(log.samples[i].robot_true.position);
+    if (log.samples[i].person_true) frame.person_trail.push_back(*log.samples[i].person_true);
+  }
+  return frame;
 }
 
 }  // namespace heel::test

@@ -7,6 +7,7 @@
 
 #include "apps/report/follow_experiment_page.hpp"
 #include "apps/report/follow_log.hpp"
+#include "apps/report/follow_video.hpp"
 
 namespace heel::test {
 
@@ -19,5 +20,8 @@ FollowLog flatRun();
 
 /// The paper's three experiments and a hundred episodes with two plans, a few of which failed.
 FollowExperiment followExperiment();
+
+/// The film's frame of one sample of a run.
+FollowVideoFrame videoFrame(const FollowLog& log, std::size_t sample);
 
 }  // namespace heel::test
