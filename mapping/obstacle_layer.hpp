@@ -6,6 +6,7 @@
 #pragma once
 
 #include "mapping/distance_transform.hpp"
+#include "mapping/floor_disc.hpp"
 #include "mapping/floor_pose.hpp"
 #include "mapping/laser_scan.hpp"
 #include "mapping/occupancy_grid.hpp"
@@ -52,12 +53,6 @@ struct ObstacleLayerParams {
   double min_memory_s = 2.0;
   double max_memory_s = 15.0;
   double memory_gain = 5.0;
-};
-
-/// A round part of the floor.
-struct FloorDisc {
-  Eigen::Vector2d center = Eigen::Vector2d::Zero();  ///< [m]
-  double radius_m = 0.0;
 };
 
 /// A rolling window of the floor in world axes around the robot, with what the laser and the

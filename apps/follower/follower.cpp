@@ -139,7 +139,7 @@ void Follower::lookAround(const RobotReadings& readings) {
   if (readings.scan != nullptr) {
     layer_.addScan(*readings.scan, robot_.T_base_scanner);
     people_around_.step(readings.stamp_s, *readings.scan, pose * robot_.T_base_scanner,
-                        [this](const Vector2d& p) { return localization_.field().distance(p); });
+                        [this](const Vector2d& p) { return localization_.field().distance_m(p); });
   }
   obstacles_age_s_ += dt_s_;
   if (watch_.imageIsGood() && obstacles_age_s_ > params_.obstacles_every_s - 1e-6) {

@@ -22,6 +22,7 @@ void warn(const std::string& warning);
 void addLearn(CLI::App& app);
 void addTrack(CLI::App& app);
 void addFilter(CLI::App& app);
+void addFollow(CLI::App& app);
 void addInspect(CLI::App& app);
 void addLocalize(CLI::App& app);
 void addMap(CLI::App& app);

@@ -87,6 +87,7 @@ int main(int argc, char** argv) {
   heel::addLearn(app);
   heel::addTrack(app);
   heel::addFilter(app);
+  heel::addFollow(app);
   heel::addInspect(app);
   heel::addLocalize(app);
   heel::addMap(app);
