@@ -4,7 +4,10 @@
 #include "apps/experiment/random_home.hpp"
 
 #include "apps/simulation/floor_plan.hpp"
+#include "apps/simulation/material.hpp"
 #include "apps/simulation/random.hpp"
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
