@@ -3,8 +3,9 @@
 
 #include "apps/experiment/simulated_frames.hpp"
 
-#include "apps/experiment/scene_gate.hpp"
 #include "apps/follower/depth_images.hpp"
+#include "apps/follower/wall_gate.hpp"
+#include "apps/simulation/scene_map.hpp"
 #include "apps/simulation/simulator.hpp"
 
 #include <tbb/blocked_range.h>
@@ -12,6 +13,7 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 namespace heel {
@@ -35,6 +37,15 @@ std::vector<std::optional<Eigen::Vector2d>> placesInView(const Readings& reading
   return places;
 }
 
+/// Refuses what the map of the scene does, for a robot that stands at its start.
+GeometricGate gateOf(const Scene& scene, const CameraSetup& setup) {
+  WallGateParams params;
+  params.observations_in_map = {scene.robot.start, scene.robot.start_yaw_rad};
+  params.eye_height_m = setup.T_base_camera.translation().z();
+  params.depth_error_pm = depthErrorOf(setup.camera);
+  return wallGate(std::make_shared<const WallMap>(wallMapOf(scene)), params);
+}
+
 }  // namespace
 
 SimulatedFrames renderFrames(const Scene& scene, const SimulatedFramesParams& params) {
@@ -46,7 +57,7 @@ SimulatedFrames renderFrames(const Scene& scene, const SimulatedFramesParams& pa
   result.setup.camera = simulator.camera();
   result.setup.T_base_camera = simulator.T_base_camera();
   result.setup.is_configured = true;
-  result.gate = mapGate(scene, simulator.camera());
+  result.gate = gateOf(scene, result.setup);
   const double step_s = 1.0 / scene.robot.camera.rate_hz;
   const auto count = std::lround(std::ceil((params.to_s - params.from_s) / step_s - 1e-6));
   for (long i = 0; i < count; ++i) {

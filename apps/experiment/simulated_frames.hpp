@@ -40,7 +40,7 @@ struct SimulatedFramesParams {
 /// A robot that stands still and looks.
 struct SimulatedFrames {
   CameraSetup setup;
-  GeometricGate gate;  ///< What the map says, see mapGate().
+  GeometricGate gate;  ///< What the map says, see wallGate().
   std::vector<SimulatedFrame> frames;
 };
 

@@ -4,8 +4,12 @@
 #include "apps/follower/camera_setup.hpp"
 #include "apps/follower/depth_images.hpp"
 #include "apps/heel/commands.hpp"
+#include "apps/heel/inspect_plan.hpp"
+#include "apps/mapper/map_picture.hpp"
 #include "apps/report/drawing.hpp"
 #include "apps/report/video_writer.hpp"
+#include "mapping/map_server_file.hpp"
+#include "mapping/wall_map_file.hpp"
 #include "segmentation/appearance_model_io.hpp"
 #include "segmentation/appearance_picture.hpp"
 
@@ -106,13 +110,34 @@ cv::Mat inspectRecording(const fs::path& path) {
   return picture;
 }
 
+cv::Mat inspectWallMap(const fs::path& file) {
+  const OccupancyGrid floor = loadWallMap(file).floorGrid();
+  std::printf("wall map; from %.2f to %.2f m over the floor: %s\n", kBodyBand.low_m,
+              kBodyBand.high_m, toText(floor).c_str());
+  if (floor.empty()) return {};
+  return drawMap(floor, file.filename().string());
+}
+
+cv::Mat inspectFloorPlan(const fs::path& file) {
+  const OccupancyGrid floor = loadMapServer(file);
+  std::printf("map_server map, corner at (%.2f, %.2f): %s\n", floor.origin_m().x(),
+              floor.origin_m().y(), toText(floor).c_str());
+  return drawMap(floor, file.filename().string());
+}
+
+cv::Mat inspect(const fs::path& what) {
+  const fs::path extension = what.extension();
+  if (extension == ".bt") return inspectWallMap(what);
+  if (extension == ".pnml") return inspectPlan(what);
+  if (extension != ".yaml" && extension != ".yml") return inspectRecording(what);
+  return isMapServerFile(what) ? inspectFloorPlan(what) : inspectModel(what);
+}
+
 void run(const Options& options) {
   if (!fs::exists(options.what)) {
     throw std::runtime_error(options.what.string() + ": there is no such file or folder");
   }
-  const fs::path extension = options.what.extension();
-  const bool is_model = extension == ".yaml" || extension == ".yml";
-  const cv::Mat picture = is_model ? inspectModel(options.what) : inspectRecording(options.what);
+  const cv::Mat picture = inspect(options.what);
   if (picture.empty()) return;
   writePicture(options.out, picture);
   std::printf("wrote %s\n", options.out.string().c_str());
@@ -122,13 +147,18 @@ void run(const Options& options) {
 
 void addInspect(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb = app.add_subcommand("inspect", "Tell what is in a model or a recording");
+  CLI::App* verb =
+      app.add_subcommand("inspect", "Tell what is in a model, a map, a plan or a recording");
   verb->footer(
       "Examples:\n"
       "  heel inspect person.yaml\n"
+      "  heel inspect maps/home/walls.bt\n"
+      "  heel inspect plan.pnml --out plan.png\n"
       "  heel inspect recordings/kitchen\n"
       "  heel inspect scene.pcd --out scene.png");
-  verb->add_option("WHAT", options->what, "model (.yaml), recording (folder), or PCD file")
+  verb->add_option("WHAT", options->what,
+                   "model or map_server map (.yaml), wall map (.bt), plan (.pnml), recording "
+                   "(folder), or PCD file")
       ->required();
   verb->add_option("--out", options->out, "where to write the picture")->capture_default_str();
   verb->callback([options] { run(*options); });

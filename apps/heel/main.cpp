@@ -61,6 +61,10 @@ void silenceLibraries() {
 
 }  // namespace
 
+void heel::warn(const std::string& warning) {
+  std::fprintf(stderr, "heel: warning: %s\n", warning.c_str());
+}
+
 int main(int argc, char** argv) {
   silenceLibraries();
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on a file's size is then an error like a full disk
@@ -83,7 +87,10 @@ int main(int argc, char** argv) {
   heel::addLearn(app);
   heel::addTrack(app);
   heel::addFilter(app);
+  heel::addFollow(app);
   heel::addInspect(app);
+  heel::addLocalize(app);
+  heel::addMap(app);
   heel::addSimulate(app);
   heel::addEvaluate(app);
   heel::addExperiment(app);

@@ -2,35 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "apps/heel/commands.hpp"
+#include "apps/heel/scene_argument.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "apps/simulation/simulate.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
-#include <filesystem>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 namespace heel {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct Options {
   std::string scene;
   SimulateOptions simulate;
 };
-
-/// A scene's file: the path itself, or the name of a scene that comes with Heel.
-fs::path sceneFile(const std::string& scene) {
-  if (fs::exists(scene)) return scene;
-  const fs::path shipped = fs::path(HEEL_SCENES) / (scene + ".yaml");
-  if (fs::exists(shipped)) return shipped;
-  throw std::runtime_error(scene + ": there is no such scene, neither as a file nor in " +
-                           std::string(HEEL_SCENES));
-}
 
 void run(Options& options) {
   const Scene scene = loadScene(sceneFile(options.scene).string());

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "apps/simulation/scene.hpp"
+#include "mapping/floor_disc.hpp"
 
 #include <vector>
 
@@ -16,12 +17,6 @@ struct FloorBox {
   Eigen::Vector2d center;
   Eigen::Vector2d axis;  ///< Unit vector along its first side.
   Eigen::Vector2d half;  ///< Half of its sides.
-};
-
-/// A disc on the floor.
-struct FloorDisc {
-  Eigen::Vector2d center;
-  double radius_m;
 };
 
 /// Walls (without their doorways) and furniture up to a body's height, as flat shapes.

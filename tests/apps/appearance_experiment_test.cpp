@@ -4,7 +4,6 @@
 #include "apps/experiment/appearance_experiment.hpp"
 
 #include "apps/experiment/appearance_report.hpp"
-#include "apps/experiment/scene_gate.hpp"
 #include "apps/experiment/simulated_frames.hpp"
 #include "tests/support/temp_folder.hpp"
 
@@ -55,29 +54,6 @@ TEST(RandomWardrobe, HasOnePairInNearlyTheSameTops) {
       }
     }
   }
-}
-
-TEST(MapGate, RefusesWallsAndWhatLiesBehindThem) {
-  Scene room;
-  room.walls.resize(1);
-  room.walls[0].from = {3.0, -2.0};
-  room.walls[0].to = {3.0, 2.0};
-  Wall back;
-  back.from = {-1.0, -2.0};
-  back.to = {-1.0, 2.0};
-  room.walls.push_back(back);
-  StereoCamera camera;
-  camera.left.fx = 277.0;
-  camera.baseline_m = 0.12;
-  const GeometricGate gate = mapGate(room, camera);
-  const auto verdictAt = [&](double x, double y) {
-    Observation seen;
-    seen.position_m = {x, y};
-    return gate(seen, Viewpoint());
-  };
-  EXPECT_EQ(verdictAt(1.5, 0.0), GateVerdict::kAccepted);
-  EXPECT_EQ(verdictAt(2.9, 0.0), GateVerdict::kInsideWall);
-  EXPECT_EQ(verdictAt(4.0, 0.0), GateVerdict::kOutOfBounds);
 }
 
 AppearanceExperimentParams shortRun() {

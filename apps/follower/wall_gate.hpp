@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// The paper's geometric filtering (section 3.2): no person is inside a wall or behind one.
+#pragma once
+
+#include "cloud/pinhole_camera.hpp"
+#include "mapping/floor_pose.hpp"
+#include "mapping/wall_map.hpp"
+#include "tracking/geometric_gate.hpp"
+
+#include <memory>
+
+namespace heel {
+
+/// How far what is seen may be off, and how a person is looked for.
+struct WallGateParams {
+  /// The frame of the observations and of the viewpoint, in the map's: where the robot's base is,
+  /// if they are in its frame; nothing if they are in the map's already.
+  FloorPose observations_in_map;
+  double eye_height_m = 1.15;   ///< Of the camera over the floor.
+  double body_height_m = 1.3;   ///< Where a ray ends; it passes over what is lower.
+  double half_body_m = 0.15;    ///< Nobody's middle comes nearer to a wall.
+  HeightBand body{0.95, 1.9};   ///< Where what stands nearer than that counts as a wall.
+  double sigmas = 2.0;          ///< So many standard deviations are allowed for.
+  double depth_error_pm = 0.0;  ///< A depth's standard deviation over its square [1/m].
+};
+
+/// depth_error_pm of a stereo camera whose disparities have this standard deviation.
+double depthErrorOf(const StereoCamera& camera, double disparity_error_px = 0.25);
+
+/// Casts a ray from the camera through each observation.
+///
+/// - A wall crosses it before the observation: kBehindWall.
+/// - A wall is on it within half a body and `sigmas` of the depth's error (which grows with the
+///   square of the range) to either side of the observation, or is within half a body of it to any
+///   side: kInsideWall. What is seen there may be the wall itself; a doubtful depth counts against
+///   an observation, for it is doubtful for a moment only and the track goes on without it.
+///
+/// Where the robot is, may be doubtful for long, and counts for the observation: it is refused only
+/// if it would be from wherever the camera may be, i.e. also with camera and observation shifted
+/// together by `sigmas` standard deviations to both sides along both axes of the viewpoint's
+/// covariance. A camera is not in a wall: such places are left out, and if none is left the map
+/// says nothing. So a lost robot's gate opens.
+///
+/// Allocates nothing when called; may be called from many threads.
+/// @throws std::invalid_argument  if there is no map or a parameter is negative or not finite.
+GeometricGate wallGate(std::shared_ptr<const WallMap> map, const WallGateParams& params = {});
+
+}  // namespace heel

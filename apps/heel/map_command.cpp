@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/heel/commands.hpp"
+#include "apps/heel/scene_argument.hpp"
+#include "apps/mapper/map_picture.hpp"
+#include "apps/mapper/map_source.hpp"
+#include "apps/report/progress_bar.hpp"
+#include "apps/report/result_files.hpp"
+#include "apps/report/video_writer.hpp"
+#include "mapping/map_server_file.hpp"
+#include "mapping/wall_map_file.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace heel {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string source;
+  fs::path out;
+  HeightBand band = kBodyBand;
+  MapSourceParams params;
+};
+
+/// A path that is there, else the name of a scene that comes with Heel.
+fs::path sourceOf(const std::string& name) {
+  const bool is_path = fs::path(name).has_extension() || fs::path(name).has_parent_path();
+  return is_path ? fs::path(name) : sceneFile(name);
+}
+
+void run(Options& options) {
+  if (!(options.band.low_m < options.band.high_m)) {
+    throw std::invalid_argument("--low must be under --high");
+  }
+  const fs::path source = sourceOf(options.source);
+  ProgressBar progress("mapping", 100);
+  options.params.progress = [&](double share) {
+    progress.show(static_cast<std::size_t>(100.0 * share));
+  };
+  const SourcedMap made = openMap(source, options.params);
+  const OccupancyGrid floor = made.map.floorGrid(options.band);
+  if (floor.empty()) throw std::runtime_error(source.string() + ": there is nothing to map in it");
+  makeResultFolder(options.out);
+  saveWallMap(made.map, options.out / "walls.bt");
+  saveMapServer(floor, options.out / "map.yaml");
+  writePicture(options.out / "map.png", drawMap(floor, source.stem().string()));
+  std::printf("%s: %s, %s\n", source.filename().c_str(), made.source.c_str(),
+              toText(floor).c_str());
+  std::printf("wrote %s\n", options.out.string().c_str());
+}
+
+}  // namespace
+
+void addMap(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb =
+      app.add_subcommand("map", "Make a wall map of a scene, a floor plan or a recording");
+  verb->footer(
+      "Examples:\n"
+      "  heel map home --out maps/home\n"
+      "  heel map office.yaml --out maps/office\n"
+      "  heel map plan.png --resolution 0.05 --out maps/plan\n"
+      "  heel map recordings/kitchen --out maps/kitchen\n"
+      "Writes walls.bt (OctoMap), map.yaml with map.pgm (ROS map_server), and map.png.");
+  verb->add_option(
+          "SOURCE", options->source,
+          "a scene's name or YAML file, a map_server YAML, a picture, a wall map (.bt), or "
+          "a recording with robot.csv")
+      ->required();
+  verb->add_option("--out", options->out, "folder for the map")->required();
+  verb->add_option("--resolution", options->params.cell_size_m,
+                   "edge of a cell, and of a picture's pixel [m]")
+      ->check(CLI::Range(0.001, 10.0));
+  verb->add_option("--height", options->params.wall_height_m, "to which a plan's walls go up [m]")
+      ->check(CLI::Range(0.1, 100.0))
+      ->capture_default_str();
+  verb->add_option("--low", options->band.low_m, "map.yaml shows what stands from here [m]")
+      ->capture_default_str();
+  verb->add_option("--high", options->band.high_m, "up to here [m]")->capture_default_str();
+  verb->callback([options] { run(*options); });
+}
+
+}  // namespace heel

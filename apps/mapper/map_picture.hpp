@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Floor plans as pictures and in words.
+#pragma once
+
+#include "mapping/occupancy_grid.hpp"
+
+#include <opencv2/core/mat.hpp>
+
+#include <string>
+
+namespace heel {
+
+/// The plan from above, x to the right, with a line of text over it and a scale under it; CV_8UC3
+/// of about `size_px` on its longer side.
+/// @throws std::invalid_argument  if the grid is empty.
+cv::Mat drawMap(const OccupancyGrid& grid, const std::string& title, int size_px = 1000);
+
+/// "8.0 x 6.0 m in cells of 0.05 m: 30.2 m2 free, 4.1 m2 walls, 13.7 m2 unknown".
+std::string toText(const OccupancyGrid& grid);
+
+}  // namespace heel

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/mapper/map_source.hpp"
+
+#include "apps/mapper/recorded_map.hpp"
+#include "apps/recording/image_file.hpp"
+#include "apps/simulation/scene_map.hpp"
+#include "mapping/map_server_file.hpp"
+#include "mapping/wall_map_builder.hpp"
+#include "mapping/wall_map_file.hpp"
+
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kUsualCell_m = 0.05;
+
+WallMap extruded(const OccupancyGrid& plan, const MapSourceParams& params) {
+  WallMapBuilder builder(params.cell_size_m.value_or(plan.cell_size_m()));
+  builder.add(plan, params.wall_height_m);
+  return builder.build();
+}
+
+}  // namespace
+
+SourcedMap openMap(const fs::path& path, const MapSourceParams& params) {
+  const double cell_m = params.cell_size_m.value_or(kUsualCell_m);
+  if (!fs::exists(path)) {
+    throw std::runtime_error(path.string() + ": there is no such file or folder");
+  }
+  if (fs::is_directory(path)) {
+    RecordedMapParams recorded;
+    recorded.cell_size_m = cell_m;
+    recorded.progress = params.progress;
+    return {mapOfRecording(path, recorded), "recording"};
+  }
+  if (path.extension() == ".bt") return {loadWallMap(path), "wall map"};
+  if (isImageName(path)) {
+    if (!params.cell_size_m) {
+      throw std::runtime_error(path.string() +
+                               ": a picture does not tell how large a pixel is; say --resolution");
+    }
+    return {extruded(gridFromImage(path, cell_m), params), "picture"};
+  }
+  if (isMapServerFile(path)) return {extruded(loadMapServer(path), params), "map_server map"};
+  return {wallMapOf(loadScene(path.string()), cell_m), "scene"};
+}
+
+}  // namespace heel

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Floor plans as files: ROS's map_server pairs (YAML and PGM or PNG), and plain pictures.
+#pragma once
+
+#include "mapping/occupancy_grid.hpp"
+
+#include <filesystem>
+
+namespace heel {
+
+/// How a picture's brightness becomes occupancy, as map_server's "trinary" mode: with p = 1 for
+/// black and 0 for white, p > occupied_thresh is a wall, p < free_thresh is free, the rest is
+/// unknown. Colours count by their brightness; an alpha channel is not looked at.
+struct MapImageParams {
+  Eigen::Vector2d origin_m = Eigen::Vector2d::Zero();  ///< Of the lower left corner.
+  bool negate = false;                                 ///< Then white is p = 1.
+  double occupied_thresh = 0.65;
+  double free_thresh = 0.196;
+};
+
+/// Reads a picture (PGM, PNG, ...) as a floor plan; its upper row has the largest y.
+/// @param cell_size_m  Edge of a pixel.
+/// @throws std::runtime_error     one sentence that names the file and the reason: it is not there,
+///         is truncated, is no picture.
+/// @throws std::invalid_argument  unless 0 <= free_thresh <= occupied_thresh <= 1 and the edge is
+///         positive.
+OccupancyGrid gridFromImage(const std::filesystem::path& image, double cell_size_m,
+                            const MapImageParams& params = {});
+
+/// Reads a map_server pair; the image's path is relative to the YAML file. Only the mode "trinary"
+/// and maps whose origin is not turned (yaw 0) are read.
+/// @throws std::runtime_error  one sentence that names the file and the reason.
+OccupancyGrid loadMapServer(const std::filesystem::path& yaml);
+
+/// Whether a file looks like the YAML half of a map_server pair: a map with the key 'image'.
+bool isMapServerFile(const std::filesystem::path& file);
+
+/// Writes a map_server pair: `yaml` and beside it a PGM of the same name. What is read back equals
+/// what was written.
+/// @throws std::runtime_error     if a file cannot be written.
+/// @throws std::invalid_argument  if the grid is empty.
+void saveMapServer(const OccupancyGrid& grid, const std::filesystem::path& yaml);
+
+}  // namespace heel

@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mapping/localization.hpp"
+
+#include "tests/mapping/drawn_rooms.hpp"
+#include "tests/support/allocation_count.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace heel {
+namespace {
+
+using test::kPi;
+using test::oddRoom;
+using test::scanOf;
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+/// A robot that drives in a circle of 0.8 m radius in the odd room.
+struct Driver {
+  OccupancyGrid room = oddRoom();
+  FloorPose truth{{4.0, 1.5}, 0.0};
+  const FloorPose step = alongArc({}, 0.08, 0.1);
+
+  void drive(Localization& localization, int steps, int blocked = 0) {
+    for (int i = 0; i < steps; ++i) {
+      truth = truth * step;
+      LaserScan scan = scanOf(room, truth);
+      for (int b = 0; b < blocked; ++b) {
+        float& range = scan.ranges_m[static_cast<std::size_t>(60 + b)];
+        range = std::min(range, 0.5F);
+      }
+      localization.predict(step);
+      localization.update(scan);
+    }
+  }
+
+  void expectRight(const Localization& localization) const {
+    const LocalizationEstimate& e = localization.estimate();
+    EXPECT_FALSE(e.lost);
+    EXPECT_LT((e.pose.position - truth.position).norm(), 0.1);
+    EXPECT_LT(std::abs(wrapped(e.pose.yaw_rad - truth.yaw_rad)), 0.05);
+  }
+};
+
+TEST(Localization, TracksFromAKnownStart) {
+  Driver driver;
+  Localization localization(driver.room);
+  localization.startAt({{4.1, 1.4}, 0.05});
+  EXPECT_FALSE(localization.estimate().lost);
+  for (int i = 0; i < 6; ++i) {
+    driver.drive(localization, 10);
+    driver.expectRight(localization);
+  }
+  const LocalizationEstimate& e = localization.estimate();
+  EXPECT_LT(std::sqrt(e.covariance(0, 0)), 0.1);
+  EXPECT_GT(e.covariance.determinant(), 0.0);
+  EXPECT_GT(e.residuals.explained, 0.95);
+  EXPECT_LT(localization.particles().size(), 1000U) << "KLD needs few when the place is known";
+}
+
+TEST(Localization, FindsItselfInAnAsymmetricRoom) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Driver driver;
+    LocalizationParams params;
+    params.seed = seed;
+    Localization localization(driver.room, {}, params);
+    EXPECT_TRUE(localization.estimate().lost);
+    driver.drive(localization, 40);
+    driver.expectRight(localization);
+  }
+}
+
+TEST(Localization, PredictsBetweenScans) {
+  Driver driver;
+  Localization localization(driver.room);
+  localization.startAt(driver.truth, 0.01, 0.01);
+  driver.drive(localization, 10);
+  const FloorPose before = localization.estimate().pose;
+  localization.predict({{0.3, 0.0}, 0.2});
+  localization.predict({{0.3, 0.0}, 0.0});
+  const FloorPose expected = before * FloorPose{{0.3, 0.0}, 0.2} * FloorPose{{0.3, 0.0}, 0.0};
+  EXPECT_LT((localization.estimate().pose.position - expected.position).norm(), 1e-9);
+  EXPECT_NEAR(wrapped(localization.estimate().pose.yaw_rad - expected.yaw_rad), 0.0, 1e-9);
+}
+
+TEST(Localization, NoticesThatItWasCarriedOffAndFindsItselfAgain) {
+  Driver driver;
+  Localization localization(driver.room);
+  localization.startAt(driver.truth);
+  driver.drive(localization, 20);
+  driver.expectRight(localization);
+  driver.truth = {{6.8, 4.0}, 2.0};
+  const FloorPose turn{{0.0, 0.0}, 0.1};
+  bool noticed = false;
+  for (int i = 0; i < 60; ++i) {
+    driver.truth = driver.truth * turn;
+    localization.predict(turn);
+    localization.update(scanOf(driver.room, driver.truth));
+    noticed = noticed || localization.estimate().lost;
+  }
+  EXPECT_TRUE(noticed);
+  driver.expectRight(localization);
+}
+
+TEST(Localization, NoticesInAWrongMap) {
+  Driver driver;
+  OccupancyGrid wrong = test::emptyRoom(5.0, 9.0);
+  test::drawBlock(wrong, 1.0, 3.0, 3.0, 3.3);
+  test::drawBlock(wrong, 2.0, 6.0, 5.0, 6.3);
+  Localization localization(wrong);
+  localization.startAt({{4.0, 1.5}, 0.0});
+  int lost = 0;
+  for (int i = 0; i < 60; ++i) {
+    driver.drive(localization, 1);
+    lost += i >= 10 && localization.estimate().lost ? 1 : 0;
+  }
+  EXPECT_GE(lost, 45);
+}
+
+TEST(Localization, IsNotLostWhenPeopleBlockAThirdOfTheBeams) {
+  Driver driver;
+  Localization localization(driver.room);
+  localization.startAt(driver.truth);
+  for (int i = 0; i < 60; ++i) {
+    driver.drive(localization, 1, 61);
+    EXPECT_FALSE(localization.estimate().lost) << "scan " << i;
+  }
+  driver.expectRight(localization);
+  EXPECT_GT(localization.estimate().residuals.shorter, 0.2);
+}
+
+TEST(Localization, StandingStillIsNoNews) {
+  Driver driver;
+  Localization localization(driver.room);
+  localization.startAt(driver.truth);
+  driver.drive(localization, 10);
+  const LaserScan scan = scanOf(driver.room, driver.truth);
+  const Eigen::Matrix3d before = localization.estimate().covariance;
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(localization.update(scan));
+  EXPECT_EQ(localization.estimate().covariance, before);
+}
+
+TEST(Localization, LivesWithScansThatSayNothing) {
+  Driver driver;
+  Localization localization(driver.room);
+  localization.startAt(driver.truth);
+  driver.drive(localization, 10);
+  LaserScan scan;
+  EXPECT_FALSE(localization.update(scan)) << "no beams at all";
+  scan = scanOf(driver.room, driver.truth);
+  for (float& range : scan.ranges_m) range = kInfinity;
+  EXPECT_FALSE(localization.update(scan));
+  for (float& range : scan.ranges_m) range = kNan;
+  EXPECT_FALSE(localization.update(scan));
+  for (float& range : scan.ranges_m) range = -1.0F;
+  EXPECT_FALSE(localization.update(scan));
+  localization.predict({{std::nan(""), 0.0}, 0.0});
+  localization.predict({{0.0, 0.0}, std::numeric_limits<double>::infinity()});
+  driver.drive(localization, 10);
+  driver.expectRight(localization);
+}
+
+TEST(Localization, ScansWithHolesStillTrack) {
+  Driver driver;
+  Localization localization(driver.room);
+  localization.startAt(driver.truth);
+  for (int i = 0; i < 30; ++i) {
+    driver.truth = driver.truth * driver.step;
+    LaserScan scan = scanOf(driver.room, driver.truth);
+    for (std::size_t b = 0; b < scan.ranges_m.size(); b += 2) {
+      scan.ranges_m[b] = b % 4 == 0 ? kNan : kInfinity;
+    }
+    localization.predict(driver.step);
+    localization.update(scan);
+  }
+  driver.expectRight(localization);
+}
+
+TEST(Localization, SameSeedSameResult) {
+  const auto run = [] {
+    Driver driver;
+    Localization localization(driver.room);
+    driver.drive(localization, 30);
+    return localization.particles().x_m;
+  };
+  EXPECT_EQ(run(), run());
+}
+
+TEST(Localization, AllocatesNothingOnceWarm) {
+  Driver driver;
+  const std::vector<MaskedDisc> people{{{1.0, 0.0}, 0.3}};
+  Localization localization(driver.room);
+  driver.drive(localization, 20);
+  std::vector<LaserScan> scans;
+  for (int i = 0; i < 20; ++i) {
+    driver.truth = driver.truth * driver.step;
+    scans.push_back(scanOf(driver.room, driver.truth));
+  }
+  const long before = test::allocations();
+  for (const LaserScan& scan : scans) {
+    localization.predict(driver.step);
+    localization.update(scan, people);
+  }
+  EXPECT_EQ(test::allocations(), before);
+  // Being lost and searching allocates nothing either.
+  localization.startAnywhere();
+  for (int i = 0; i < 20; ++i) localization.update(scans[static_cast<std::size_t>(19 - i)]);
+  EXPECT_EQ(test::allocations(), before);
+}
+
+TEST(Localization, RejectsWhatMakesNoSense) {
+  LocalizationParams params;
+  params.min_particles = 0;
+  EXPECT_THROW(Localization(oddRoom(), {}, params), std::invalid_argument);
+  params = {};
+  params.evidence = 0.0;
+  EXPECT_THROW(Localization(oddRoom(), {}, params), std::invalid_argument);
+  params = {};
+  params.scan.beams = 0;
+  EXPECT_THROW(Localization(oddRoom(), {}, params), std::invalid_argument);
+  EXPECT_THROW(Localization(OccupancyGrid({0, 0}, 0.05, 9, 9, Occupancy::kUnknown)),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace heel

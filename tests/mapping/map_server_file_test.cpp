@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mapping/map_server_file.hpp"
+
+#include "tests/support/data.hpp"
+#include "tests/support/temp_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <opencv2/core/mat.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+using test::messageOf;
+using testing::AllOf;
+using testing::HasSubstr;
+
+const std::string kYaml =
+    "image: map.pgm\nresolution: 0.5\norigin: [-1.0, 2.0, 0.0]\nnegate: 0\n"
+    "occupied_thresh: 0.65\nfree_thresh: 0.196\n";
+
+class MapServerFile : public testing::Test {
+ protected:
+  /// Three by two pixels: wall, free, unknown; free, free, wall.
+  MapServerFile() {
+    folder_.write("map.pgm", std::string("P5\n# a comment\n3 2\n255\n") +
+                                 std::string("\x00\xFE\xCD\xFE\xFF\x10", 6));
+  }
+  OccupancyGrid load(const std::string& yaml) {
+    return loadMapServer(folder_.write("map.yaml", yaml));
+  }
+  std::string whyNot(const std::string& yaml) {
+    return messageOf([&] { load(yaml); });
+  }
+  /// kYaml with one line replaced.
+  static std::string with(const std::string& key, const std::string& value) {
+    std::string text = kYaml;
+    const auto begin = text.find(key + ":");
+    if (begin == std::string::npos) return text + key + ": " + value + "\n";
+    return text.replace(begin, text.find('\n', begin) - begin, key + ": " + value);
+  }
+
+  test::TempFolder folder_;
+};
+
+TEST_F(MapServerFile, ItsUpperRowHasTheLargestY) {
+  const OccupancyGrid grid = load(kYaml);
+  ASSERT_EQ(grid.width(), 3);
+  ASSERT_EQ(grid.height(), 2);
+  EXPECT_EQ(grid.origin_m(), Eigen::Vector2d(-1.0, 2.0));
+  EXPECT_EQ(grid.cells(),
+            (std::vector<Occupancy>{Occupancy::kFree, Occupancy::kFree, Occupancy::kOccupied,
+                                    Occupancy::kOccupied, Occupancy::kFree, Occupancy::kUnknown}));
+}
+
+TEST_F(MapServerFile, NegateTurnsBlackIntoFree) {
+  const OccupancyGrid grid = load(with("negate", "1"));
+  EXPECT_EQ(grid.at(GridCell{0, 1}), Occupancy::kFree);
+  EXPECT_EQ(grid.at(GridCell{0, 0}), Occupancy::kOccupied);
+}
+
+TEST_F(MapServerFile, ThresholdsDecide) {
+  // 205 is p = 0.196; 254 is 0.004.
+  EXPECT_EQ(load(with("free_thresh", "0.25")).at(GridCell{2, 1}), Occupancy::kFree);
+  EXPECT_EQ(load(with("occupied_thresh", "0.95")).at(GridCell{2, 0}), Occupancy::kUnknown);
+}
+
+TEST_F(MapServerFile, IsReadBackAsItWasWritten) {
+  OccupancyGrid grid({-3.05, 0.1}, 0.05, 7, 4, Occupancy::kUnknown);
+  grid.at(GridCell{2, 3}) = Occupancy::kOccupied;
+  grid.at(GridCell{6, 0}) = Occupancy::kFree;
+  saveMapServer(grid, folder_ / "saved.yaml");
+  const OccupancyGrid read = loadMapServer(folder_ / "saved.yaml");
+  EXPECT_EQ(read.cells(), grid.cells());
+  EXPECT_EQ(read.origin_m(), grid.origin_m());
+  EXPECT_EQ(read.cell_size_m(), grid.cell_size_m());
+  EXPECT_EQ(read.width(), 7);
+  EXPECT_THROW(saveMapServer(OccupancyGrid(), folder_ / "none.yaml"), std::invalid_argument);
+  EXPECT_THAT(messageOf([&] { saveMapServer(grid, folder_ / "no/folder.yaml"); }),
+              HasSubstr("folder.pgm cannot be written: No such file"));
+}
+
+TEST_F(MapServerFile, ATurnedOriginIsRefusedInAClearSentence) {
+  EXPECT_THAT(whyNot(with("origin", "[0, 0, 0.3]")),
+              AllOf(HasSubstr("map.yaml"), HasSubstr("turned by 0.3 rad")));
+}
+
+TEST_F(MapServerFile, WhatIsWrongGetsASentenceWithTheKey) {
+  const std::pair<std::string, std::string> wrong[] = {
+      {"resolution", "0"},        {"resolution", "fine"}, {"resolution", ".nan"},
+      {"resolution", "[1, 2]"},   {"origin", "[0, 0]"},   {"origin", "[.inf, 0, 0]"},
+      {"negate", "perhaps"},      {"free_thresh", "0.9"}, {"occupied_thresh", "65"},
+      {"free_thresh", "several"}, {"mode", "scale"}};
+  for (const auto& [key, value] : wrong) {
+    EXPECT_THAT(whyNot(with(key, value)), AllOf(HasSubstr("map.yaml: "), HasSubstr(key))) << value;
+  }
+  EXPECT_THAT(whyNot("image: map.pgm\n"), HasSubstr("no key 'resolution'"));
+  EXPECT_THAT(whyNot("kitchen: [0, 0, 0]\n"), HasSubstr("not a map_server map"));
+  EXPECT_THAT(whyNot("image: [}\n"), HasSubstr("not YAML: line 1"));
+  EXPECT_THAT(messageOf([&] { loadMapServer(folder_ / "none.yaml"); }),
+              AllOf(HasSubstr("none.yaml"), HasSubstr("No such file")));
+}
+
+TEST_F(MapServerFile, ABadImageIsNamed) {
+  const auto imageIs = [&](const std::string& name, const std::string& bytes) {
+    folder_.write(name, bytes);
+    return whyNot(with("image", name));
+  };
+  EXPECT_THAT(whyNot(with("image", "none.png")), HasSubstr("none.png cannot be read"));
+  EXPECT_THAT(imageIs("cut.pgm", "P5\n3 2\n255\n12345"), HasSubstr("cut.pgm: the image is trunc"));
+  EXPECT_THAT(imageIs("head.pgm", "P5\n3"), HasSubstr("head.pgm: the image"));
+  EXPECT_THAT(imageIs("huge.pgm", "P5\n99999999 99999999\n255\n1"), HasSubstr("truncated"));
+  EXPECT_THAT(imageIs("empty.pgm", ""), HasSubstr("empty.pgm: the image is empty"));
+  EXPECT_THAT(imageIs("text.png", "a letter"), HasSubstr("text.png: the image cannot be decoded"));
+  cv::imwrite(folder_ / "whole.png", cv::Mat(40, 40, CV_8UC1, cv::Scalar(254)));
+  std::string png = test::readText(folder_ / "whole.png");
+  EXPECT_THAT(imageIs("cut.png", png.substr(0, png.size() - 5)),
+              HasSubstr("cut.png: the image is"));
+}
+
+TEST_F(MapServerFile, APlainPictureIsAPlan) {
+  cv::Mat picture(4, 5, CV_8UC3, cv::Scalar::all(255));
+  picture.at<cv::Vec3b>(0, 0) = {0, 0, 0};
+  picture.at<cv::Vec3b>(1, 1) = {128, 128, 128};
+  cv::imwrite(folder_ / "plan.png", picture);
+  const OccupancyGrid grid = gridFromImage(folder_ / "plan.png", 0.05);
+  EXPECT_EQ(grid.at(GridCell{0, 3}), Occupancy::kOccupied);
+  EXPECT_EQ(grid.at(GridCell{1, 2}), Occupancy::kUnknown);
+  EXPECT_EQ(grid.at(GridCell{4, 0}), Occupancy::kFree);
+  EXPECT_THROW(gridFromImage(folder_ / "plan.png", 0.0), std::invalid_argument);
+}
+
+TEST(RealMaps, ARoomAndAnOfficeAreRead) {
+  HEEL_NEED_DATA("floor_maps");
+  const auto folder = test::dataFolder() / "floor_maps";
+  const auto wallsOf = [](const OccupancyGrid& grid) {
+    return std::count(grid.cells().begin(), grid.cells().end(), Occupancy::kOccupied);
+  };
+  const OccupancyGrid room = loadMapServer(folder / "brsu-c069/map.yaml");
+  EXPECT_EQ(room.width(), 576);
+  EXPECT_EQ(room.height(), 544);
+  EXPECT_GT(wallsOf(room), 1000);
+  EXPECT_EQ(room.at(Eigen::Vector2d(-0.386, -0.149)), Occupancy::kFree) << "a pose to watch from";
+  const OccupancyGrid office = loadMapServer(folder / "willow/willow-2010-02-18-0.10.yaml");
+  EXPECT_EQ(office.width(), 566);
+  EXPECT_GT(wallsOf(office), 500);
+  EXPECT_GT(wallsOf(gridFromImage(folder / "lab_a_scan.png", 0.05)), 3000);
+}
+
+}  // namespace
+}  // namespace heel
