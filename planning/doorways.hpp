@@ -15,7 +15,7 @@ namespace heel {
 
 struct DoorwayParams {
   double min_width_m = 0.55;
-  double max_width_m = 1.2;
+  double max_width_m = 1.1;
   double depth_m = 0.35;   ///< From its middle to where the way gets wider, on either side.
   double widens_m = 0.25;  ///< A side is a room if the way is this much wider there, ...
   double within_m = 0.9;   ///< ... no further from the doorway than this.

@@ -46,7 +46,7 @@ const DoorwayOnMap* near(const std::vector<DoorwayOnMap>& found, const Vector2d&
 }
 
 TEST(Doorways, FindsAGapInAWallWithItsWidthAndDirection) {
-  for (const double width : {0.7, 0.8, 0.9, 1.1}) {
+  for (const double width : {0.7, 0.8, 0.9, 1.0}) {
     OccupancyGrid map = emptyMap(6.0, 4.0);
     draw(map, {2.9, 0.0}, {3.05, 2.0 - width / 2});
     draw(map, {2.9, 2.0 + width / 2}, {3.05, 4.0});

@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -32,38 +34,69 @@ void addWalkers(test::DriveLoop& loop, int count, const Vector2d& robot, std::mt
   }
 }
 
-TEST(LocalPlannerAmongPeople, TouchesNothingOnTwoHundredRandomFloors) {
-  int with_way = 0, arrived = 0, rolled_into = 0;
-  double way = 0.0;
-  for (unsigned seed = 0; with_way < 200 && seed < 1000; ++seed) {
+/// A way around the people as they stand now, as a global planner would find one; the old way if
+/// there is none.
+void replan(const test::DriveLoop& loop, const Vector2d& to, std::vector<Vector2d>& path) {
+  test::DrawnFloor now = loop.floor;
+  for (const auto& walker : loop.walkers) {
+    now.discs.push_back({walker.person.position, walker.person.radius_m + 0.06});
+  }
+  auto way = test::wayOn(now, loop.state().pose.position, to, 0.26);
+  if (!way.empty()) path = std::move(way);
+}
+
+struct Drives {
+  int drives = 0;
+  int arrived = 0;
+  double mean_moving_mps = 0.0;
+};
+
+/// Drives over 200 random floors with so many walkers, and checks that nothing is ever touched.
+Drives driveOverRandomFloors(int walkers) {
+  Drives out;
+  for (unsigned seed = 0; out.drives < 200 && seed < 1000; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
     std::mt19937 random(seed);
     const test::DrawnFloor floor = test::randomFloor(random);
     const Vector2d from = test::randomFreePoint(floor, 0.4, random);
     const Vector2d to = test::randomFreePoint(floor, 0.4, random);
     if ((to - from).norm() < 2.0) continue;
-    const auto path = test::wayOn(floor, from, to, 0.26);
+    auto path = test::wayOn(floor, from, to, 0.26);
     if (path.empty()) continue;
-    ++with_way;
+    ++out.drives;
     const double yaw = std::uniform_real_distribution<double>(-3.0, 3.0)(random);
     test::DriveLoop loop(floor, {from, yaw}, {}, static_cast<int>(seed % 2));
-    addWalkers(loop, 3, from, random);
+    addWalkers(loop, walkers, from, random);
     bool done = false;
     while (!done && loop.time_s() < 90.0) {
-      done = loop.step(path).status == DriveStatus::kArrived;
+      const LocalPlan& plan = loop.step(path);
+      done = plan.status == DriveStatus::kArrived;
+      if (std::fmod(plan.blocked_s, 2.0) > 1.85) replan(loop, to, path);
     }
-    arrived += done ? 1 : 0;
-    way += loop.movingSpeed();
-    EXPECT_GT(loop.leastGap(), 0.0) << "seed " << seed;
-    EXPECT_GT(loop.leastPeopleGap(), 0.0) << "seed " << seed;
-    if (loop.leastPeopleGap() <= 0.0) ++rolled_into;
-    if (!done)
-      std::printf("seed %u not arrived: %s, %s\n", seed, describe(loop.plan().status),
-                  describe(loop.plan().reason));
+    out.arrived += done ? 1 : 0;
+    out.mean_moving_mps += loop.movingSpeed() / 200.0;
+    EXPECT_GT(loop.leastGap(), 0.0);
+    EXPECT_GT(loop.leastPeopleGap(), 0.0);
   }
-  std::printf("%d floors, %d arrived, moving speed %.3f, people touched %d\n", with_way, arrived,
-              way / with_way, rolled_into);
-  EXPECT_EQ(with_way, 200);
-  EXPECT_GE(arrived, 190);
+  EXPECT_EQ(out.drives, 200);
+  return out;
+}
+
+TEST(LocalPlannerAmongThings, ArrivesAtSpeedAndTouchesNothingOnTwoHundredRandomFloors) {
+  const Drives drives = driveOverRandomFloors(0);
+  RecordProperty("arrived", drives.arrived);
+  RecordProperty("moving_mm_per_s", static_cast<int>(1000.0 * drives.mean_moving_mps));
+  EXPECT_EQ(drives.arrived, 200);
+  EXPECT_GE(drives.mean_moving_mps, 0.24);
+}
+
+// Three people in 36 square metres walk to and fro at 1 m/s, step aside for nobody, stop only 15 cm
+// before the robot and turn back after 3 s. Some hold the robot up for longer than the 90 s.
+TEST(LocalPlannerAmongPeople, TouchesNobodyOnTwoHundredRandomFloors) {
+  const Drives drives = driveOverRandomFloors(3);
+  RecordProperty("arrived", drives.arrived);
+  RecordProperty("moving_mm_per_s", static_cast<int>(1000.0 * drives.mean_moving_mps));
+  EXPECT_GE(drives.arrived, 170);
 }
 
 }  // namespace
