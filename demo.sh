@@ -21,7 +21,7 @@ echo "== A simulated room: who is Anna, and where does she go?"
 if [ ! -d "$data/six_people" ]; then
   cat <<EOT
 
-No real recording in $data. To make one: a still stereo or RGB-D camera, 5 seconds of empty room, then
+There is no recording six_people in $data. To make one of your own: a still stereo or RGB-D camera, 5 seconds of empty room, then
 one person who walks in and about. As RGB-D, a folder with
   rgb.txt, depth.txt    "stamp filename" a line (the layout of the TUM RGB-D data sets)
   camera.yaml           width, height, fx, fy, cx, cy, depth_scale

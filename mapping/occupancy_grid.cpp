@@ -10,13 +10,18 @@ namespace heel {
 
 OccupancyGrid::OccupancyGrid(const Eigen::Vector2d& origin_m, double cell_size_m, int width,
                              int height, Occupancy fill)
-    : origin_m_(origin_m), cell_size_m_(cell_size_m), width_(width), height_(height) {
-  if (!origin_m.allFinite()) throw std::invalid_argument("a grid's origin must be finite");
+    : cell_size_m_(cell_size_m), width_(width), height_(height) {
+  setOrigin(origin_m);
   if (!(cell_size_m > 0.0) || !std::isfinite(cell_size_m)) {
     throw std::invalid_argument("a grid's cell size must be positive");
   }
   if (width <= 0 || height <= 0) throw std::invalid_argument("a grid must have cells");
   cells_.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), fill);
+}
+
+void OccupancyGrid::setOrigin(const Eigen::Vector2d& origin_m) {
+  if (!origin_m.allFinite()) throw std::invalid_argument("a grid's origin must be finite");
+  origin_m_ = origin_m;
 }
 
 GridCell OccupancyGrid::cellAt(const Eigen::Vector2d& point) const {

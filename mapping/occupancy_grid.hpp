@@ -31,6 +31,10 @@ class OccupancyGrid {
   OccupancyGrid(const Eigen::Vector2d& origin_m, double cell_size_m, int width, int height,
                 Occupancy fill = Occupancy::kFree);
 
+  /// Moves the corner of cell (0, 0); the cells keep what they hold.
+  /// @throws std::invalid_argument  unless the origin is finite.
+  void setOrigin(const Eigen::Vector2d& origin_m);
+
   const Eigen::Vector2d& origin_m() const { return origin_m_; }
   double cell_size_m() const { return cell_size_m_; }
   int width() const { return width_; }

@@ -103,7 +103,7 @@ void Acquisition::findPerson(double stamp_s) {
     result_.state = AcquisitionState::kPerson;
     result_.first_seen_s = stamp_s;
   }
-  last_place_m_ = step_.view->blobs[static_cast<std::size_t>(people.front())].position_m;
+  result_.last_place_m = step_.view->blobs[static_cast<std::size_t>(people.front())].position_m;
   result_.last_seen_s = stamp_s;
   ++result_.person_frames;
   step_.person = people.front();
@@ -123,7 +123,7 @@ bool Acquisition::somebodyElseIsThere(double stamp_s) const {
   const auto& place = step_.view->blobs[static_cast<std::size_t>(people.front())].position_m;
   const double reach_m =
       params_.max_jump_m + params_.max_speed_mps * (stamp_s - result_.last_seen_s);
-  return (place - last_place_m_).norm() > reach_m;
+  return (place - result_.last_place_m).norm() > reach_m;
 }
 
 void Acquisition::labelPixels() {

@@ -19,7 +19,7 @@ struct AcquisitionParams {
   double max_missing_s = 1.0;  ///< Not seen for longer: the person has left.
   double max_speed_mps = 3.0;  ///< With max_jump_m: how far the person may be from the last place.
   double max_jump_m = 0.3;
-  double min_learn_height_m = 1.0;  ///< Only what is higher feeds the model (the torso).
+  double min_learn_height_m = 1.0;  ///< What is higher counts as the torso.
   /// Depth and colour images never fit to the pixel, so a moving person's disparity takes in a rim
   /// of the room. The person's pixels are therefore those that differ in intensity too, unless
   /// fewer than this share of them do: then the clothes have the wall's colour.
@@ -57,6 +57,7 @@ struct AcquisitionResult {
   long torso_points = 0;      ///< Of these, higher than min_learn_height_m.
   double first_seen_s = 0.0;  ///< Stamp; 0 if nobody came.
   double last_seen_s = 0.0;
+  Eigen::Vector2d last_place_m = Eigen::Vector2d::Zero();  ///< Of the person, in the base frame.
 
   /// Share of the frames since the person entered that show them; 0 without a person.
   double confidence() const {
@@ -116,7 +117,6 @@ class Acquisition {
   double start_s_ = 0.0;
   double stamp_s_ = 0.0;
   int frames_with_others_ = 0;  // in a row
-  Eigen::Vector2d last_place_m_ = Eigen::Vector2d::Zero();
 };
 
 }  // namespace heel

@@ -3,8 +3,6 @@
 
 #include "apps/follower/learn_person.hpp"
 
-#include "apps/follower/depth_images.hpp"
-
 #include <stdexcept>
 
 namespace heel {
@@ -22,36 +20,51 @@ void pointsOfPerson(const AcquisitionStep& step, pcl::Indices& indices) {
 
 }  // namespace
 
+PersonLearner::PersonLearner(const CameraSetup& setup, const LearnPersonParams& params)
+    : params_(params),
+      depths_(setup.sensor, setup.camera, params.stereo),
+      acquisition_(setup.camera.left, setup.T_base_camera, params.acquisition),
+      learner_(params.appearance) {}
+
+const AcquisitionStep& PersonLearner::step(const Frame& frame) {
+  const AcquisitionStep& step =
+      acquisition_.step(frame.stamp_s, frame.image_bgr, depths_.of(frame));
+  if (!step.usable) return step;
+  room_ = step.labels == AcquisitionStep::kScene;
+  learner_.addRoom(frame.image_bgr, room_);
+  if (step.person >= 0) {
+    pointsOfPerson(step, person_);
+    learner_.addPerson(*step.view->cloud, person_);
+  }
+  return step;
+}
+
+bool PersonLearner::hasPerson() const {
+  return result().person_frames >= params_.acquisition.confirm_frames;
+}
+
+AppearanceModel PersonLearner::learn() const {
+  if (!hasPerson()) throw std::logic_error("PersonLearner: nobody was seen");
+  return learner_.learn();
+}
+
 LearnedPerson learnPerson(Recording& recording, const CameraSetup& setup,
                           const LearnPersonParams& params, const AcquisitionObserver& observer) {
-  DepthImages depths(setup.sensor, setup.camera, params.stereo);
-  Acquisition acquisition(setup.camera.left, setup.T_base_camera, params.acquisition);
-  AppearanceLearner learner(params.appearance);
+  PersonLearner learner(setup, params);
   std::vector<SkippedFrame> skipped;
   Frame frame;
-  cv::Mat room;
-  pcl::Indices person;
-  while (acquisition.result().state != AcquisitionState::kEnded && recording.next(frame)) {
+  while (!learner.isDone() && recording.next(frame)) {
     try {
-      const AcquisitionStep& step =
-          acquisition.step(frame.stamp_s, frame.image_bgr, depths.of(frame));
-      if (step.usable) {
-        room = step.labels == AcquisitionStep::kScene;
-        learner.addRoom(frame.image_bgr, room);
-        if (step.person >= 0) {
-          pointsOfPerson(step, person);
-          learner.addPerson(*step.view->cloud, person);
-        }
-      }
+      const AcquisitionStep& step = learner.step(frame);
       if (observer) observer(frame, step);
     } catch (const std::invalid_argument& error) {
       skipped.push_back({frame.number, frame.name + ": " + error.what()});
     }
   }
   skipped.insert(skipped.end(), recording.skipped().begin(), recording.skipped().end());
-  const AcquisitionResult& result = acquisition.result();
+  const AcquisitionResult& result = learner.result();
   if (result.empty_frames == 0) throw std::runtime_error(nothingReadMessage(recording, skipped));
-  if (result.person_frames < params.acquisition.confirm_frames) {
+  if (!learner.hasPerson()) {
     const bool several = result.end == AcquisitionEnd::kSecondPerson;
     throw std::runtime_error(
         recording.info().name +

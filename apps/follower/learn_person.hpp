@@ -7,6 +7,7 @@
 
 #include "apps/follower/acquisition.hpp"
 #include "apps/follower/camera_setup.hpp"
+#include "apps/follower/depth_images.hpp"
 #include "apps/recording/recording.hpp"
 #include "segmentation/appearance_learner.hpp"
 #include "segmentation/appearance_model.hpp"
@@ -20,6 +21,35 @@ struct LearnPersonParams {
   AcquisitionParams acquisition;
   AppearanceParams appearance;
   StereoMatcherParams stereo;
+};
+
+/// Phase 1 as a stream: give frames until it is done, then ask for the model.
+class PersonLearner {
+ public:
+  /// @throws std::invalid_argument  if a parameter is out of its range.
+  explicit PersonLearner(const CameraSetup& setup, const LearnPersonParams& params = {});
+
+  /// Takes the next frame of a robot that stands still; after the end, frames are ignored.
+  /// @throws std::invalid_argument  if the frame's images do not fit, or its stamp runs backwards;
+  ///                                the frame is then as if it had not been given.
+  const AcquisitionStep& step(const Frame& frame);
+
+  bool isDone() const { return acquisition_.result().state == AcquisitionState::kEnded; }
+  const AcquisitionResult& result() const { return acquisition_.result(); }
+
+  /// Whether somebody was seen for long enough to have a model.
+  bool hasPerson() const;
+
+  /// @throws std::logic_error  without a person.
+  AppearanceModel learn() const;
+
+ private:
+  LearnPersonParams params_;
+  DepthImages depths_;
+  Acquisition acquisition_;
+  AppearanceLearner learner_;
+  cv::Mat room_;
+  pcl::Indices person_;
 };
 
 struct LearnedPerson {

@@ -75,7 +75,8 @@ Perception::Perception(const CameraSetup& setup, const AppearanceModel& model,
   }
 }
 
-const PerceptionStep& Perception::step(const Frame& frame, const StageDone& done) {
+const PerceptionStep& Perception::step(const Frame& frame, const RobotPlace& robot,
+                                       const StageDone& done) {
   const auto finished = [&done](Stage stage) {
     if (done) done(stage);
   };
@@ -95,11 +96,12 @@ const PerceptionStep& Perception::step(const Frame& frame, const StageDone& done
 
   plan_view_.build(*step_.cloud, step_.standing, &any_band_);
   finder_.find(plan_view_, step_.blobs);
-  findCandidates(frame);
+  findCandidates(frame, robot.pose);
   finished(Stage::kPlanView);
 
-  step_.target = tracker_.step(frame.stamp_s, step_.observations,
-                               {T_base_camera_.translation().head<2>(), Eigen::Matrix2d::Zero()});
+  step_.target = tracker_.step(
+      frame.stamp_s, step_.observations,
+      {robot.pose * Eigen::Vector2d(T_base_camera_.translation().head<2>()), robot.covariance_m2});
   step_.reason = whyNotSeen();
   finished(Stage::kTracking);
   return step_;
@@ -165,14 +167,14 @@ void Perception::keepStanding() {
   }
 }
 
-void Perception::findCandidates(const Frame& frame) {
+void Perception::findCandidates(const Frame& frame, const FloorPose& robot) {
   step_.observations.clear();
   step_.blob_of_observation.clear();
   for (std::size_t i = 0; i < step_.blobs.size(); ++i) {
     WorldBlob& blob = step_.blobs[i];
     if (!isCandidate(blob, params_.candidates)) continue;
     blob.appearance = appearanceOf(blob, frame);
-    step_.observations.push_back({blob.position_m, blob.score, blob.appearance,
+    step_.observations.push_back({robot * blob.position_m, blob.score, blob.appearance,
                                   blob.area_m2 >= params_.candidates.min_start_area_m2});
     step_.blob_of_observation.push_back(static_cast<int>(i));
   }

@@ -9,6 +9,7 @@
 #include "apps/recording/frame.hpp"
 #include "cloud/color_cloud.hpp"
 #include "cloud/stereo_matcher.hpp"
+#include "mapping/floor_pose.hpp"
 #include "segmentation/appearance_filter.hpp"
 #include "segmentation/appearance_model.hpp"
 #include "segmentation/body_appearance.hpp"
@@ -51,6 +52,12 @@ struct PerceptionParams {
   GeometricGate gate;  ///< Besides "too close": where a person can be seen.
 };
 
+/// Where the robot is when a frame is taken. A robot that stands still has its base frame as world.
+struct RobotPlace {
+  FloorPose pose;                                           ///< Base frame to world.
+  Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Zero();  ///< Of its position.
+};
+
 /// What one frame brought, stage by stage. References are to the perception's own memory, valid
 /// until the next frame.
 struct PerceptionStep {
@@ -60,8 +67,8 @@ struct PerceptionStep {
   cv::Mat mask;          ///< CV_8UC1, the pixels of the target's colours; empty: no image.
   ColorCloud::ConstPtr cloud;             ///< In the base frame.
   pcl::Indices standing;                  ///< Points of the target's colours at their heights.
-  std::vector<WorldBlob> blobs;           ///< All blobs, highest score first.
-  std::vector<Observation> observations;  ///< The blobs that may be people.
+  std::vector<WorldBlob> blobs;           ///< All blobs, highest score first; in the base frame.
+  std::vector<Observation> observations;  ///< The blobs that may be people; in the world.
   std::vector<int> blob_of_observation;   ///< Which blob each is.
   TargetEstimate target;
 
@@ -79,14 +86,14 @@ class Perception {
   Perception(const CameraSetup& setup, const AppearanceModel& model,
              const PerceptionParams& params = {});
 
-  /// The target is at this place in the next frame (after phase 1, say).
+  /// The target is at this place of the world in the next frame (after phase 1, say).
   void startAt(const Eigen::Vector2d& position_m) { tracker_.startAt(position_m); }
 
   /// Stamps need not be regular; one that is not later than the last is skipped by the tracker.
   /// @throws std::invalid_argument  if the frame has not what the sensor gives, or its images do
-  /// not
-  ///         fit each other.
-  const PerceptionStep& step(const Frame& frame, const StageDone& done = {});
+  ///                                not fit each other.
+  const PerceptionStep& step(const Frame& frame, const RobotPlace& robot = {},
+                             const StageDone& done = {});
 
   const std::vector<Track>& tracks() const { return tracker_.tracker().tracks(); }
   const TrackerReport& report() const { return tracker_.tracker().report(); }
@@ -95,7 +102,7 @@ class Perception {
   void filterColors(const Frame& frame);
   void measureDepth(const Frame& frame);
   void keepStanding();
-  void findCandidates(const Frame& frame);
+  void findCandidates(const Frame& frame, const FloorPose& robot);
   double appearanceOf(const WorldBlob& blob, const Frame& frame) const;
   const char* whyNotSeen() const;
 

@@ -8,16 +8,22 @@
 /// A verb throws std::runtime_error or std::invalid_argument with one sentence when it can't go on.
 #pragma once
 
+#include <string>
+
 namespace CLI {
 class App;
 }
 
 namespace heel {
 
+/// Tells a user what they should know, on stderr; the work goes on.
+void warn(const std::string& warning);
+
 void addLearn(CLI::App& app);
 void addTrack(CLI::App& app);
 void addFilter(CLI::App& app);
 void addInspect(CLI::App& app);
+void addLocalize(CLI::App& app);
 void addMap(CLI::App& app);
 void addSimulate(CLI::App& app);
 void addEvaluate(CLI::App& app);

@@ -140,6 +140,7 @@ void addExperiment(CLI::App& app) {
   protocol->add_option("OTHER", options->other, "another recording of the same person");
   addAppearanceExperiment(*verb);
   addGateExperiment(*verb);
+  addLocalizationExperiment(*verb);
   addPerceptionExperiment(*verb);
 }
 

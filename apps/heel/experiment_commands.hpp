@@ -11,6 +11,7 @@ namespace heel {
 
 void addAppearanceExperiment(CLI::App& verb);
 void addGateExperiment(CLI::App& verb);
+void addLocalizationExperiment(CLI::App& verb);
 void addPerceptionExperiment(CLI::App& verb);
 
 }  // namespace heel

@@ -28,10 +28,6 @@ struct Options {
   LearnPersonParams params;
 };
 
-void warn(const std::string& warning) {
-  std::fprintf(stderr, "heel: warning: %s\n", warning.c_str());
-}
-
 /// The picture that shows who was learned: the frame with most of the person in it.
 class BestView {
  public:

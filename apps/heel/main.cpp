@@ -61,6 +61,10 @@ void silenceLibraries() {
 
 }  // namespace
 
+void heel::warn(const std::string& warning) {
+  std::fprintf(stderr, "heel: warning: %s\n", warning.c_str());
+}
+
 int main(int argc, char** argv) {
   silenceLibraries();
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on a file's size is then an error like a full disk
@@ -84,6 +88,7 @@ int main(int argc, char** argv) {
   heel::addTrack(app);
   heel::addFilter(app);
   heel::addInspect(app);
+  heel::addLocalize(app);
   heel::addMap(app);
   heel::addSimulate(app);
   heel::addEvaluate(app);

@@ -6,14 +6,27 @@
 #include <stdexcept>
 
 namespace heel {
+namespace {
 
-std::filesystem::path sceneFile(const std::string& scene) {
-  namespace fs = std::filesystem;
-  if (fs::exists(scene)) return scene;
-  const fs::path shipped = fs::path(HEEL_SCENES) / (scene + ".yaml");
+namespace fs = std::filesystem;
+
+fs::path find(const std::string& name, const fs::path& folder, const std::string& extension,
+              const std::string& what) {
+  if (fs::exists(name)) return name;
+  const fs::path shipped = folder / (name + extension);
   if (fs::exists(shipped)) return shipped;
-  throw std::runtime_error(scene + ": there is no such scene, neither as a file nor in " +
-                           std::string(HEEL_SCENES));
+  throw std::runtime_error(name + ": there is no such " + what + ", neither as a file nor in " +
+                           folder.string());
 }
+
+}  // namespace
+
+fs::path sceneFolder() { return HEEL_SCENES; }
+
+fs::path sceneFile(const std::string& scene) {
+  return find(scene, sceneFolder(), ".yaml", "scene");
+}
+
+fs::path planFile(const std::string& plan) { return find(plan, HEEL_PLANS, ".pnml", "plan"); }
 
 }  // namespace heel

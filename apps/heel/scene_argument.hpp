@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// A scene, as users name it.
+/// Scenes and plans, as users name them.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,15 @@
 
 namespace heel {
 
+/// The folder of the scenes that come with Heel.
+std::filesystem::path sceneFolder();
+
 /// A scene's file: the path itself, or the name of a scene that comes with Heel.
 /// @throws std::runtime_error  if there is neither.
 std::filesystem::path sceneFile(const std::string& scene);
+
+/// A plan's PNML file: the path itself, or the name of a plan that comes with Heel.
+/// @throws std::runtime_error  if there is neither.
+std::filesystem::path planFile(const std::string& plan);
 
 }  // namespace heel

@@ -3,13 +3,13 @@
 
 #include "apps/follower/perception.hpp"
 #include "apps/heel/commands.hpp"
+#include "apps/heel/lap_clock.hpp"
 #include "apps/heel/track_output.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "segmentation/appearance_model_io.hpp"
 
 #include <CLI/CLI.hpp>
 
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -28,24 +28,6 @@ struct Options {
   std::vector<double> bounds_m;
   bool no_film = false;
 };
-
-/// Milliseconds since the last call.
-class Clock {
- public:
-  double lap_ms() {
-    const auto now = std::chrono::steady_clock::now();
-    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
-    last_ = now;
-    return ms;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-void warn(const std::string& warning) {
-  std::fprintf(stderr, "heel: warning: %s\n", warning.c_str());
-}
 
 void print(const TrackOutput& output, const Options& options, std::size_t skipped) {
   std::printf("%zu frames, the target seen or predicted in %zu", output.frames(),
@@ -83,10 +65,11 @@ void run(const Options& options) {
   Frame frame;
   StageTimes times_ms{};
   while (recording->next(frame)) {
-    Clock clock;
+    LapClock clock;
     try {
-      const PerceptionStep& step = perception.step(
-          frame, [&](Stage stage) { times_ms[static_cast<std::size_t>(stage)] = clock.lap_ms(); });
+      const PerceptionStep& step = perception.step(frame, {}, [&](Stage stage) {
+        times_ms[static_cast<std::size_t>(stage)] = clock.lap_ms();
+      });
       output.add(frame, perception, step, times_ms);
     } catch (const std::invalid_argument& error) {
       skipped.push_back({frame.number, frame.name + ": " + error.what()});

@@ -19,21 +19,6 @@ std::vector<std::string> stageNames() {
   return names;
 }
 
-Tone toneOf(TargetStatus status) {
-  switch (status) {
-    case TargetStatus::kFollowed:
-      return Tone::kGood;
-    case TargetStatus::kCoasting:
-    case TargetStatus::kAmbiguous:
-      return Tone::kWarning;
-    case TargetStatus::kLost:
-      return Tone::kBad;
-    case TargetStatus::kNone:
-      break;
-  }
-  return Tone::kNeutral;
-}
-
 std::string stillName(std::size_t frame) {
   char name[32];
   std::snprintf(name, sizeof name, "frame_%06zu.png", frame);
@@ -67,10 +52,8 @@ TrackOutput::TrackOutput(const std::filesystem::path& folder, const RecordingInf
       info_(info),
       setup_(setup),
       params_(params),
-      files_((makeResultFolder(folder), folder), stageNames()) {
-  scene_.camera = setup.camera.left;
-  scene_.T_floor_camera = setup.T_base_camera;
-  scene_.bounds_m = params.bounds_m;
+      files_((makeResultFolder(folder), folder), stageNames()),
+      drawn_(setup) {
   if (params.film) film_.emplace(folder / "tracks.mp4", rateOf(info), pictureSize());
 }
 
@@ -83,7 +66,9 @@ void TrackOutput::add(const Frame& frame, const Perception& perception, const Pe
   addRows(frame, perception, step);
   files_.addTiming(frame.number, {times_ms.begin(), times_ms.end()});
   if (film_) {
-    draw(frame, perception, step);
+    DrawnFrame& drawing = drawn_.of(frame, perception, step);
+    drawing.bounds_m = params_.bounds_m;
+    annotate(drawing, {}, picture_);
     film_->write(picture_);
     if (step.target.status == TargetStatus::kFollowed) keepStill();
   }
@@ -119,56 +104,6 @@ void TrackOutput::addRows(const Frame& frame, const Perception& perception,
   files_.add(row);
 }
 
-void TrackOutput::draw(const Frame& frame, const Perception& perception,
-                       const PerceptionStep& step) {
-  scene_.image_bgr = frame.image_bgr;
-  scene_.mask = step.mask;
-  scene_.frame = frame.number;
-  scene_.stamp_s = frame.stamp_s;
-  scene_.state = toText(step.target.status);
-  scene_.reason = step.reason;
-  scene_.tone = toneOf(step.target.status);
-
-  scene_.blobs.clear();
-  for (const WorldBlob& blob : step.blobs) {
-    scene_.blobs.push_back({blob.position_m, blob.points, false});
-  }
-  const auto& uses = perception.report().uses;
-  for (std::size_t i = 0; i < step.blob_of_observation.size(); ++i) {
-    const auto blob = static_cast<std::size_t>(step.blob_of_observation[i]);
-    scene_.blobs[blob].is_used = uses[i].fate != ObservationFate::kRejected;
-  }
-
-  trails_.forget(frame.stamp_s);
-  scene_.tracks.clear();
-  std::map<int, double> heights_m;
-  for (const Track& track : perception.tracks()) {
-    if (track.status == TrackStatus::kTentative) continue;
-    double& height_m = heights_m[track.id] =
-        heights_m_.count(track.id) ? heights_m_[track.id] : 1.75;
-    const bool is_new = perception.report().status != StepStatus::kSkipped;
-    if (is_new && track.observation != Track::kUnseen) {
-      const int blob = step.blob_of_observation[static_cast<std::size_t>(track.observation)];
-      height_m = std::max(height_m, step.blobs[static_cast<std::size_t>(blob)].max_height_m);
-    }
-    trails_.add(track.id, frame.stamp_s, track.motion.position_m());
-    DrawnTrack drawn;
-    drawn.id = track.id;
-    drawn.position_m = track.motion.position_m();
-    drawn.velocity_mps = track.motion.velocity_mps();
-    drawn.height_m = height_m;
-    drawn.is_target = track.id == step.target.track_id;
-    drawn.is_seen = track.status == TrackStatus::kConfirmed;
-    drawn.confidence = drawn.is_target ? step.target.confidence : 0.0;
-    drawn.trail_m = trails_.of(track.id);
-    scene_.tracks.push_back(std::move(drawn));
-  }
-  heights_m_ = std::move(heights_m);
-  annotate(scene_, {}, picture_);
-}
-
-// Keeps every still_step_-th frame that shows the target; when twice as many are kept as are
-// wanted, every other one is dropped: an even spread at bounded memory.
 void TrackOutput::keepStill() {
   if (states_[toText(TargetStatus::kFollowed)] % still_step_ != 0) return;
   stills_.push_back({frames_, picture_.clone()});

@@ -6,9 +6,8 @@
 #pragma once
 
 #include "apps/follower/perception.hpp"
-#include "apps/report/annotate.hpp"
+#include "apps/heel/drawn_perception.hpp"
 #include "apps/report/result_files.hpp"
-#include "apps/report/trails.hpp"
 #include "apps/report/video_writer.hpp"
 
 #include <Eigen/Geometry>
@@ -54,7 +53,6 @@ class TrackOutput {
 
  private:
   void addRows(const Frame& frame, const Perception& perception, const PerceptionStep& step);
-  void draw(const Frame& frame, const Perception& perception, const PerceptionStep& step);
   void keepStill();
 
   std::filesystem::path folder_;
@@ -64,9 +62,7 @@ class TrackOutput {
   ResultFiles files_;
   std::optional<FilmWriter> film_;
   cv::Mat picture_;
-  DrawnFrame scene_;
-  Trails trails_;
-  std::map<int, double> heights_m_;  // of tracks that are alive
+  DrawnPerception drawn_;
   struct Still {
     std::size_t frame;
     cv::Mat picture;

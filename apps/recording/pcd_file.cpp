@@ -65,6 +65,12 @@ PcdHeader readHeader(const fs::path& file) {
   const auto has = [&](const char* field) { return pcl::getFieldIndex(header.layout, field) >= 0; };
   if (header.layout.fields.empty()) fail(file, "this is not a PCD file");
   if (!has("x") || !has("y") || !has("z")) fail(file, "the cloud has no fields x, y and z");
+  for (const char* axis : {"x", "y", "z"}) {
+    const auto field = static_cast<std::size_t>(pcl::getFieldIndex(header.layout, axis));
+    if (header.layout.fields[field].datatype != pcl::PCLPointField::FLOAT32) {
+      fail(file, std::string("the field ") + axis + " does not hold 32-bit floats");
+    }
+  }
   if (!has("rgb") && !has("rgba")) {
     fail(file, "the cloud has no colour (no field rgb or rgba)");
   }

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -199,6 +200,19 @@ struct FloorBounds {
   Eigen::Vector2d high;
 };
 FloorBounds floorBounds(const Scene& scene);
+
+/// Furniture that scenes can place: parts in the model's own frame, front along +x.
+using FurnitureModels = std::map<std::string, std::vector<FurniturePart>>;
+
+/// @throws std::runtime_error  as loadScene().
+FurnitureModels loadFurnitureModels(const std::string& file);
+
+/// A model's piece in the world.
+/// @param tint  Colour of its cushions and covers; absent: the model's own.
+/// @throws std::out_of_range  if there is no such model.
+Furniture placeFurniture(const FurnitureModels& models, const std::string& model,
+                         const Eigen::Vector3d& at, double yaw_rad,
+                         const std::optional<Rgb>& tint = std::nullopt);
 
 /// Reads a scene. Every key has a default but names, places and sizes.
 /// @throws std::runtime_error  one sentence with file, line and key: unknown key, wrong type or

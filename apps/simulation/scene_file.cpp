@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <set>
 
 namespace heel {
@@ -86,20 +85,6 @@ FurniturePart readPart(YamlMap& map) {
   return part;
 }
 
-using Models = std::map<std::string, std::vector<FurniturePart>>;
-
-Models readModels(const std::string& file) {
-  Models models;
-  YamlMap map = YamlMap::fromFile(file, "file of furniture models");
-  for (const std::string& name : map.keys()) {
-    for (YamlMap& entry : map.list(name, "part of " + name)) {
-      models[name].push_back(readPart(entry));
-      entry.done();
-    }
-  }
-  return models;
-}
-
 /// Brings a part from its model's frame to the world.
 FurniturePart placed(FurniturePart part, const Eigen::Vector3d& at, double yaw_rad) {
   const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
@@ -109,27 +94,25 @@ FurniturePart placed(FurniturePart part, const Eigen::Vector3d& at, double yaw_r
   return part;
 }
 
-Furniture readFurniture(YamlMap& map, const Models& models) {
+Furniture readFurniture(YamlMap& map, const FurnitureModels& models) {
   Furniture piece;
-  piece.in_map = map.flag("in_map", true);
   if (!map.has("model")) {
     piece.parts.push_back(readPart(map));
     piece.name = map.text("name", "furniture");
-    map.done();
-    return piece;
+  } else {
+    const std::string model = map.text("model");
+    if (models.count(model) == 0) {
+      map.fail("model", "is '" + model + "', which 'models' doesn't have");
+    }
+    const std::string name = map.text("name", model);
+    const Eigen::Vector3d at = map.point3("at");
+    const double yaw_rad = map.number("yaw_deg", 0.0) * kRadians;
+    std::optional<Rgb> tint;
+    if (map.has("color")) tint = readColor(map, "color", Rgb::Zero());
+    piece = placeFurniture(models, model, at, yaw_rad, tint);
+    piece.name = name;
   }
-  const std::string model = map.text("model");
-  const auto found = models.find(model);
-  if (found == models.end()) map.fail("model", "is '" + model + "', which 'models' doesn't have");
-  piece.name = map.text("name", model);
-  const Eigen::Vector3d at = map.point3("at");
-  const double yaw_rad = map.number("yaw_deg", 0.0) * kRadians;
-  const Rgb tint = readColor(map, "color", Rgb(-1.0F, 0.0F, 0.0F));
-  for (FurniturePart part : found->second) {
-    // A piece's own colour is for its cushions and covers, not for its wooden legs.
-    if (tint.x() >= 0.0F && part.surface.material == "fabric") part.surface.color = tint;
-    piece.parts.push_back(placed(part, at, yaw_rad));
-  }
+  piece.in_map = map.flag("in_map", true);
   map.done();
   return piece;
 }
@@ -165,6 +148,31 @@ void readPeople(YamlMap& map, Scene& scene) {
 
 }  // namespace
 
+FurnitureModels loadFurnitureModels(const std::string& file) {
+  FurnitureModels models;
+  YamlMap map = YamlMap::fromFile(file, "file of furniture models");
+  for (const std::string& name : map.keys()) {
+    for (YamlMap& entry : map.list(name, "part of " + name)) {
+      models[name].push_back(readPart(entry));
+      entry.done();
+    }
+  }
+  return models;
+}
+
+Furniture placeFurniture(const FurnitureModels& models, const std::string& model,
+                         const Eigen::Vector3d& at, double yaw_rad,
+                         const std::optional<Rgb>& tint) {
+  Furniture piece;
+  piece.name = model;
+  for (FurniturePart part : models.at(model)) {
+    // A piece's own colour is for its cushions and covers, not for its wooden legs.
+    if (tint && part.surface.material == "fabric") part.surface.color = *tint;
+    piece.parts.push_back(placed(part, at, yaw_rad));
+  }
+  return piece;
+}
+
 Scene loadScene(const std::string& file) {
   YamlMap map = YamlMap::fromFile(file, "scene");
   Scene scene;
@@ -186,9 +194,10 @@ Scene loadScene(const std::string& file) {
     entry.done();
     scene.floor_areas.push_back(area);
   }
-  Models models;
+  FurnitureModels models;
   if (map.has("models")) {
-    models = readModels((std::filesystem::path(file).parent_path() / map.text("models")).string());
+    models = loadFurnitureModels(
+        (std::filesystem::path(file).parent_path() / map.text("models")).string());
   }
   for (YamlMap& entry : map.list("furniture", "piece of furniture")) {
     scene.furniture.push_back(readFurniture(entry, models));

@@ -167,7 +167,7 @@ void Simulator::State::tellTruth() {
   for (std::size_t i = 0; i < walkers.size(); ++i) {
     const Mover mover = walkers[i].mover();
     truth.people[i] = {scene.people[i].name, mover.position, mover.velocity,
-                       walkers[i].pose().yaw_rad};
+                       walkers[i].pose().yaw_rad, walkers[i].done()};
   }
   truth.clearance_m = clearance(robot.pose().position);
 }

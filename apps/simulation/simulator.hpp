@@ -39,6 +39,7 @@ struct PersonTruth {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< World frame, under the hips [m].
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< World frame [m/s].
   double yaw_rad = 0.0;
+  bool is_done = false;  ///< Has walked all of their path.
 };
 
 /// How things truly are.

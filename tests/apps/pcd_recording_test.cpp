@@ -120,6 +120,11 @@ TEST(PcdFile, SaysWhyItIsOfNoUse) {
   EXPECT_EQ(readMessage(file), name + ": the cloud has no colour (no field rgb or rgba)");
   EXPECT_EQ(messageOf([&] { openRecording(file); }), readMessage(file));
 
+  writeText(file,
+            "VERSION .7\nFIELDS x y z rgb\nSIZE 4 8 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH 1\n"
+            "HEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1\nDATA ascii\n1 2 3 4\n");
+  EXPECT_EQ(readMessage(file), name + ": the field y does not hold 32-bit floats");
+
   auto cloud = someCloud<pcl::PointXYZRGB>(4, 3);
   for (auto& p : cloud) p.z = std::numeric_limits<float>::quiet_NaN();
   save(file, cloud, Form::kCompressed);

@@ -111,6 +111,20 @@ TEST(Perception, FindsTheTargetAtItsPlace) {
   }
 }
 
+TEST(Perception, PlacesTheTargetInTheWorldOfARobotThatDrives) {
+  Perception perception = perceptionOf();
+  const Eigen::Vector2d stands(1.0, 4.0);
+  for (int i = 0; i < 6; ++i) {
+    const RobotPlace robot{{{0.03 * i, 1.0}, 1.2 + 0.05 * i}, Eigen::Matrix2d::Zero()};
+    const Eigen::Vector2d seen = robot.pose.inverse() * stands;
+    const auto& step =
+        perception.step(ColoredStage().person(seen.x(), seen.y()).frame(0.1 * i), robot);
+    if (i > 1) expectFollowedAt(step, stands);
+    if (i < 4) continue;
+    EXPECT_LT(step.target.motion.velocity_mps().norm(), 0.3);
+  }
+}
+
 TEST(Perception, LeavesPeopleInOtherColoursAlone) {
   Perception perception = perceptionOf();
   for (int i = 0; i < 4; ++i) {
@@ -128,7 +142,7 @@ TEST(Perception, LeavesPeopleInOtherColoursAlone) {
 
 TEST(Perception, TellsTheStagesInTheirOrder) {
   std::vector<Stage> done;
-  perceptionOf().step(ColoredStage().frame(0.0), [&](Stage stage) { done.push_back(stage); });
+  perceptionOf().step(ColoredStage().frame(0.0), {}, [&](Stage stage) { done.push_back(stage); });
   EXPECT_EQ(done, (std::vector<Stage>{Stage::kColorFilter, Stage::kDepth, Stage::kHeight,
                                       Stage::kPlanView, Stage::kTracking}));
 }

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/experiment/closed_loop.hpp"
+
+#include "apps/simulation/scene_map.hpp"
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+namespace heel {
+namespace {
+
+constexpr int kPerson = 0;  // The scene's first person is the one to follow.
+
+FollowSample sampleOf(const Readings& readings, const FollowStep& step,
+                      const TargetEstimate* target, const ClosedLoopParams& params) {
+  FollowSample sample;
+  sample.stamp_s = readings.stamp_s;
+  sample.robot_true = readings.truth.robot;
+  sample.robot_estimated = step.robot.pose;
+  sample.position_sigma_m = std::sqrt(step.robot.covariance.topLeftCorner<2, 2>().trace() / 2.0);
+  sample.is_localized = !step.robot.lost;
+  sample.command = step.velocity;
+  sample.speed_true = readings.truth.robot_speed;
+  sample.state = step.state();
+  sample.reason = step.reason;
+  sample.target_status = target != nullptr ? toText(target->status) : "";
+  const PersonTruth& person = readings.truth.people[kPerson];
+  sample.person_true = person.position;
+  for (std::size_t i = 1; i < readings.truth.people.size(); ++i) {
+    sample.others_true.push_back(readings.truth.people[i].position);
+  }
+  sample.person_distance_m = (person.position - readings.truth.robot.position).norm();
+  sample.clearance_m = std::max(readings.truth.clearance_m, 0.0);
+  sample.contact = readings.truth.contact;
+  if (step.target && !step.is_learning) {
+    sample.target_estimate = step.target;
+    sample.wrong_person =
+        isWrongPerson(*step.target, sample.person_true, sample.others_true, params.wrong_apart_m);
+  }
+  return sample;
+}
+
+}  // namespace
+
+RobotDescription describeRobot(const Simulator& simulator) {
+  const RobotParams& params = simulator.scene().robot;
+  RobotDescription robot;
+  robot.drive.radius_m = params.radius_m;
+  robot.drive.max_speed_mps = params.max_speed_mps;
+  robot.drive.max_turn_radps = params.max_turn_radps;
+  robot.drive.max_acceleration_mps2 = params.max_acceleration_mps2;
+  robot.drive.max_turn_acceleration_radps2 = params.max_turn_acceleration_radps2;
+  robot.height_m = params.height_m;
+  robot.T_base_scanner.position = params.laser.at.head<2>();
+  robot.scanner_height_m = params.laser.at.z();
+  robot.camera.sensor = SensorKind::kStereo;
+  robot.camera.camera = simulator.camera();
+  robot.camera.T_base_camera = simulator.T_base_camera();
+  robot.camera.is_configured = true;
+  return robot;
+}
+
+FollowLog runClosedLoop(const Scene& scene, const PetriPlan& plan, const ClosedLoopParams& params,
+                        const LoopObserver& observer, const Follower::StageDone& stage_done) {
+  if (scene.people.empty()) throw std::runtime_error(scene.name + ": there is nobody to follow");
+  SimulatorOptions options;
+  options.seed = params.seed;
+  options.threads = params.threads;
+  Simulator simulator(scene, options);
+  RobotDescription robot = describeRobot(simulator);
+  robot.drive.period_s = params.period_s;
+  Follower follower(robot, std::make_shared<WallMap>(wallMapOf(scene)), plan,
+                    FloorPose{scene.robot.start, scene.robot.start_yaw_rad}, params.follower);
+  FaultySensors sensors(params.faults, params.seed);
+
+  FollowLog log;
+  log.scene = scene.name;
+  log.seed = params.seed;
+  log.plan = plan.net.name;
+  log.person = scene.people[kPerson].name;
+  log.map = follower.floor();
+  log.robot_radius_m = robot.drive.radius_m;
+  log.max_speed_mps = robot.drive.max_speed_mps;
+  log.camera_rate_hz = scene.robot.camera.rate_hz;
+  log.outcome = "timeout";
+  double with_person_s = 0.0;
+  VelocityCommand command;
+  for (double dt_s = 0.0;; dt_s = params.period_s) {
+    const Readings& readings = simulator.step(dt_s, command);
+    const FollowStep* step = nullptr;
+    try {
+      step = &follower.step(sensors.read(readings), stage_done);
+    } catch (const NobodyLearned&) {
+      log.outcome = "nobody learned";
+      break;
+    }
+    command = step->velocity;
+    const TargetEstimate* target = follower.perception() ? &follower.target() : nullptr;
+    log.samples.push_back(sampleOf(readings, *step, target, params));
+    const FollowSample& sample = log.samples.back();
+    if (observer) observer(readings, *step, follower, sample);
+
+    const bool with_person = readings.truth.people[kPerson].is_done && sample.target_estimate &&
+                             !sample.wrong_person && sample.person_distance_m < params.reached_m;
+    with_person_s = with_person ? with_person_s + params.period_s : 0.0;
+    if (with_person_s > params.reached_s) {
+      log.outcome = "reached";
+      break;
+    }
+    if (step->outcome == PlanOutcome::kFailed) {
+      log.outcome = "failed";
+      break;
+    }
+    if (readings.stamp_s >= params.limit_s) break;
+  }
+  return log;
+}
+
+}  // namespace heel

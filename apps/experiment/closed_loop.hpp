@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// The robot follows a person through a simulated home: sensors to mind to wheels, and round again.
+#pragma once
+
+#include "apps/experiment/faults.hpp"
+#include "apps/follower/follower.hpp"
+#include "apps/report/follow_log.hpp"
+#include "apps/simulation/simulator.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace heel {
+
+struct ClosedLoopParams {
+  std::uint64_t seed = 1;
+  int threads = 0;             ///< Of the simulator; 0 = as many as the machine has.
+  double limit_s = 300.0;      ///< The run ends here, whatever comes.
+  double period_s = 0.1;       ///< From one command to the next.
+  double reached_m = 1.35;     ///< So near to the person at the end of their way, ...
+  double reached_s = 1.0;      ///< ... for so long, and they are reached.
+  double wrong_apart_m = 0.5;  ///< See isWrongPerson().
+  std::vector<Fault> faults;
+  FollowerParams follower;
+};
+
+/// Told of every step.
+using LoopObserver =
+    std::function<void(const Readings&, const FollowStep&, const Follower&, const FollowSample&)>;
+
+/// What a scene's robot is.
+RobotDescription describeRobot(const Simulator& simulator);
+
+/// The scene's first person enters and is learned and followed, until they have walked all of their
+/// path and the robot is with them ("reached"), the plan fails ("failed"), nobody could be learned
+/// ("nobody learned"), or the time is over ("timeout"). All randomness comes from the seed.
+/// @param plan      A Petri net plan; see loadPlan().
+/// @param observer  May draw and time; it can't change anything.
+FollowLog runClosedLoop(const Scene& scene, const PetriPlan& plan, const ClosedLoopParams& params,
+                        const LoopObserver& observer = {},
+                        const Follower::StageDone& stage_done = {});
+
+}  // namespace heel

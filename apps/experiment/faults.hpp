@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// What can go wrong with a robot's sensors, done to a simulated one.
+#pragma once
+
+#include "apps/follower/robot_readings.hpp"
+#include "apps/simulation/simulator.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace heel {
+
+/// Something that is wrong for a while.
+struct Fault {
+  enum class Kind {
+    kNoCamera,       ///< No images.
+    kNoLaser,        ///< No scans.
+    kWheelsSlip,     ///< The wheels turn a third faster than the robot moves, and to the left.
+    kNoise,          ///< Images of noise.
+    kLightsOut,      ///< Black images.
+    kPairOutOfStep,  ///< The right image is older than the left.
+    kClockJumps,     ///< All stamps are an hour later.
+  };
+  Kind kind = Kind::kNoCamera;
+  double from_s = 0.0;
+  double to_s = 0.0;
+};
+
+/// What a robot with these faults reads. Holds copies of what it changes.
+class FaultySensors {
+ public:
+  explicit FaultySensors(std::vector<Fault> faults, std::uint64_t seed = 1)
+      : faults_(std::move(faults)), seed_(seed) {}
+
+  /// What is read of the simulator's true readings; valid until the next call.
+  const RobotReadings& read(const Readings& readings);
+
+ private:
+  const Fault* active(Fault::Kind kind, double stamp_s) const;
+  void readImages(const Readings& readings);
+  void readOdometry(const Readings& readings);
+
+  std::vector<Fault> faults_;
+  std::uint64_t seed_;
+  RobotReadings result_;
+  Frame frame_;
+  cv::Mat older_right_;
+  std::optional<FloorPose> true_odometry_, odometry_;
+};
+
+}  // namespace heel

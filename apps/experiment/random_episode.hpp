@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// A person to follow through a random home, with others about.
+#pragma once
+
+#include "apps/simulation/scene.hpp"
+
+#include <cstdint>
+#include <filesystem>
+
+namespace heel {
+
+struct RandomEpisodeParams {
+  double empty_s = 5.2;  ///< Nobody is before the robot for so long.
+  int visits = 3;        ///< Rooms that the person goes to.
+  int max_others = 2;    ///< Others who walk about.
+  double camera_rate_hz = 10.0;
+};
+
+/// One home, one person in clothes of their own, who comes before the robot, is looked at for ten
+/// seconds, and then visits rooms at a walking pace of their own, waiting now and then for the
+/// robot to come near, as people do; and up to max_others in other clothes, who walk about.
+/// @param scenes  Folder of the scenes that come with Heel, for the furniture.
+/// @throws std::runtime_error  as loadScene().
+Scene randomEpisode(std::uint64_t seed, const std::filesystem::path& scenes,
+                    const RandomEpisodeParams& params = {});
+
+}  // namespace heel

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// The robot's mind: readings in, a velocity out. The paper's system as one step.
+#pragma once
+
+#include "apps/follower/learn_person.hpp"
+#include "apps/follower/obstacle_points.hpp"
+#include "apps/follower/people_around.hpp"
+#include "apps/follower/perception.hpp"
+#include "apps/follower/robot_readings.hpp"
+#include "apps/follower/sensor_watch.hpp"
+#include "apps/follower/wall_gate.hpp"
+#include "mapping/localization.hpp"
+#include "mapping/obstacle_layer.hpp"
+#include "mapping/wall_map.hpp"
+#include "planning/following_plan.hpp"
+#include "planning/global_planner.hpp"
+#include "planning/goal_chooser.hpp"
+#include "planning/local_planner.hpp"
+#include "planning/search_map.hpp"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace heel {
+
+/// The robot, as far as following needs to know it.
+struct RobotDescription {
+  DriveLimits drive;
+  double height_m = 1.1;
+  FloorPose T_base_scanner;
+  double scanner_height_m = 0.3;
+  CameraSetup camera;
+};
+
+struct FollowerParams {
+  LearnPersonParams learn;
+  PerceptionParams perception;
+  WallGateParams gate;
+  LocalizationParams localization;
+  ObstacleLayerParams obstacles;
+  ObstaclePointsParams obstacle_points;
+  PeopleAroundParams people;
+  SensorWatchParams watch;
+  GlobalPlannerParams paths;
+  LocalPlannerParams drive;
+  GoalChooserParams goal;
+  SearchMapParams search;
+
+  bool use_wall_gate = true;
+  double near_m = 1.0;             ///< The paper's metre: nearer than this the robot stops ...
+  double far_m = 1.2;              ///< ... until the person is further than this.
+  double lost_after_s = 0.5;       ///< Without the target's place for longer, it is lost.
+  double seek_radps = 0.6;         ///< Turn of a seek.
+  double looked_around_rad = 3.5;  ///< So much of a turn has seen what is near.
+  double search_s = 60.0;          ///< Budget of a search.
+  double new_view_s = 3.0;         ///< So often a search thinks again where to look.
+  double lost_turn_radps = 0.4;    ///< Turn of a robot that does not know where it is.
+  double target_radius_m = 0.45;   ///< Readings this near to the target are the target's own.
+  double obstacles_every_s = 0.2;  ///< How often the camera looks for obstacles.
+};
+
+/// The stages of a step, for who times them; kBegin is before the first.
+enum class FollowStage { kBegin, kLocalize, kLookAround, kSee, kDecide, kDrive };
+inline constexpr int kFollowStages = 6;
+const char* toText(FollowStage stage);
+
+/// Phase 1 ended, and there is nobody to follow.
+struct NobodyLearned : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What one step came to. References are to the follower's own memory, valid until the next step.
+struct FollowStep {
+  double stamp_s = 0.0;
+  VelocityCommand velocity;
+  bool is_learning = true;  ///< Phase 1: the robot stands and learns whom to follow.
+  FollowingAction action = FollowingAction::kStop;
+  PlanOutcome outcome = PlanOutcome::kRunning;
+  std::string reason;  ///< Why it does what it does, in a few words.
+
+  LocalizationEstimate robot;
+  const AcquisitionStep* acquisition = nullptr;       ///< Of this step's frame, in phase 1.
+  const PerceptionStep* perception = nullptr;         ///< Of this step's frame, in phase 2.
+  std::optional<Eigen::Vector2d> target;              ///< Where the person is, as far as is known.
+  std::optional<Eigen::Vector2d> goal;                ///< Where the robot wants to stand.
+  const FloorPath* path = nullptr;                    ///< The way there.
+  const std::vector<MovingPerson>* people = nullptr;  ///< Who is to be given way.
+
+  /// The state in a word: "learn", or the plan's action.
+  const char* state() const;
+};
+
+/// Follows one person. Value in, value out; holds the stages' memory. Deterministic.
+class Follower {
+ public:
+  /// Told after each stage, so that the caller, who has the clock, can time them.
+  using StageDone = std::function<void(FollowStage)>;
+
+  /// @param start  Where the robot is at the beginning; absent: found on the map.
+  /// @throws std::invalid_argument  if a parameter is out of its range.
+  Follower(const RobotDescription& robot, std::shared_ptr<const WallMap> walls, PetriPlan plan,
+           const std::optional<FloorPose>& start, const FollowerParams& params = {});
+
+  /// @throws NobodyLearned  if nobody entered in phase 1, or several did together.
+  const FollowStep& step(const RobotReadings& readings, const StageDone& done = {});
+
+  const RobotDescription& robot() const { return robot_; }
+  const ObstacleLayer& obstacles() const { return layer_; }
+  const OccupancyGrid& floor() const { return floor_; }
+  const WallMap& walls() const { return *walls_; }
+  const TargetEstimate& target() const { return target_; }
+  /// Null in phase 1.
+  const Perception* perception() const { return perception_ ? &*perception_ : nullptr; }
+
+ private:
+  void localize(const RobotReadings& readings);
+  void lookAround(const RobotReadings& readings);
+  void learn(const Frame& frame);
+  void see(const Frame& frame);
+  void decide();
+  void checkFacts();
+  void begin(FollowingAction action);
+  void drive();
+  void rememberTheLost();
+  void driveTo(const Eigen::Vector2d& goal);
+  void follow();
+  void goToLastSeen();
+  void seek();
+  void search();
+
+  RobotDescription robot_;
+  FollowerParams params_;
+  std::shared_ptr<const WallMap> walls_;
+  OccupancyGrid floor_;
+
+  SensorWatch watch_;
+  Localization localization_;
+  ObstacleLayer layer_;
+  ObstaclePoints obstacle_points_;
+  PeopleAround people_around_;
+  std::optional<PersonLearner> learner_;
+  std::optional<Perception> perception_;
+  PlanRunner runner_;
+  GlobalPlanner planner_;
+  LocalPlanner local_planner_;
+  GoalChooser goal_chooser_;
+  SearchMap search_;
+  std::vector<DoorwayOnMap> doorways_;
+
+  FollowStep step_;
+  double dt_s_ = 0.0;
+  VelocityCommand speed_;  // by odometry
+  TargetEstimate target_;
+  FollowingFacts facts_;
+  FollowingAction action_ = FollowingAction::kStop;
+  double unseen_s_ = 0.0;  // since the target had a place
+  double obstacles_age_s_ = 0.0;
+  double turned_rad_ = 0.0;  // in the present seek
+  double seek_side_ = 1.0;   // +1: to the left
+  double searched_s_ = 0.0;
+  bool search_is_over_ = false;
+  std::optional<SearchView> view_;  // of the present search
+  double view_age_s_ = 0.0;
+  bool is_there_ = false;     // at the view, and turned to it
+  bool has_arrived_ = false;  // where the last driveTo() went, or as near as can be
+  GlobalPlan plan_;
+  std::vector<MovingPerson> people_;
+  std::vector<MaskedDisc> masked_;
+};
+
+}  // namespace heel

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/follower/obstacle_points.hpp"
+
+#include "apps/follower/depth_images.hpp"
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace heel {
+namespace {
+
+StereoCamera shrunk(const StereoCamera& camera, int width_px) {
+  if (camera.left.width <= width_px) return camera;
+  const double scale = static_cast<double>(width_px) / camera.left.width;
+  StereoCamera small = camera;
+  small.left.width = width_px;
+  small.left.height = static_cast<int>(std::lround(camera.left.height * scale));
+  small.left.fx *= scale;
+  small.left.fy *= scale;
+  // A pixel's middle is at its index, so the image's edge is half a pixel before 0.
+  small.left.cx = (camera.left.cx + 0.5) * scale - 0.5;
+  small.left.cy = (camera.left.cy + 0.5) * scale - 0.5;
+  small.disparity_offset *= scale;
+  return small;
+}
+
+StereoMatcherParams matching(const StereoCamera& camera, double nearest_m) {
+  StereoMatcherParams params;
+  const double most = camera.left.fx * camera.baseline_m / nearest_m - camera.disparity_offset;
+  params.disparities = std::clamp(16 * static_cast<int>(std::ceil(most / 16.0)), 16, 256);
+  params.speckle_size = 30;
+  return params;
+}
+
+}  // namespace
+
+ObstaclePoints::ObstaclePoints(const CameraSetup& setup, const ObstaclePointsParams& params)
+    : sensor_(setup.sensor),
+      camera_(shrunk(setup.camera, params.width_px)),
+      T_base_camera_(setup.T_base_camera.cast<float>()),
+      params_(params),
+      matcher_(matching(camera_, params.nearest_m)) {}
+
+const std::vector<Eigen::Vector3f>& ObstaclePoints::of(const Frame& frame) {
+  const cv::Size size(camera_.left.width, camera_.left.height);
+  switch (sensor_) {
+    case SensorKind::kStereo:
+      cv::resize(frame.image_bgr, left_, size, 0.0, 0.0, cv::INTER_AREA);
+      cv::resize(frame.right_bgr, right_, size, 0.0, 0.0, cv::INTER_AREA);
+      matcher_.match(left_, right_, disparity_);
+      disparityToDepth(disparity_, camera_, depth_m_);
+      break;
+    case SensorKind::kRgbd:
+      cv::resize(frame.depth_m, depth_m_, size, 0.0, 0.0, cv::INTER_NEAREST);
+      break;
+    case SensorKind::kCloud:
+      depthOf(*frame.cloud, left_);
+      cv::resize(left_, depth_m_, size, 0.0, 0.0, cv::INTER_NEAREST);
+      break;
+  }
+  collect();
+  return points_;
+}
+
+void ObstaclePoints::collect() {
+  points_.clear();
+  const PinholeCamera& camera = camera_.left;
+  const Eigen::Vector3f eye = T_base_camera_.translation();
+  const auto low = static_cast<float>(params_.min_height_m);
+  const auto high = static_cast<float>(params_.max_height_m);
+  const auto range = static_cast<float>(params_.max_range_m);
+  for (int v = 0; v < depth_m_.rows; ++v) {
+    const float* depth = depth_m_.ptr<float>(v);
+    for (int u = 0; u < depth_m_.cols; ++u) {
+      if (!(depth[u] > 0.0F)) continue;  // NaN too
+      const Eigen::Vector3f seen(static_cast<float>((u - camera.cx) / camera.fx) * depth[u],
+                                 static_cast<float>((v - camera.cy) / camera.fy) * depth[u],
+                                 depth[u]);
+      const Eigen::Vector3f point = T_base_camera_ * seen;
+      if (point.z() < low || point.z() > high) continue;
+      if ((point - eye).head<2>().norm() > range) continue;
+      points_.push_back(point);
+    }
+  }
+}
+
+}  // namespace heel

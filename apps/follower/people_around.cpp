@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/follower/people_around.hpp"
+
+#include <cmath>
+
+namespace heel {
+
+TrackerParams PeopleAroundParams::defaultTracker() {
+  TrackerParams params;
+  params.position_sigma_m = 0.08;
+  params.log_appearance_sigma = std::numeric_limits<double>::infinity();  // legs look all alike
+  params.max_log_change_unseen = std::numeric_limits<double>::infinity();
+  params.max_coast_s = 0.6;
+  params.birth_clearance_m = 0.3;
+  return params;
+}
+
+PeopleAround::PeopleAround(const PeopleAroundParams& params)
+    : params_(params), tracker_(params.tracker) {}
+
+void PeopleAround::step(double stamp_s, const LaserScan& scan, const FloorPose& T_world_scanner,
+                        const Clearance& clearance) {
+  findThings(scan, T_world_scanner, clearance);
+  tracker_.step(stamp_s, things_);
+  people_.clear();
+  for (const Track& track : tracker_.tracks()) {
+    if (track.status == TrackStatus::kTentative) continue;
+    MovingPerson person{track.motion.position_m(), track.motion.velocity_mps(),
+                        params_.person_radius_m};
+    if (person.velocity.norm() > params_.max_speed_mps) person.velocity.setZero();
+    people_.push_back(person);
+  }
+}
+
+// Runs of neighbouring ends that the map does not show.
+void PeopleAround::findThings(const LaserScan& scan, const FloorPose& T_world_scanner,
+                              const Clearance& clearance) {
+  things_.clear();
+  ends_.clear();
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const double range = static_cast<double>(scan.ranges_m[i]);
+    if (!(range > 0.0 && range < params_.max_range_m)) continue;  // NaN too
+    const double angle = scan.angle(i);
+    const Eigen::Vector2d end =
+        T_world_scanner * Eigen::Vector2d(range * std::cos(angle), range * std::sin(angle));
+    const double off_map_m = clearance(end);
+    if (!(off_map_m > params_.off_map_m)) continue;
+    if (!ends_.empty() && (end - ends_.back()).norm() > params_.max_gap_m) {
+      addThing(ends_);
+      ends_.clear();
+    }
+    ends_.push_back(end);
+  }
+  addThing(ends_);
+}
+
+void PeopleAround::addThing(const std::vector<Eigen::Vector2d>& ends) {
+  if (ends.size() < 2 || (ends.front() - ends.back()).norm() > params_.max_size_m) return;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& end : ends) middle += end;
+  middle /= static_cast<double>(ends.size());
+  const auto score = static_cast<double>(ends.size());
+  for (Observation& other : things_) {
+    if ((other.position_m - middle).norm() > params_.pair_m) continue;
+    other.position_m = (other.score * other.position_m + score * middle) / (other.score + score);
+    other.score += score;
+    return;
+  }
+  Observation thing;
+  thing.position_m = middle;
+  thing.score = score;
+  things_.push_back(thing);
+}
+
+}  // namespace heel

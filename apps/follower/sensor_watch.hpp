@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Whether the robot's senses work: it must not move on stale or senseless readings.
+#pragma once
+
+#include "apps/follower/robot_readings.hpp"
+
+#include <string>
+
+namespace heel {
+
+struct SensorWatchParams {
+  double max_image_age_s = 0.6;  ///< Without a good image for longer the robot stops; so too ...
+  double max_scan_age_s = 0.35;  ///< ... without a scan, ...
+  double max_odometry_age_s = 0.35;  ///< ... or odometry.
+  double max_gap_s = 1.0;            ///< Between two steps; more is a jump in time.
+  double max_pair_gap_s = 0.02;      ///< Between the left and the right image.
+  double min_brightness = 8.0;       ///< Mean of the 256 levels; darker images show nothing.
+  double max_speed_mps = 1.5;        ///< Odometry that runs faster has slipped or been reset.
+  double max_turn_radps = 4.0;
+};
+
+/// Looks at what came in, and when.
+class SensorWatch {
+ public:
+  explicit SensorWatch(const SensorWatchParams& params = {}) : params_(params) {}
+
+  void step(const RobotReadings& readings);
+
+  bool timeJumped() const { return time_jumped_; }
+  bool imageIsGood() const { return image_is_good_; }  ///< There is one, and it can be used.
+  bool odometryIsGood() const { return odometry_is_good_; }
+  /// How far the robot has moved since the last good odometry; nothing if it is not good.
+  const FloorPose& increment() const { return increment_; }
+
+  /// Why the robot must not move; empty if it may.
+  const std::string& blindness() const { return blindness_; }
+
+ private:
+  bool isUsable(const RobotReadings& readings) const;
+
+  SensorWatchParams params_;
+  bool begun_ = false;
+  double stamp_s_ = 0.0;
+  double image_age_s_ = 0.0, scan_age_s_ = 0.0, odometry_age_s_ = 0.0;
+  bool time_jumped_ = false, image_is_good_ = false, odometry_is_good_ = false;
+  std::optional<FloorPose> odometry_;
+  FloorPose increment_;
+  std::string blindness_;
+};
+
+}  // namespace heel

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/experiment/random_episode.hpp"
+#include "apps/heel/commands.hpp"
+#include "apps/heel/follow_output.hpp"
+#include "apps/heel/lap_clock.hpp"
+#include "apps/heel/scene_argument.hpp"
+#include "apps/report/progress_bar.hpp"
+#include "planning/plan_file.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace heel {
+namespace {
+
+struct Options {
+  std::string scene = "home";
+  std::string plan = "search";
+  std::filesystem::path out = "out/follow";
+  ClosedLoopParams loop;
+  bool random = false;
+  bool no_film = false;
+};
+
+Scene sceneOf(const Options& options) {
+  return options.random ? randomEpisode(options.loop.seed, sceneFolder())
+                        : loadScene(sceneFile(options.scene).string());
+}
+
+std::string commandOf(const Options& options) {
+  const std::string what = options.random ? "--random" : options.scene;
+  return "heel follow " + what + " --plan " + options.plan + " --seed " +
+         std::to_string(options.loop.seed);
+}
+
+void print(const FollowSummary& summary, const Options& options, const FollowOutput& output) {
+  std::printf("%s after %.1f s: %.2f m at %.2f m/s (not counting %.1f s of seeking)\n",
+              summary.outcome.c_str(), summary.elapsed_s, summary.distance_m,
+              summary.moving_speed_mps, summary.seek_s);
+  std::printf("  contacts %d, least clearance %.2f m, wrong person %.1f s\n", summary.contacts,
+              summary.min_clearance_m, summary.wrong_person_s);
+  std::printf("results in %s: %s\n", options.out.string().c_str(), output.fileNames().c_str());
+}
+
+void run(Options& options) {
+  const Scene scene = sceneOf(options);
+  const PetriPlan plan = loadPlan(planFile(options.plan), followingVocabulary());
+  FollowOutput output(options.out, !options.no_film);
+  ProgressBar progress("following", static_cast<std::size_t>(options.loop.limit_s));
+  LapClock clock;
+  FollowLog log = runClosedLoop(
+      scene, plan, options.loop,
+      [&](const Readings& readings, const FollowStep& step, const Follower& follower,
+          const FollowSample& sample) {
+        output.add(readings, step, follower, sample);
+        progress.show(static_cast<std::size_t>(readings.stamp_s));
+      },
+      [&](FollowStage stage) {
+        // The time since the last stage; before the first stage the world moved, not the robot.
+        const double ms = clock.lap_ms();
+        if (stage != FollowStage::kBegin) output.addTime(stage, ms);
+      });
+  log.command = commandOf(options);
+  const FollowSummary summary = summarize(log);
+  output.commit(log, summary);
+  print(summary, options, output);
+}
+
+}  // namespace
+
+void addFollow(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb =
+      app.add_subcommand("follow", "Let a simulated robot learn a person and follow them");
+  verb->footer(
+      "Example:\n"
+      "  heel follow home --out out/home\n"
+      "Writes report.html (open it in a browser), the film follow.mp4, summary.json, follow.csv\n"
+      "(one row a step, with the truth) and timing.csv.");
+  verb->add_option("SCENE", options->scene, "a scene's name (home, ...) or its YAML file")
+      ->capture_default_str();
+  verb->add_flag("--random", options->random, "a home, people and ways drawn from the seed");
+  verb->add_option("--plan", options->plan,
+                   "what to do when the person is lost: 'paper', 'search', or a PNML file")
+      ->capture_default_str();
+  verb->add_option("--out", options->out, "folder for the results")->capture_default_str();
+  verb->add_option("--seed", options->loop.seed, "of all noise")->capture_default_str();
+  verb->add_option("--limit", options->loop.limit_s, "the run ends after so long [s]")
+      ->capture_default_str();
+  verb->add_flag("--no-film", options->no_film, "write no film");
+  verb->callback([options] { run(*options); });
+}
+
+}  // namespace heel

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/heel/follow_output.hpp"
+
+#include "apps/report/result_files.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <numeric>
+
+namespace heel {
+namespace {
+
+constexpr double kSnapshotsApart_s = 4.0;
+constexpr std::size_t kMostSnapshots = 12;
+
+StageTime summaryOf(FollowStage stage, std::vector<double> times_ms) {
+  StageTime time{toText(stage), 0.0, 0.0};
+  if (times_ms.empty()) return time;
+  time.mean_ms =
+      std::accumulate(times_ms.begin(), times_ms.end(), 0.0) / static_cast<double>(times_ms.size());
+  const auto rank = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(times_ms.size() - 1));
+  std::nth_element(times_ms.begin(), times_ms.begin() + rank, times_ms.end());
+  time.p95_ms = times_ms[static_cast<std::size_t>(rank)];
+  return time;
+}
+
+Tone toneOf(const FollowStep& step) {
+  if (step.is_learning) return Tone::kNeutral;
+  if (step.target) return Tone::kGood;
+  return step.outcome == PlanOutcome::kFailed ? Tone::kBad : Tone::kWarning;
+}
+
+}  // namespace
+
+FollowOutput::FollowOutput(const std::filesystem::path& folder, bool film)
+    : folder_(folder), film_wanted_(film) {
+  makeResultFolder(folder);
+}
+
+void FollowOutput::addTime(FollowStage stage, double ms) {
+  times_ms_[static_cast<std::size_t>(stage)].push_back(ms);
+}
+
+void FollowOutput::add(const Readings& readings, const FollowStep& step, const Follower& follower,
+                       const FollowSample& sample) {
+  if (readings.stereo == nullptr) return;
+  const bool snapshot = isWorthAPicture(sample);
+  last_state_ = sample.state;
+  if (!film_wanted_ && !snapshot) return;
+  draw(readings, step, follower, sample);
+  if (film_wanted_) film_->write(picture_);
+  if (snapshot) keepSnapshot(sample);
+}
+
+bool FollowOutput::isWorthAPicture(const FollowSample& sample) const {
+  return sample.state != last_state_ &&
+         (snapshots_.empty() || sample.stamp_s > last_snapshot_s_ + kSnapshotsApart_s);
+}
+
+void FollowOutput::draw(const Readings& readings, const FollowStep& step, const Follower& follower,
+                        const FollowSample& sample) {
+  if (!video_) {
+    video_.emplace(follower.floor(), follower.robot().drive.radius_m);
+    drawn_.emplace(follower.robot().camera);
+    const double rate_hz = readings.stamp_s > 0.0 ? 1.0 / readings.stamp_s : 10.0;
+    if (film_wanted_)
+      film_.emplace(folder_ / "follow.mp4", std::min(rate_hz, 10.0), video_->size());
+  }
+  Frame seen;
+  seen.stamp_s = readings.stamp_s;
+  seen.image_bgr = readings.stereo->left_bgr;
+  if (step.perception != nullptr) {
+    frame_.view = drawn_->of(seen, *follower.perception(), *step.perception, step.robot.pose);
+  } else {
+    frame_.view.image_bgr = seen.image_bgr;
+    frame_.view.mask.release();
+    frame_.view.camera = follower.robot().camera.camera.left;
+    frame_.view.stamp_s = readings.stamp_s;
+  }
+  frame_.view.T_floor_camera = basePose(step.robot.pose) * follower.robot().camera.T_base_camera;
+  frame_.view.state = step.state();
+  frame_.view.reason = step.reason;
+  frame_.view.tone = toneOf(step);
+  frame_.robot_true = sample.robot_true;
+  frame_.robot_estimated = sample.robot_estimated;
+  frame_.position_sigma_m = sample.position_sigma_m;
+  frame_.person_true = sample.person_true;
+  frame_.target_estimate = sample.target_estimate;
+  frame_.others_true = sample.others_true;
+  frame_.obstacles = follower.obstacles().obstacles();
+  frame_.obstacle_cell_m = follower.obstacles().window().cell_size_m();
+  frame_.path.clear();
+  if (step.path != nullptr) frame_.path = *step.path;
+  frame_.robot_trail.push_back(sample.robot_true.position);
+  if (sample.person_true) frame_.person_trail.push_back(*sample.person_true);
+  video_->draw(frame_, picture_);
+}
+
+// The states' beginnings; of too many every second one goes.
+void FollowOutput::keepSnapshot(const FollowSample& sample) {
+  last_snapshot_s_ = sample.stamp_s;
+  snapshots_.push_back({sample.stamp_s, sample.state, picture_.clone()});
+  if (snapshots_.size() < 2 * kMostSnapshots) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < snapshots_.size(); i += 2) snapshots_[kept++] = snapshots_[i];
+  snapshots_.resize(kept);
+}
+
+void FollowOutput::commit(FollowLog& log, const FollowSummary& summary) {
+  for (int i = 1; i < kFollowStages; ++i) {  // kBegin takes no time
+    const auto stage = static_cast<std::size_t>(i);
+    log.stages.push_back(summaryOf(static_cast<FollowStage>(i), times_ms_[stage]));
+  }
+  const std::size_t step = 1 + snapshots_.size() / (kMostSnapshots + 1);
+  for (std::size_t i = 0; i < snapshots_.size(); i += step) log.snapshots.push_back(snapshots_[i]);
+  FollowPageParams page;
+  if (film_) {
+    film_->close();
+    page.film = film_->path().filename().string();
+    if (film_->path().extension() != ".mp4") page.film_type = "video/x-msvideo";
+    film_->commit();
+  }
+  writeFollowFiles(folder_, log, summary);
+  writeFollowPage(folder_ / "report.html", log, summary, page);
+}
+
+std::string FollowOutput::fileNames() const {
+  std::string names = "report.html, summary.json, follow.csv, timing.csv";
+  if (film_) names += ", " + film_->path().filename().string();
+  return names;
+}
+
+}  // namespace heel

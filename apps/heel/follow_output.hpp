@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// The result folder of `heel follow`: report, film, tables and summary.
+#pragma once
+
+#include "apps/experiment/closed_loop.hpp"
+#include "apps/heel/drawn_perception.hpp"
+#include "apps/report/follow_page.hpp"
+#include "apps/report/follow_video.hpp"
+#include "apps/report/video_writer.hpp"
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace heel {
+
+/// Watches a run, draws it, and writes it down at its end.
+class FollowOutput {
+ public:
+  /// @param film  Also draw the film.
+  /// @throws std::runtime_error  if the folder can't be made.
+  FollowOutput(const std::filesystem::path& folder, bool film);
+
+  void addTime(FollowStage stage, double ms);
+  void add(const Readings& readings, const FollowStep& step, const Follower& follower,
+           const FollowSample& sample);
+
+  /// Adds the stages' times and the pictures to the log, and writes all files.
+  /// @throws std::runtime_error  if one can't be written.
+  void commit(FollowLog& log, const FollowSummary& summary);
+
+  std::string fileNames() const;
+
+ private:
+  void draw(const Readings& readings, const FollowStep& step, const Follower& follower,
+            const FollowSample& sample);
+  void keepSnapshot(const FollowSample& sample);
+  bool isWorthAPicture(const FollowSample& sample) const;
+
+  std::filesystem::path folder_;
+  bool film_wanted_;
+  std::optional<FollowVideo> video_;
+  std::optional<FilmWriter> film_;
+  std::optional<DrawnPerception> drawn_;
+  FollowVideoFrame frame_;
+  cv::Mat picture_;
+  std::vector<FollowSnapshot> snapshots_;
+  std::string last_state_;
+  double last_snapshot_s_ = 0.0;
+  std::array<std::vector<double>, kFollowStages> times_ms_;
+};
+
+}  // namespace heel

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Scans and odometry of a robot that has driven, one after the other.
+#pragma once
+
+#include "mapping/floor_pose.hpp"
+#include "mapping/laser_scan.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+namespace heel {
+
+/// A scan and what is known of where it was taken.
+struct LaserReading {
+  double stamp_s = 0.0;
+  LaserScan scan;
+  FloorPose odometry;                  ///< Since the log's start, drifting.
+  std::optional<FloorPose> reference;  ///< Truth, or another program's estimate.
+};
+
+/// A log that is read once, from its beginning to its end.
+class LaserLog {
+ public:
+  LaserLog() = default;
+  virtual ~LaserLog() = default;
+  LaserLog(const LaserLog&) = delete;
+  LaserLog& operator=(const LaserLog&) = delete;
+
+  /// Reads the next scan, into memory that is reused; false at the end.
+  virtual bool next(LaserReading& reading) = 0;
+};
+
+/// Opens a folder that was recorded in simulation (see SimulatedLaserLog) or a CARMEN log.
+/// @throws std::runtime_error  one sentence, if it is neither.
+std::unique_ptr<LaserLog> openLaserLog(const std::filesystem::path& path);
+
+}  // namespace heel

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// The map that a robot would have made of a scene.
+#pragma once
+
+#include "apps/simulation/scene.hpp"
+#include "mapping/occupancy_grid.hpp"
+
+namespace heel {
+
+/// Which slice of the world a map shows.
+struct SceneGridParams {
+  double cell_size_m = 0.05;
+  double low_m = 0.0;     ///< Furniture that reaches into these heights is in the map ...
+  double high_m = 1.9;    ///< ... such as the one height of a laser.
+  double margin_m = 0.2;  ///< Around the outer walls.
+};
+
+/// Walls and the furniture that is in the robot's map; a cell is occupied if its middle is in one
+/// of them. Free is only what the robot can reach from its start, the rest is unknown.
+/// @throws std::invalid_argument  if the cell size is not positive.
+OccupancyGrid sceneGrid(const Scene& scene, const SceneGridParams& params = {});
+
+/// What the robot's own laser sees: a map for localization.
+OccupancyGrid laserGrid(const Scene& scene, double cell_size_m = 0.05);
+
+}  // namespace heel

@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mapping/localization.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+/// While lost, each scan tries this share of the poses of a whole search.
+constexpr double kEffortWhileLost = 0.2;
+
+const LocalizationParams& checked(const LocalizationParams& p) {
+  const auto share = [](double value) { return value > 0.0 && value <= 1.0; };
+  if (p.min_particles == 0 || p.max_particles < p.min_particles) {
+    throw std::invalid_argument("Localization: 0 < min_particles <= max_particles must hold");
+  }
+  if (!(p.kld_error > 0.0) || !(p.bin_m > 0.0) || !(p.bin_rad > 0.0) || !(p.cluster_m > 0.0) ||
+      !(p.cluster_rad > 0.0) || !(p.near_m > 0.0)) {
+    throw std::invalid_argument("Localization: errors, bins and radii must be positive");
+  }
+  if (!share(p.evidence) || !share(p.sure_share) || !share(p.fast_rate) || !share(p.slow_rate) ||
+      !(p.injected_share >= 0.0 && p.injected_share < 1.0)) {
+    throw std::invalid_argument("Localization: shares must be above 0 and at most 1");
+  }
+  return p;
+}
+
+}  // namespace
+
+Localization::Localization(const OccupancyGrid& map, const FloorPose& T_base_scanner,
+                           const LocalizationParams& params)
+    : params_(checked(params)),
+      field_(map, params.field),
+      beams_(T_base_scanner, params.scan),
+      search_(map, params.field, params.search),
+      random_(params.seed),
+      bins_(params.bin_m, params.bin_rad, params.max_particles) {
+  particles_.reserve(params.max_particles);
+  drawn_.reserve(params.max_particles);
+  for (auto* values : {&cosine_, &sine_, &log_likelihood_}) values->reserve(params.max_particles);
+  bin_of_.reserve(params.max_particles);
+}
+
+void Localization::startAt(const FloorPose& pose, double place_m, double heading_rad) {
+  particles_.clear();
+  for (std::size_t i = 0; i < params_.max_particles; ++i) particles_.add(pose);
+  shakeParticles(place_m, heading_rad, 0, random_, particles_);
+  particles_.setEqualWeights();
+  pending_.clear();
+  search_everywhere_ = false;
+  news_ = true;
+  unfit_ = false;
+  confirmed_ = params_.confirming_scans;
+  cluster_pose_ = pose;
+  estimate_ = {};
+  estimate_.pose = pose;
+  estimate_.covariance =
+      Eigen::Vector3d(place_m * place_m, place_m * place_m, heading_rad * heading_rad).asDiagonal();
+  estimate_.cluster_share = 1.0;
+  estimate_.lost = false;
+}
+
+void Localization::startAnywhere() {
+  particles_.clear();
+  pending_.clear();
+  search_everywhere_ = true;
+  news_ = true;
+  unfit_ = false;
+  confirmed_ = 0;
+  estimate_ = {};
+}
+
+void Localization::predict(const FloorPose& increment) {
+  if (!increment.position.allFinite() || !std::isfinite(increment.yaw_rad)) return;
+  pending_.add(increment);
+  if (!search_everywhere_) estimate_.pose = cluster_pose_ * pending_.motion();
+}
+
+bool Localization::update(const LaserScan& scan, const std::vector<MaskedDisc>& leave_out) {
+  if (beams_.choose(scan, leave_out).size() == 0) return false;
+  const bool moved =
+      pending_.way_m() >= params_.min_move_m || pending_.turned_rad() >= params_.min_turn_rad;
+  if (!moved && !news_ && !unfit_) {
+    judge();
+    if (!unfit_) return false;
+  }
+  if (search_everywhere_) {
+    search_.find(beams_.ends(), 1.0, params_.max_particles, random_, particles_);
+    particles_.setEqualWeights();
+    search_everywhere_ = false;
+  } else {
+    moveParticles(pending_, params_.motion, random_, particles_);
+  }
+  pending_.clear();
+  weigh();
+  findCluster();
+  judge();
+  resample();
+  news_ = false;
+  return true;
+}
+
+void Localization::weigh() {
+  const std::size_t count = particles_.size();
+  for (auto* values : {&cosine_, &sine_, &log_likelihood_}) values->resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    cosine_[i] = std::cos(particles_.yaw_rad[i]);
+    sine_[i] = std::sin(particles_.yaw_rad[i]);
+  }
+  field_.score(beams_.ends(), count, particles_.x_m.data(), particles_.y_m.data(), cosine_.data(),
+               sine_.data(), log_likelihood_.data());
+  particles_.weigh(log_likelihood_.data(), params_.evidence);
+}
+
+void Localization::findCluster() {
+  bins_.clear();
+  bin_of_.resize(particles_.size());
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    bin_of_[i] = static_cast<std::uint32_t>(bins_.add(particles_.x_m[i], particles_.y_m[i],
+                                                      particles_.yaw_rad[i], particles_.weight[i]));
+  }
+  const std::size_t heaviest = bins_.heaviest();
+  FloorPose mean;
+  // The mean of the heaviest bin, then of all that is near the mean, until it stays.
+  constexpr int kRounds = 4;
+  for (int round = 0; round < kRounds; ++round) {
+    double mass = 0.0;
+    Eigen::Vector2d place = Eigen::Vector2d::Zero(), heading = Eigen::Vector2d::Zero();
+    Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
+    for (std::size_t i = 0; i < particles_.size(); ++i) {
+      const FloorPose p = particles_.pose(i);
+      const Eigen::Vector2d off = p.position - mean.position;
+      const double turn = wrapped(p.yaw_rad - mean.yaw_rad);
+      const bool belongs = round == 0
+                               ? bin_of_[i] == heaviest
+                               : off.squaredNorm() <= params_.cluster_m * params_.cluster_m &&
+                                     std::abs(turn) <= params_.cluster_rad;
+      if (!belongs) continue;
+      const auto w = static_cast<double>(particles_.weight[i]);
+      mass += w;
+      place += w * p.position;
+      heading += w * Eigen::Vector2d(std::cos(p.yaw_rad), std::sin(p.yaw_rad));
+      const Eigen::Vector3d error(off.x(), off.y(), turn);
+      square += w * error * error.transpose();
+    }
+    if (!(mass > 0.0)) break;
+    const FloorPose next{place / mass, std::atan2(heading.y(), heading.x())};
+    const Eigen::Vector3d shift(next.position.x() - mean.position.x(),
+                                next.position.y() - mean.position.y(),
+                                wrapped(next.yaw_rad - mean.yaw_rad));
+    estimate_.covariance = square / mass - shift * shift.transpose();
+    estimate_.cluster_share = std::min(mass, 1.0);
+    mean = next;
+  }
+  const FloorPose change = estimate_.pose.inverse() * mean;
+  const bool elsewhere =
+      change.position.norm() > params_.cluster_m || std::abs(change.yaw_rad) > params_.cluster_rad;
+  // What was thought of another place says nothing about this one.
+  if (elsewhere) estimate_.fit = -1.0;
+  confirmed_ = elsewhere ? 0 : confirmed_ + 1;
+  cluster_pose_ = estimate_.pose = mean;
+}
+
+void Localization::judge() {
+  LocalizationEstimate& e = estimate_;
+  e.residuals =
+      scanResiduals(field_, beams_.ends(), e.pose, beams_.T_base_scanner(), params_.near_m);
+  const double fit = e.residuals.fit();
+  e.fit = e.fit < 0.0 ? fit : e.fit + params_.fast_rate * (fit - e.fit);
+  unfit_ = e.fit < params_.lost_fit || e.fit < params_.lost_drop * e.usual_fit;
+  e.lost = unfit_ || e.cluster_share < params_.sure_share || confirmed_ < params_.confirming_scans;
+  if (!e.lost) e.usual_fit += params_.slow_rate * (fit - e.usual_fit);
+}
+
+void Localization::resample() {
+  const auto size = static_cast<double>(particles_.size());
+  const bool worn = news_ || particles_.effectiveSize() < params_.resample_below * size;
+  if (!worn && !unfit_) return;
+  // How many bins would survive, and with that how many particles it takes.
+  drawn_.clear();
+  drawSystematic(particles_, params_.max_particles, random_, drawn_);
+  bins_.clear();
+  for (std::size_t i = 0; i < drawn_.size(); ++i) {
+    bins_.add(drawn_.x_m[i], drawn_.y_m[i], drawn_.yaw_rad[i], 1.0F);
+  }
+  const std::size_t needed =
+      std::clamp(kldParticles(bins_.count(), params_.kld_error, params_.kld_quantile),
+                 params_.min_particles, params_.max_particles);
+  const auto injected =
+      static_cast<std::size_t>(unfit_ ? params_.injected_share * static_cast<double>(needed) : 0.0);
+  drawn_.clear();
+  drawSystematic(particles_, needed - injected, random_, drawn_);
+  if (injected > 0) {
+    search_.find(beams_.ends(), kEffortWhileLost, injected, random_, drawn_);
+  }
+  drawn_.setEqualWeights();
+  std::swap(particles_, drawn_);
+}
+
+}  // namespace heel

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Where the robot is on its map: Monte Carlo localization with a laser.
+#pragma once
+
+#include "mapping/likelihood_field.hpp"
+#include "mapping/motion_model.hpp"
+#include "mapping/particle_set.hpp"
+#include "mapping/pose_search.hpp"
+#include "mapping/scan_beams.hpp"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <vector>
+
+namespace heel {
+
+/// The defaults suit a robot indoors with a scanner of 180 degrees.
+struct LocalizationParams {
+  LikelihoodFieldParams field;
+  MotionModelParams motion;
+  ScanBeamsParams scan;
+  PoseSearchParams search;
+
+  std::size_t min_particles = 500;
+  std::size_t max_particles = 5000;
+  double kld_error = 0.05;      ///< See kldParticles().
+  double kld_quantile = 2.326;  ///< Of 99 %.
+  double bin_m = 0.2;           ///< Edge of the bins that KLD counts.
+  double bin_rad = 0.175;
+
+  /// Neighbouring beams err together, so 60 of them are worth fewer that do not: log-likelihoods
+  /// are multiplied with this.
+  double evidence = 0.15;
+  double resample_below = 0.5;  ///< Share of particles that are effective.
+  double min_move_m = 0.05;     ///< A scan is weighed after this way ...
+  double min_turn_rad = 0.05;   ///< ... or this turn; the same view twice is no news.
+  double cluster_m = 0.5;       ///< Particles this near to a cluster's mean belong to it ...
+  double cluster_rad = 0.5;     ///< ... if their headings are this near as well.
+  double sure_share = 0.8;      ///< Weight that the largest cluster must have.
+  int confirming_scans = 8;     ///< So many weighed scans must agree with a place found anew.
+  double near_m = 0.2;          ///< An end this near to where the map has it is explained.
+  double lost_fit = 0.65;       ///< Lost where the fit is worse on average (ScanResiduals::fit) ...
+  double lost_drop = 0.75;      ///< ... or has fallen to this share of what was usual.
+  double fast_rate = 0.15;      ///< Weight of a new scan in the fit's short average ...
+  double slow_rate = 0.005;     ///< ... and in what is usual.
+  double injected_share = 0.25;  ///< Of the particles, replaced by searched ones while lost.
+  std::uint64_t seed = 1;
+};
+
+/// Where the robot is, and how far that can be trusted.
+struct LocalizationEstimate {
+  FloorPose pose;  ///< Base frame in the map: the mean of the largest cluster.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< Of x, y, yaw in that cluster.
+  double cluster_share = 0.0;                            ///< Of all weight, that the cluster has.
+  ScanResiduals residuals;                               ///< Of the last scan, at the pose.
+  double fit = 1.0;                                      ///< Short average of the residuals' fit.
+  double usual_fit = 1.0;                                ///< Long average of it.
+  /// The pose should not be used: the scans do not fit to it, or it is one of several, or it was
+  /// found too few weighed scans ago. A robot that stands still does not get out of the last two.
+  bool lost = true;
+};
+
+/// Monte Carlo localization on a likelihood field (Thrun, Burgard, Fox: Probabilistic Robotics,
+/// chapter 8): KLD-adaptive number of particles, systematic resampling when few are effective, and
+/// recovery as in augmented MCL (8.3.5) with two changes: being lost is judged from how the map
+/// explains the scan at the estimate, where a beam that passed through a wall counts more than one
+/// that somebody blocked; and new particles are searched for with the scan, not drawn blindly.
+///
+/// The same calls give the same results. No allocation once warm.
+class Localization {
+ public:
+  /// @param map             Free cells are where the robot may be.
+  /// @param T_base_scanner  The scanner in the robot's base frame.
+  /// @throws std::invalid_argument  if the map has no free cell or a parameter is out of range.
+  explicit Localization(const OccupancyGrid& map, const FloorPose& T_base_scanner = {},
+                        const LocalizationParams& params = {});
+
+  /// Starts again, around a pose that is known up to normal errors of these deviations.
+  void startAt(const FloorPose& pose, double place_m = 0.2, double heading_rad = 0.1);
+  /// Starts again with the next scan, anywhere on the free cells.
+  void startAnywhere();
+
+  /// The odometry says that the robot has moved: its new pose in the frame of the one before. An
+  /// increment that is not finite is passed over.
+  void predict(const FloorPose& increment);
+
+  /// A scan that was taken at the place of the last increment.
+  /// @return whether the scan was weighed: it was not if the robot has hardly moved since the last
+  ///         one, or no beam was usable.
+  bool update(const LaserScan& scan, const std::vector<MaskedDisc>& leave_out = {});
+
+  const LocalizationEstimate& estimate() const { return estimate_; }
+  const ParticleSet& particles() const { return particles_; }
+  const LikelihoodField& field() const { return field_; }
+  const LocalizationParams& params() const { return params_; }
+
+ private:
+  void weigh();
+  void findCluster();
+  void judge();
+  void resample();
+
+  LocalizationParams params_;
+  LikelihoodField field_;
+  ScanBeams beams_;
+  PoseSearch search_;
+  RandomNumbers random_;
+  PoseBins bins_;
+  OdometryMotion pending_;  // Since the particles were moved.
+  FloorPose cluster_pose_;  // Where the estimate was then.
+  ParticleSet particles_;
+  ParticleSet drawn_;  // The other buffer of resampling.
+  std::vector<float> cosine_, sine_, log_likelihood_;
+  std::vector<std::uint32_t> bin_of_;
+  LocalizationEstimate estimate_;
+  bool search_everywhere_ = true;
+  bool news_ = true;    // The particles were started and not weighed yet.
+  int confirmed_ = 0;   // Weighed scans since the cluster's place was found anew.
+  bool unfit_ = false;  // The scans do not fit.
+};
+
+}  // namespace heel

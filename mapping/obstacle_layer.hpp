@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// What stands around the robot now and is not on the map: furniture, people, table tops.
+#pragma once
+
+#include "mapping/distance_transform.hpp"
+#include "mapping/floor_pose.hpp"
+#include "mapping/laser_scan.hpp"
+#include "mapping/occupancy_grid.hpp"
+
+#include <Eigen/Core>
+#include <pcl/types.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace pcl {
+template <typename PointT>
+class PointCloud;
+struct PointXYZRGB;
+}  // namespace pcl
+
+namespace heel {
+
+/// How far the layer sees and how long it remembers. The defaults suit a robot at walking pace
+/// indoors, with a planar laser at 10 Hz and a stereo camera.
+struct ObstacleLayerParams {
+  double size_m = 8.0;        ///< Edge of the window, with the robot in its middle.
+  double cell_size_m = 0.05;  ///< Edge of a cell.
+
+  double min_height_m = 0.06;  ///< Points lower than this are floor.
+  double max_height_m = 1.2;   ///< Points higher than this pass over the robot.
+  double point_range_m = 4.0;  ///< Points further than this from the robot are too uncertain.
+  int min_points = 3;          ///< Points in a cell, in one frame, that make an obstacle.
+  double own_radius_m = 0.15;  ///< Nothing stands so near to the base's origin: the robot does.
+
+  double laser_height_m = 0.3;      ///< Of the laser's plane over the floor.
+  double laser_thickness_m = 0.1;   ///< Points this near to the plane are seen by the laser too.
+  double laser_min_range_m = 0.05;  ///< Shorter ranges are faults.
+  double laser_max_range_m = 8.0;   ///< A beam without an echo has seen free space so far.
+  /// A beam clears as far as its neighbours are no more than this apart; further off, a chair's leg
+  /// fits between two beams, and its absence in a scan says nothing.
+  double clear_spacing_m = 0.05;
+  double clear_after_s = 0.3;  ///< What was seen more recently than this is not cleared.
+
+  /// An obstacle is remembered for `memory_gain` times as long as it was seen, within these limits:
+  /// somebody who walks by leaves a short trail, and a table that the robot drove up to is still
+  /// known when it has left the camera's view.
+  double min_memory_s = 2.0;
+  double max_memory_s = 15.0;
+  double memory_gain = 5.0;
+};
+
+/// A round part of the floor.
+struct FloorDisc {
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();  ///< [m]
+  double radius_m = 0.0;
+};
+
+/// A rolling window of the floor in world axes around the robot, with what the laser and the
+/// camera's points saw there recently.
+///
+/// One frame is `begin`, then any number of scans and points, then `finish`; results are those of
+/// the last `finish`. Cells that stay in the window keep what they hold, bit by bit, when the robot
+/// moves.
+///
+/// The two sources are kept apart. A planar laser passes under table tops and chair seats and over
+/// low boxes, so its free space clears what the laser itself saw, and of what the camera saw only
+/// cells that had points in the laser's plane; all else is only forgotten with age.
+///
+/// Time is what `begin` says, and only its increase counts: a clock that is set back ages nothing,
+/// and one that is set forward forgets. Poses may be in any frame that does not jump; odometry's
+/// keeps obstacles sharper than one that localization corrects.
+///
+/// Nothing is allocated after the construction.
+class ObstacleLayer {
+ public:
+  /// @throws std::invalid_argument  if a parameter is out of range.
+  explicit ObstacleLayer(const ObstacleLayerParams& params = {});
+
+  const ObstacleLayerParams& params() const { return params_; }
+
+  /// Moves the window to the robot.
+  /// @param stamp_s  Of the readings that follow.
+  /// @param target   Where the person is who is followed: readings in there are left out. What was
+  ///                 seen there before stays until it is forgotten.
+  /// @throws std::invalid_argument  if a number is not finite.
+  void begin(double stamp_s, const FloorPose& T_world_base,
+             const std::optional<FloorDisc>& target = std::nullopt);
+
+  /// Each beam clears the cells before its end, and the end is an obstacle. Ranges that are not
+  /// numbers or too short are left out; infinite ones are free up to `laser_max_range_m`.
+  /// @throws std::invalid_argument  if the scan's angles are not finite or the laser is further off
+  ///                                than the window is wide.
+  void addScan(const LaserScan& scan, const FloorPose& T_base_laser);
+
+  /// Points in the base frame; those that are not finite are left out. Points of one frame add up
+  /// in their cells, over all calls.
+  void addPoints(const std::vector<Eigen::Vector3f>& points);
+  void addPoints(const Eigen::Vector3f* points, std::size_t count);
+  /// The same for points of a cloud in the base frame.
+  /// @throws std::invalid_argument  if an index is outside of the cloud.
+  void addPoints(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, const pcl::Indices& indices);
+
+  /// Forgets what is old and renews the results.
+  void finish();
+
+  /// The window: occupied where something was seen and not yet forgotten, else free, as far as
+  /// this layer knows. As large as the window from the start, and free before the first frame.
+  const OccupancyGrid& window() const { return window_; }
+
+  /// Middles of the occupied cells, in the world.
+  const std::vector<Eigen::Vector2d>& obstacles() const { return obstacles_; }
+
+  /// From the middle of the point's cell to the middle of the nearest occupied one [m]; that is at
+  /// most 1.42 cells more than from the point to the cell itself. Infinite without obstacles and
+  /// outside of the window, where nothing is known.
+  double distance(const Eigen::Vector2d& point) const;
+
+  /// Distances of the window's cells [m], row by row.
+  const std::vector<float>& distances_m() const { return distances_m_; }
+
+ private:
+  /// Since when a source has seen something in a cell, and when it last did.
+  struct Trace {
+    double since_s = 0.0;
+    double seen_s = 0.0;
+    bool known = false;
+  };
+  struct Cell {
+    Trace laser;
+    Trace points;
+    bool at_laser_height = false;  // the points
+    bool frame_at_laser_height = false;
+    std::uint16_t frame_points = 0;
+  };
+
+  bool remembered(const Trace& trace) const;
+  void see(Trace& trace) const;
+  bool mayClear(const Trace& trace) const;
+  bool inWindow(const GridCell& world_cell) const;
+  std::size_t slot(const GridCell& world_cell) const;
+  GridCell worldCell(const Eigen::Vector2d& point) const;
+  bool leftOut(const Eigen::Vector2d& point) const;
+  void roll(const GridCell& corner);
+  void forgetUnderRobot();
+  void requireFrame() const;
+  void clearAlong(const Eigen::Vector2d& from, const Eigen::Vector2d& direction, double length_m);
+  void addPoint(const Eigen::Vector3f& point);
+
+  ObstacleLayerParams params_;
+  int cells_per_edge_;
+  std::vector<Cell> cells_;  // a ring in both directions, by world cell modulo the window
+  GridCell corner_;          // world cell of the window's least x and y
+  bool begun_ = false;
+  double clock_s_ = 0.0;  // advances by the positive steps of the stamps
+  std::optional<double> stamp_s_;
+  FloorPose T_world_base_;
+  std::optional<FloorDisc> target_;
+  std::vector<std::size_t> touched_;  // cells with points in this frame
+
+  OccupancyGrid window_;
+  std::vector<Eigen::Vector2d> obstacles_;
+  std::vector<std::uint8_t> occupied_;
+  std::vector<float> distances_m_;
+  DistanceTransform transform_;
+};
+
+}  // namespace heel

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "mapping/scan_beams.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace heel {
+
+ScanBeams::ScanBeams(const FloorPose& T_base_scanner, const ScanBeamsParams& params)
+    : T_base_scanner_(T_base_scanner), params_(params) {
+  if (params.beams == 0) throw std::invalid_argument("ScanBeams: no beams");
+  if (!(params.min_range_m >= 0.0) || !(params.max_range_m > params.min_range_m)) {
+    throw std::invalid_argument("ScanBeams: ranges must be 0 <= min_range_m < max_range_m");
+  }
+  ends_.reserve(params.beams);
+}
+
+const BeamEnds& ScanBeams::choose(const LaserScan& scan, const std::vector<MaskedDisc>& leave_out) {
+  usable_.clear();
+  const Eigen::Rotation2Dd step(scan.step_rad);
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const auto range_m = static_cast<double>(scan.ranges_m[i]);
+    if (!(range_m >= params_.min_range_m && range_m <= params_.max_range_m)) continue;  // Or NaN.
+    const double angle = scan.angle(i);
+    const Eigen::Vector2d end =
+        T_base_scanner_ * Eigen::Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
+    const bool masked = std::any_of(leave_out.begin(), leave_out.end(), [&](const MaskedDisc& d) {
+      return (end - d.center).squaredNorm() <= d.radius_m * d.radius_m;
+    });
+    if (!masked && end.allFinite()) usable_.push_back(end);
+  }
+  ends_.clear();
+  const std::size_t count = std::min(params_.beams, usable_.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    ends_.add(usable_[(2 * i + 1) * usable_.size() / (2 * count)]);
+  }
+  return ends_;
+}
+
+double ScanResiduals::fit() const {
+  return beams == 0 ? 1.0 : explained / (explained + beyond + 0.25 * shorter);
+}
+
+ScanResiduals scanResiduals(const LikelihoodField& field, const BeamEnds& ends,
+                            const FloorPose& pose, const FloorPose& T_base_scanner, double near_m) {
+  const FloorPose scanner = pose * T_base_scanner;
+  int explained = 0, shorter = 0, beyond = 0;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const Eigen::Vector2d end =
+        pose * Eigen::Vector2d(static_cast<double>(ends.x[i]), static_cast<double>(ends.y[i]));
+    const Eigen::Vector2d beam = end - scanner.position;
+    const double range_m = beam.norm();
+    const double map_m =
+        field.castRay(scanner.position, std::atan2(beam.y(), beam.x()), range_m + near_m);
+    if (map_m < range_m - near_m) {
+      ++beyond;
+    } else if (map_m < range_m + near_m || field.distance_m(end) <= near_m) {
+      ++explained;
+    } else {
+      ++shorter;
+    }
+  }
+  const double all = std::max<double>(1.0, static_cast<double>(ends.size()));
+  return {explained / all, shorter / all, beyond / all, static_cast<int>(ends.size())};
+}
+
+}  // namespace heel

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// The beams of a scan that localization looks at, and how well the map explains them.
+#pragma once
+
+#include "mapping/laser_scan.hpp"
+#include "mapping/likelihood_field.hpp"
+
+#include <vector>
+
+namespace heel {
+
+/// Beams that end in here are left out: a person who is tracked, in the robot's base frame.
+struct MaskedDisc {
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();  ///< [m]
+  double radius_m = 0.4;
+};
+
+/// Which beams are used.
+struct ScanBeamsParams {
+  std::size_t beams = 60;     ///< At most so many, spread evenly over those that may be used.
+  double min_range_m = 0.05;  ///< Nearer ends are the robot's own, or dust.
+  double max_range_m = 20.0;  ///< Further ones tell too little of the heading for their errors.
+};
+
+/// Chooses the ends of beams that are finite, in range, and on none of the discs.
+class ScanBeams {
+ public:
+  /// @throws std::invalid_argument  unless there are beams, and 0 <= min_range_m < max_range_m.
+  ScanBeams(const FloorPose& T_base_scanner, const ScanBeamsParams& params);
+
+  const BeamEnds& choose(const LaserScan& scan, const std::vector<MaskedDisc>& leave_out);
+
+  const BeamEnds& ends() const { return ends_; }
+  const FloorPose& T_base_scanner() const { return T_base_scanner_; }
+
+ private:
+  FloorPose T_base_scanner_;
+  ScanBeamsParams params_;
+  std::vector<Eigen::Vector2d> usable_;
+  BeamEnds ends_;
+};
+
+/// What the map says about a scan taken at a pose, as shares of its beams; they add up to 1.
+struct ScanResiduals {
+  double explained = 0.0;  ///< Ended near a mapped surface, or as far off as the map expects.
+  double shorter = 0.0;    ///< Ended before it: something that is not in the map.
+  double beyond = 0.0;     ///< Went through what the map says is solid: no person can cause this.
+  int beams = 0;
+
+  /// How well the scan fits, in [0, 1]. What is in the way of a beam says little against the pose,
+  /// so it counts for a quarter of what a beam that went through a wall does; 1 without beams.
+  double fit() const;
+};
+
+/// @param near_m  How far an end may be from where the map has it.
+ScanResiduals scanResiduals(const LikelihoodField& field, const BeamEnds& ends,
+                            const FloorPose& pose, const FloorPose& T_base_scanner, double near_m);
+
+}  // namespace heel

@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "planning/doorways.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kDirections = 16;  // Over half a turn.
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+class DoorwaySearch {
+ public:
+  DoorwaySearch(const OccupancyGrid& map, const DoorwayParams& params)
+      : map_(map), params_(params), seen_(map.cells().size(), 0) {}
+
+  std::vector<DoorwayOnMap> run() {
+    std::vector<DoorwayOnMap> places = narrowPlaces();
+    std::stable_sort(places.begin(), places.end(),
+                     [](const auto& a, const auto& b) { return a.width_m < b.width_m; });
+    std::vector<DoorwayOnMap> out;
+    std::vector<char> used(places.size(), 0);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (used[i] != 0) continue;
+      const DoorwayOnMap merged = merge(places, used, i);
+      if (joinsRooms(merged)) out.push_back(merged);
+    }
+    return out;
+  }
+
+ private:
+  bool isFree(const Vector2d& p) const { return map_.at(p) == Occupancy::kFree; }
+
+  /// Free way from `p` along a unit vector, up to `most`.
+  double freeWay(const Vector2d& p, const Vector2d& along, double most) const {
+    const double step = 0.5 * map_.cell_size_m();
+    double way = 0.0;
+    while (way < most && isFree(p + (way + step) * along)) way += step;
+    return way;
+  }
+
+  /// Whether the way across gets to be `more` wider within `within` metres.
+  bool widens(const Vector2d& p, const Vector2d& along, const Vector2d& across, double width,
+              double more, double within) const {
+    const double reach = freeWay(p, along, within);
+    for (double t = map_.cell_size_m(); t <= reach; t += map_.cell_size_m()) {
+      const Vector2d there = p + t * along;
+      const double most = width + more;
+      if (freeWay(there, across, most) + freeWay(there, -across, most) >= most) return true;
+    }
+    return false;
+  }
+
+  std::vector<DoorwayOnMap> narrowPlaces() const {
+    std::vector<DoorwayOnMap> out;
+    const double cell = map_.cell_size_m();
+    for (int y = 0; y < map_.height(); ++y) {
+      for (int x = 0; x < map_.width(); ++x) {
+        if (map_.at(GridCell{x, y}) != Occupancy::kFree) continue;
+        const Vector2d p = map_.center({x, y});
+        double least = kFar;
+        DoorwayOnMap place;
+        for (int i = 0; i < kDirections; ++i) {
+          const double angle = kPi * i / kDirections;
+          const Vector2d across(std::cos(angle), std::sin(angle));
+          const double a = freeWay(p, across, params_.max_width_m);
+          if (a >= params_.max_width_m) continue;
+          const double b = freeWay(p, -across, params_.max_width_m);
+          const double width = a + b;
+          if (width >= least) continue;
+          least = width;
+          place = {p + 0.5 * (a - b) * across, Vector2d(across.y(), -across.x()), width};
+          // Only the middle of a gap stands for it.
+          if (std::abs(a - b) > 2.0 * cell) place.width_m = kFar;
+        }
+        if (!(least >= params_.min_width_m && place.width_m <= params_.max_width_m)) continue;
+        const Vector2d across(-place.through.y(), place.through.x());
+        const double depth = 0.4;  // Both sides can be walked.
+        if (freeWay(place.center, place.through, depth) < depth ||
+            freeWay(place.center, -place.through, depth) < depth) {
+          continue;
+        }
+        // A doorway is short: it ends on both sides, and at least one of them is a room.
+        const double edge = 0.9 * cell;
+        const auto ends = [&](const Vector2d& along) {
+          return widens(place.center, along, across, least, edge, params_.depth_m);
+        };
+        const auto opens = [&](const Vector2d& along) {
+          return widens(place.center, along, across, least, params_.widens_m, params_.within_m);
+        };
+        if (ends(place.through) && ends(-place.through) &&
+            (opens(place.through) || opens(-place.through))) {
+          out.push_back(place);
+        }
+      }
+    }
+    return out;
+  }
+
+  /// The middle of all places near the `first` that are about as narrow.
+  DoorwayOnMap merge(const std::vector<DoorwayOnMap>& places, std::vector<char>& used,
+                     std::size_t first) const {
+    DoorwayOnMap out = places[first];
+    Vector2d sum = Vector2d::Zero();
+    int count = 0;
+    for (std::size_t i = first; i < places.size(); ++i) {
+      if ((places[i].center - places[first].center).norm() > params_.apart_m) continue;
+      used[i] = 1;
+      const bool alike = std::abs(places[i].through.dot(out.through)) > 0.98 &&
+                         places[i].width_m < out.width_m + 1.1 * map_.cell_size_m();
+      if (!alike) continue;
+      sum += places[i].center;
+      ++count;
+    }
+    out.center = sum / count;
+    return out;
+  }
+
+  bool isShut(const DoorwayOnMap& door, const Vector2d& p) const {
+    const Vector2d local = door.local(p);
+    return std::abs(local.x()) <= 1.1 * map_.cell_size_m() &&
+           std::abs(local.y()) <= 0.5 * door.width_m + 2.0 * map_.cell_size_m();
+  }
+
+  /// Whether no short way leads from one side to the other, and each side leads to a room.
+  bool joinsRooms(const DoorwayOnMap& door) {
+    const Vector2d off = 0.3 * door.through;
+    double area = 0.0;
+    if (flood(door, door.center + off, door.center - off, area)) return false;
+    if (area < params_.room_m2) return false;
+    if (flood(door, door.center - off, door.center + off, area)) return false;
+    return area >= params_.room_m2;
+  }
+
+  /// Floods from `from` as far as the detour; true if it gets to `to`.
+  bool flood(const DoorwayOnMap& door, const Vector2d& from, const Vector2d& to, double& area) {
+    ++round_;
+    const GridCell goal = map_.cellAt(to);
+    front_.assign(1, map_.cellAt(from));
+    std::size_t count = 0;
+    if (!map_.contains(front_.front()) || !map_.contains(goal)) return true;
+    seen_[map_.index(front_.front())] = round_;
+    const int most = static_cast<int>(params_.detour_m / map_.cell_size_m());
+    for (int step = 0; step < most && !front_.empty(); ++step) {
+      next_.clear();
+      for (const GridCell& c : front_) {
+        ++count;
+        for (const GridCell& n : {GridCell{c.x + 1, c.y}, GridCell{c.x - 1, c.y},
+                                  GridCell{c.x, c.y + 1}, GridCell{c.x, c.y - 1}}) {
+          if (!map_.contains(n) || map_.at(n) != Occupancy::kFree) continue;
+          if (seen_[map_.index(n)] == round_ || isShut(door, map_.center(n))) continue;
+          if (n == goal) return true;
+          seen_[map_.index(n)] = round_;
+          next_.push_back(n);
+        }
+      }
+      front_.swap(next_);
+    }
+    area = static_cast<double>(count) * map_.cell_size_m() * map_.cell_size_m();
+    return false;
+  }
+
+  const OccupancyGrid& map_;
+  const DoorwayParams& params_;
+  std::vector<int> seen_;  // The round in which a cell was last reached.
+  int round_ = 0;
+  std::vector<GridCell> front_, next_;
+};
+
+}  // namespace
+
+std::vector<DoorwayOnMap> findDoorways(const OccupancyGrid& map, const DoorwayParams& params) {
+  if (map.empty()) throw std::invalid_argument("a map without cells has no doorways");
+  if (!(params.min_width_m > 0.0) || !(params.max_width_m > params.min_width_m) ||
+      !(params.widens_m > 0.0) || !(params.depth_m > 0.0) || !(params.within_m > 0.0) ||
+      !(params.detour_m > 0.0) || !(params.room_m2 >= 0.0) || !(params.apart_m >= 0.0)) {
+    throw std::invalid_argument("the doorways' parameters are out of order");
+  }
+  return DoorwaySearch(map, params).run();
+}
+
+}  // namespace heel

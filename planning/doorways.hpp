@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Finds the narrow places of a map that join one room to another.
+#pragma once
+
+#include "mapping/occupancy_grid.hpp"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace heel {
+
+struct DoorwayParams {
+  double min_width_m = 0.55;
+  double max_width_m = 1.2;
+  double depth_m = 0.35;   ///< From its middle to where the way gets wider, on either side.
+  double widens_m = 0.25;  ///< A side is a room if the way is this much wider there, ...
+  double within_m = 0.9;   ///< ... no further from the doorway than this.
+  double detour_m = 6.0;   ///< With the doorway shut, its sides are further apart than this, ...
+  double room_m2 = 2.0;    ///< ... and each leads to at least this much free floor.
+  double apart_m = 0.6;    ///< Nearer places than this are one doorway.
+};
+
+/// A gap between two rooms.
+struct DoorwayOnMap {
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();    ///< [m, world]
+  Eigen::Vector2d through = Eigen::Vector2d::UnitX();  ///< Unit vector through it, either way.
+  double width_m = 0.0;                                ///< Of the free floor between its sides.
+
+  /// Along `through` and across it, from the centre.
+  Eigen::Vector2d local(const Eigen::Vector2d& point) const {
+    const Eigen::Vector2d off = point - center;
+    return {off.dot(through), through.x() * off.y() - through.y() * off.x()};
+  }
+};
+
+/// The doorways of a map, the narrowest first. A doorway is a place whose free floor is narrow
+/// across for a short stretch, opens to a room on at least one side, and whose two sides are joined
+/// by no short way round it, so that a gap between a table and a wall is none. What is unknown
+/// counts as taken. Widths are good to about two cells.
+/// @throws std::invalid_argument  for an empty grid or parameters out of order.
+std::vector<DoorwayOnMap> findDoorways(const OccupancyGrid& map, const DoorwayParams& params = {});
+
+}  // namespace heel

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// The way to a place on the whole map.
+#pragma once
+
+#include "mapping/occupancy_grid.hpp"
+#include "planning/clearance_map.hpp"
+#include "planning/grid_wave.hpp"
+#include "planning/path.hpp"
+#include "planning/taut_path.hpp"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace heel {
+
+/// How paths are planned.
+struct GlobalPlannerParams {
+  double robot_radius_m = 0.3;
+  double safety_m = 0.01;         ///< Paths keep this much more than the radius away.
+  double comfort_m = 0.2;         ///< More room than this, beyond both, is worth no detour.
+  double crowding = 0.02;         ///< A way without that room counts as longer by up to this share.
+  double goal_tolerance_m = 0.5;  ///< How far from a goal that can't be reached a path may end.
+  double escape_m = 0.6;         ///< How far to look for room when the robot is too near something.
+  double keep_root_m = 0.6;      ///< How far the robot may move before a search begins anew.
+  bool unknown_is_free = false;  ///< Whether paths go where the map knows nothing.
+};
+
+/// What came of planning.
+enum class PlanStatus {
+  kFound,           ///< The path ends at the goal.
+  kFoundNearby,     ///< The goal can't be reached; the path ends at the nearest place that can.
+  kStartOutside,    ///< The start is not on the map.
+  kStartBlocked,    ///< The start is inside something, or shut in by it.
+  kGoalOutside,     ///< The goal is not on the map.
+  kGoalUnreachable  ///< No way to the goal, nor to any place within the tolerance.
+};
+
+/// A short name, for instance "goal_unreachable".
+const char* nameOf(PlanStatus status);
+
+/// A path, or why there is none.
+struct GlobalPlan {
+  PlanStatus status = PlanStatus::kGoalUnreachable;
+  FloorPath path;         ///< From the start to `end`; empty unless found.
+  double length_m = 0.0;  ///< Of the path.
+  Eigen::Vector2d end = Eigen::Vector2d::Zero();
+  /// Length of the first piece if the start is nearer to something than the radius and safety: it
+  /// leads to a place with room, never nearer to anything than the start is. Else 0.
+  double escape_m = 0.0;
+  bool searched_anew = false;  ///< False where the kept search was enough.
+
+  bool found() const { return status == PlanStatus::kFound || status == PlanStatus::kFoundNearby; }
+};
+
+/// Plans any-angle paths for a round robot. A search spreads from the robot over the free cells and
+/// is kept: when the goal moves, it goes on where it stopped; when the robot has moved a little, or
+/// obstacles have come or gone, what still holds of it is used. Its path is then pulled taut, which
+/// undoes the grid's few directions. Every piece of the path is exactly clear.
+///
+/// A passage that is narrower than the robot with its safety by less than a cell more may be
+/// missed: the search stands on cells' middles. No allocation once warm.
+class GlobalPlanner {
+ public:
+  /// @throws std::invalid_argument  if the map is empty or a parameter is out of its range.
+  GlobalPlanner(const OccupancyGrid& map, const GlobalPlannerParams& params);
+  GlobalPlanner(const GlobalPlanner&) = delete;
+  GlobalPlanner& operator=(const GlobalPlanner&) = delete;
+
+  /// Takes these, in place of those before, as blocked besides the map: discs, and the occupied
+  /// cells of a grid, which may be smaller and of another cell size.
+  void setObstacles(const std::vector<BlockedDisc>& discs, const OccupancyGrid* cells = nullptr);
+
+  /// @param start,goal  World [m].
+  /// @throws std::invalid_argument  if a coordinate is not finite.
+  void plan(const Eigen::Vector2d& start, const Eigen::Vector2d& goal, GlobalPlan& plan);
+  GlobalPlan plan(const Eigen::Vector2d& start, const Eigen::Vector2d& goal);
+
+  /// Forgets the kept search; the next plan is made anew.
+  void forget() { has_root_ = false; }
+
+  const ClearanceMap& clearance() const { return map_; }
+  const GlobalPlannerParams& params() const { return params_; }
+
+ private:
+  bool isClear(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
+    return map_.isClear(a, b, radius_m_);
+  }
+  bool beginAt(const Eigen::Vector2d& start);
+  bool canKeepRoot(const Eigen::Vector2d& start) const;
+  bool search(const Eigen::Vector2d& start, const Eigen::Vector2d& goal, GlobalPlan& plan);
+  bool findPath(const Eigen::Vector2d& start, const Eigen::Vector2d& goal, GlobalPlan& plan);
+  bool trace(int cell, const Eigen::Vector2d& start, const Eigen::Vector2d& goal, GlobalPlan& plan);
+  void finish(PlanStatus status, GlobalPlan& plan);
+
+  GlobalPlannerParams params_;
+  double radius_m_;
+  ClearanceMap map_;
+  GridWave wave_;
+  TautPath taut_;
+  bool has_root_ = false;
+  bool mended_ = false;                             ///< Since the kept search began.
+  Eigen::Vector2d root_ = Eigen::Vector2d::Zero();  ///< Where the kept search began.
+  std::vector<WaveSeed> seeds_;
+  std::vector<int> near_goal_, near_start_;
+};
+
+}  // namespace heel

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Where to stand to be with a person: near, in view, and in nobody's way.
+#pragma once
+
+#include "mapping/floor_pose.hpp"
+#include "planning/doorways.hpp"
+#include "planning/surroundings.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace heel {
+
+struct GoalChooserParams {
+  double standoff_m = 1.0;        ///< From the person's middle to the robot's.
+  double least_standoff_m = 0.8;  ///< Never nearer than this.
+  double most_standoff_m = 1.6;   ///< Not further, if there is a place.
+  double radius_m = 0.26;         ///< Of the robot.
+  double margin_m = 0.08;         ///< Room that the robot needs around it.
+  double lead_s = 0.4;            ///< Goes to where the person will be then.
+  double doorway_depth_m = 0.7;   ///< Before and behind a doorway is passage, this far.
+  double keep_m = 0.25;           ///< A new place must be cheaper by what this much way costs.
+  // Costs, per metre where not said otherwise.
+  double way_cost = 1.0;
+  double standoff_cost = 2.5;
+  double doorway_cost = 2.0;  ///< Of standing in the middle of a passage.
+  double narrow_cost = 0.5;   ///< Of having no more room than needed.
+  double ahead_cost = 0.6;    ///< Of standing where the person is walking to.
+  double unseen_cost = 3.0;   ///< Of a place from which the person is not seen.
+};
+
+/// A place to stand, turned to the person.
+struct StandPlace {
+  FloorPose pose;
+  bool in_view = false;     ///< Whether the person is seen from there.
+  bool in_doorway = false;  ///< Whether that is in a passage.
+  double cost = 0.0;
+};
+
+/// Chooses among places on rings about the person; keeps the last choice unless another is clearly
+/// better, so that the goal does not jitter.
+class GoalChooser {
+ public:
+  /// @throws std::invalid_argument  if the distances are out of order.
+  explicit GoalChooser(const GoalChooserParams& params = {});
+
+  /// @param target     Who to be with; nothing if that isn't finite.
+  /// @param clearance  Distance to what stands, without the target.
+  /// @param sees       Line of sight on the map.
+  /// @param way_m      Length of the way from the robot to a place, NaN or infinite if there is
+  ///                   none; the straight line where it isn't given.
+  /// @return  nothing if there is no place with room that can be reached.
+  std::optional<StandPlace> choose(
+      const MovingPerson& target, const FloorPose& robot, Clearance clearance, LineOfSight sees,
+      const std::vector<DoorwayOnMap>& doorways,
+      const FunctionRef<double(const Eigen::Vector2d&)>* way_m = nullptr);
+
+  /// Forgets the last choice.
+  void reset() { last_.reset(); }
+
+  const GoalChooserParams& params() const { return params_; }
+
+ private:
+  GoalChooserParams params_;
+  std::optional<Eigen::Vector2d> last_;
+};
+
+/// How far inside a doorway's passage a point is: 1 in its middle line and plane, 0 outside.
+double inPassage(const DoorwayOnMap& doorway, const Eigen::Vector2d& point, double depth_m,
+                 double radius_m);
+
+}  // namespace heel

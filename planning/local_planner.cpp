@@ -1,0 +1,320 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "planning/local_planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kNoWorse_m = 1e-6;
+constexpr double kComes_mps = 0.15;
+constexpr double kStands_mps = 0.02;
+constexpr double kStands_radps = 0.05;
+
+bool isFinite(const MovingPerson& p) {
+  return p.position.allFinite() && p.velocity.allFinite() && std::isfinite(p.radius_m) &&
+         p.radius_m >= 0.0;
+}
+
+/// The room around the body; none where nobody knows.
+double roomAt(const Clearance& clearance, const Vector2d& point, double radius_m) {
+  const double distance = clearance(point);
+  return std::isnan(distance) ? -kInfinite : distance - radius_m;
+}
+
+}  // namespace
+
+const char* describe(DriveStatus status) {
+  static constexpr std::array<const char*, 5> kTexts = {"moving", "turning", "stopped", "blocked",
+                                                        "arrived"};
+  return kTexts[static_cast<std::size_t>(status)];
+}
+
+const char* describe(DriveReason reason) {
+  static constexpr std::array<const char*, 12> kTexts = {"on the way",
+                                                         "turns to the path",
+                                                         "at the goal",
+                                                         "turns to face the target",
+                                                         "no path",
+                                                         "gives way to a person",
+                                                         "a person is in the way",
+                                                         "an obstacle is in the way",
+                                                         "pose or speed is not finite",
+                                                         "the path is not finite",
+                                                         "a person's motion is not finite",
+                                                         "the room around the robot is not known"};
+  return kTexts[static_cast<std::size_t>(reason)];
+}
+
+LocalPlanner::LocalPlanner(const LocalPlannerParams& params) : params_(params) {
+  checkLimits(params.limits);
+  const double steps = params.horizon_s / params.limits.period_s;
+  if (!(steps >= 5.0) || !(steps <= 1000.0)) {
+    throw std::invalid_argument("a horizon must be 5 to 1000 control periods long");
+  }
+  for (const double value :
+       {params.margin_m, params.people_margin_m, params.slow_gap_m, params.slow_people_gap_m,
+        params.least_speed_mps, params.give_way_gap_m, params.give_way_s, params.arrive_m,
+        params.depart_m - params.arrive_m, static_cast<double>(params.latency_periods)}) {
+    if (!(value >= 0.0)) throw std::invalid_argument("a local planner's parameter is negative");
+  }
+  futures_.steps = static_cast<std::size_t>(std::lround(steps));
+  gaps_m_.resize(futures_.steps);
+}
+
+void LocalPlanner::reset() {
+  last_ = {};
+  arrived_ = false;
+  blocked_s_ = 0.0;
+}
+
+LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed,
+                             const std::vector<Vector2d>& path, Clearance clearance,
+                             const std::vector<MovingPerson>& people,
+                             const std::optional<Vector2d>& face) {
+  DriveScene scene{{pose, speed}, last_, &path_, {}, &people, face};
+  if (face && !face->allFinite()) scene.face.reset();
+  LocalPlan plan;
+  if (const auto fault = findFault(scene, path)) {
+    reset();
+    plan.reason = *fault;
+    return plan;
+  }
+  const double radius = params_.limits.radius_m;
+  gap_m_ = roomAt(clearance, pose.position, radius);
+  plan.gap_m = gap_m_;
+  plan.people_gap_m = roomToPeople(people, pose.position, radius, 0.0);
+  if (gap_m_ == -kInfinite) {
+    reset();
+    plan.reason = DriveReason::kNoClearance;
+    return plan;
+  }
+
+  path_.clear();
+  if (!hasArrived(path, pose.position)) {
+    const double reach = params_.limits.max_speed_mps * params_.horizon_s + 0.7;
+    path_.take(path, pose.position, reach);
+    scene.start = path_.locate(pose.position);
+  }
+  const bool threatened = isThreatened(scene, plan.people_gap_m);
+  DriveScores weights = params_.terms.weights;
+  if (threatened) {  // To make room comes before getting on, and before ease.
+    weights[static_cast<std::size_t>(DriveTerm::kProgress)] = 0.0;
+    weights[static_cast<std::size_t>(DriveTerm::kSmooth)] *= 0.1;
+  }
+  layOut(scene, threatened);
+  plan.options = futures_.size();
+
+  double least = kInfinite;
+  for (std::size_t i = 0; i < futures_.size(); ++i) {
+    const Braking braking = brake(scene, futures_.commands[i], clearance);
+    if (!braking.admissible) continue;
+    const std::size_t clear = measure(scene, i, clearance);
+    const DriveOption option{futures_.row(i), gaps_m_.data(), futures_.steps, clear,
+                             futures_.commands[i]};
+    const DriveScores costs = driveCosts(params_.limits, params_.terms, scene, option);
+    const double cost = total(costs, weights);
+    if (!(cost < least)) continue;
+    least = cost;
+    plan.costs = costs;
+    plan.command = slowed(futures_.commands[i], braking);
+  }
+  explain(scene, plan);
+  last_ = plan.command;
+  return plan;
+}
+
+std::optional<DriveReason> LocalPlanner::findFault(const DriveScene& scene,
+                                                   const std::vector<Vector2d>& path) const {
+  const DriveState& now = scene.now;
+  if (!now.pose.position.allFinite() || !std::isfinite(now.pose.yaw_rad) ||
+      !std::isfinite(now.speed.forward_mps) || !std::isfinite(now.speed.turn_radps)) {
+    return DriveReason::kBadPose;
+  }
+  if (!std::all_of(path.begin(), path.end(), [](const Vector2d& p) { return p.allFinite(); })) {
+    return DriveReason::kBadPath;
+  }
+  if (!std::all_of(scene.people->begin(), scene.people->end(), isFinite)) {
+    return DriveReason::kBadPeople;
+  }
+  return std::nullopt;
+}
+
+bool LocalPlanner::hasArrived(const std::vector<Vector2d>& path, const Vector2d& position) {
+  if (path.empty()) {
+    arrived_ = false;
+    return true;  // There is nowhere to go.
+  }
+  const double off = (path.back() - position).norm();
+  arrived_ = off < (arrived_ ? params_.depart_m : params_.arrive_m);
+  return arrived_;
+}
+
+bool LocalPlanner::isThreatened(const DriveScene& scene, double room_m) const {
+  if (room_m < 0.5 * params_.people_margin_m) return true;
+  const double radius = params_.limits.radius_m;
+  for (const MovingPerson& p : *scene.people) {
+    const Vector2d to = scene.now.pose.position - p.position;
+    if (p.velocity.dot(to) <= kComes_mps * to.norm()) continue;
+    const Vector2d way = params_.give_way_s * p.velocity;
+    const double share = std::clamp(to.dot(way) / way.squaredNorm(), 0.0, 1.0);
+    if ((to - share * way).norm() < p.radius_m + radius + params_.give_way_gap_m) return true;
+  }
+  return false;
+}
+
+void LocalPlanner::layOut(const DriveScene& scene, bool threatened) {
+  const DriveLimits& limits = params_.limits;
+  futures_.clear();
+  if (path_.empty()) {
+    const double turn = scene.face ? turnToFace(limits, scene.now, *scene.face, params_.facing) : 0;
+    addHeld(limits, scene.now, {0.0, turn}, futures_);
+  } else {
+    for (const double aside : {0.0, -0.2, 0.2, -0.4, 0.4, -0.65, 0.65}) {
+      for (const double share : {1.0, 0.5}) {
+        addPursuit(limits, scene.now, path_,
+                   {share * limits.max_speed_mps, std::max(0.35, 0.7 * std::abs(aside)), aside},
+                   futures_);
+      }
+    }
+    addPursuit(limits, scene.now, path_, {limits.max_speed_mps, 0.2, 0.0}, futures_);
+    addPursuit(limits, scene.now, path_, {0.25 * limits.max_speed_mps, 0.2, 0.0}, futures_);
+    for (const double share : {1.0, 0.6, 0.3}) {
+      for (const double turn : {0.0, -0.2, 0.2, -0.5, 0.5, -1.0, 1.0}) {
+        addHeld(limits, scene.now, {share * limits.max_speed_mps, turn * limits.max_turn_radps},
+                futures_);
+      }
+    }
+    addHeld(limits, scene.now, {0.0, 0.0}, futures_);
+    for (const double turn : {-0.4, 0.4, -1.0, 1.0}) {
+      addHeld(limits, scene.now, {0.0, turn * limits.max_turn_radps}, futures_);
+    }
+  }
+  if (threatened) {
+    for (const double turn : {0.0, -0.3, 0.3, -0.7, 0.7}) {
+      addHeld(limits, scene.now, {-limits.max_reverse_mps, turn * limits.max_turn_radps}, futures_);
+    }
+  }
+
+  // How near people come if the robot stands still, for as long as any braking can last.
+  const double slowest = std::max(std::abs(scene.now.speed.forward_mps), limits.max_speed_mps) /
+                             limits.max_acceleration_mps2 +
+                         std::max(std::abs(scene.now.speed.turn_radps), limits.max_turn_radps) /
+                             limits.max_turn_acceleration_radps2;
+  const auto most = static_cast<std::size_t>(std::ceil(slowest / limits.period_s)) + 3 +
+                    static_cast<std::size_t>(params_.latency_periods);
+  staying_gap_m_.resize(most);
+  for (std::size_t i = 0; i < most; ++i) {
+    staying_gap_m_[i] = roomToWays(*scene.people, scene.now.pose.position, limits.radius_m,
+                                   static_cast<double>(i + 1) * limits.period_s);
+  }
+}
+
+LocalPlanner::Braking LocalPlanner::brake(const DriveScene& scene, const VelocityCommand& command,
+                                          Clearance clearance) const {
+  const DriveLimits& limits = params_.limits;
+  const std::size_t held = 1 + static_cast<std::size_t>(params_.latency_periods);
+  Braking out{kInfinite, kInfinite, false};
+  DriveState state = scene.now;
+  std::size_t step = 0;
+  const auto rolls = [&] {
+    return std::abs(state.speed.forward_mps) > 1e-9 || std::abs(state.speed.turn_radps) > 1e-9;
+  };
+  for (; step < staying_gap_m_.size() && (step < held || rolls()); ++step) {
+    state = driven(limits, state, step < held ? command : VelocityCommand{}, limits.period_s);
+    const double way = (state.pose.position - scene.now.pose.position).norm();
+    // The room shrinks by no more than the way gone; look only where that doesn't settle it.
+    const bool far = gap_m_ - way > std::max(params_.slow_gap_m, params_.margin_m);
+    out.gap_m = std::min(
+        out.gap_m, far ? gap_m_ - way : roomAt(clearance, state.pose.position, limits.radius_m));
+    out.people_gap_m =
+        std::min(out.people_gap_m, roomToWays(*scene.people, state.pose.position, limits.radius_m,
+                                              static_cast<double>(step + 1) * limits.period_s));
+  }
+  const double staying = staying_gap_m_[step - 1];
+  out.admissible =
+      (out.gap_m >= params_.margin_m || out.gap_m >= gap_m_ - kNoWorse_m) &&
+      (out.people_gap_m >= params_.people_margin_m || out.people_gap_m >= staying - kNoWorse_m);
+  return out;
+}
+
+std::size_t LocalPlanner::measure(const DriveScene& scene, std::size_t option,
+                                  Clearance clearance) {
+  const FloorPose* poses = futures_.row(option);
+  const double radius = params_.limits.radius_m;
+  std::size_t clear = futures_.steps;
+  double known = gap_m_;
+  Vector2d there = scene.now.pose.position;
+  for (std::size_t i = 0; i < futures_.steps; ++i) {
+    const double moved = (poses[i].position - there).norm();
+    double gap = known - moved;
+    if (gap < params_.terms.comfort_m && moved > 0.0) {
+      gap = known = roomAt(clearance, poses[i].position, radius);
+      there = poses[i].position;
+    }
+    gaps_m_[i] = gap;
+    const double t = params_.limits.period_s * static_cast<double>(i + 1);
+    const bool touches =
+        gap < 0.0 || (t <= params_.terms.foresight_s &&
+                      roomToPeople(*scene.people, poses[i].position, radius, t) < 0.05);
+    if (touches && clear == futures_.steps) clear = i;
+  }
+  return clear;
+}
+
+VelocityCommand LocalPlanner::slowed(const VelocityCommand& command, const Braking& braking) const {
+  const double most = params_.limits.max_speed_mps;
+  const auto limit = [&](double gap, double from, double full) {
+    const double share = full > from ? std::clamp((gap - from) / (full - from), 0.0, 1.0) : 1.0;
+    return params_.least_speed_mps + share * (most - params_.least_speed_mps);
+  };
+  const double allowed =
+      std::min(limit(braking.gap_m, 0.0, params_.slow_gap_m),
+               limit(braking.people_gap_m, params_.people_margin_m, params_.slow_people_gap_m));
+  if (std::abs(command.forward_mps) <= allowed) return command;
+  const double share = allowed / std::abs(command.forward_mps);  // Along the same arc.
+  return {share * command.forward_mps, share * command.turn_radps};
+}
+
+void LocalPlanner::explain(const DriveScene& scene, LocalPlan& plan) {
+  const VelocityCommand& c = plan.command;
+  const bool has_way = !path_.empty();
+  const bool drives = std::abs(c.forward_mps) > kStands_mps;
+  const bool turns = std::abs(c.turn_radps) > kStands_radps;
+  if (c.forward_mps < 0.0) {
+    plan.status = DriveStatus::kMoving;
+    plan.reason = DriveReason::kGivesWay;
+  } else if (drives) {
+    plan.status = DriveStatus::kMoving;
+    plan.reason = DriveReason::kOnTheWay;
+  } else if (!has_way) {
+    plan.status =
+        arrived_ ? DriveStatus::kArrived : (turns ? DriveStatus::kTurning : DriveStatus::kStopped);
+    plan.reason =
+        turns ? DriveReason::kFaces : (arrived_ ? DriveReason::kAtGoal : DriveReason::kNoPath);
+  } else if (turns) {
+    plan.status = DriveStatus::kTurning;
+    plan.reason = DriveReason::kTurnsToPath;
+  } else {
+    plan.status = DriveStatus::kBlocked;
+    // Whether it is people who are in the way: would the room to them be too little soon?
+    const double soon = roomToWays(*scene.people, scene.now.pose.position, params_.limits.radius_m,
+                                   params_.terms.foresight_s);
+    plan.reason = soon < 2.0 * params_.terms.people_comfort_m ? DriveReason::kPersonInWay
+                                                              : DriveReason::kObstacleInWay;
+  }
+  const bool waits = has_way && !drives;
+  const bool turning_to_way = plan.status == DriveStatus::kTurning && plan.costs[0] < 0.9;
+  blocked_s_ = waits && !turning_to_way ? blocked_s_ + params_.limits.period_s : 0.0;
+  plan.blocked_s = blocked_s_;
+}
+
+}  // namespace heel

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Obstacle avoidance: the next command towards the goal that touches nothing.
+#pragma once
+
+#include "planning/drive_terms.hpp"
+#include "planning/facing.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace heel {
+
+struct LocalPlannerParams {
+  DriveLimits limits;
+  DriveTermParams terms;
+  FacingParams facing;
+  double horizon_s = 4.0;         ///< How far the futures reach.
+  int latency_periods = 1;        ///< How late the brakes may act, besides the period itself.
+  double margin_m = 0.04;         ///< Room that is left to things when the robot has braked.
+  double people_margin_m = 0.1;   ///< The same for people, wherever on their way they are then.
+  double slow_gap_m = 0.08;       ///< With less room than this the speed falls, ...
+  double least_speed_mps = 0.08;  ///< ... down to this where there is none.
+  double slow_people_gap_m = 0.3;
+  double give_way_gap_m = 0.2;  ///< Backs off when a person will be nearer than this, ...
+  double give_way_s = 1.2;      ///< ... this soon.
+  double arrive_m = 0.08;       ///< Nearer than this to the path's end it has arrived, ...
+  double depart_m = 0.2;        ///< ... until the end is further than this.
+};
+
+enum class DriveStatus { kMoving, kTurning, kStopped, kBlocked, kArrived };
+
+/// Why the command is what it is.
+enum class DriveReason {
+  kOnTheWay,
+  kTurnsToPath,
+  kAtGoal,
+  kFaces,
+  kNoPath,
+  kGivesWay,     ///< Backs off before a person.
+  kPersonInWay,  ///< A person comes too near to go on.
+  kObstacleInWay,
+  kBadPose,      ///< Pose or speed isn't finite.
+  kBadPath,      ///< A point of the path isn't finite.
+  kBadPeople,    ///< A person's motion or size isn't finite.
+  kNoClearance,  ///< Nobody knows what is around the robot.
+};
+const char* describe(DriveStatus status);
+const char* describe(DriveReason reason);
+
+/// What to do until the next period, and why.
+struct LocalPlan {
+  VelocityCommand command;
+  DriveStatus status = DriveStatus::kStopped;
+  DriveReason reason = DriveReason::kNoPath;
+  DriveScores costs{};        ///< Of the future that was chosen, without weights.
+  double gap_m = 0.0;         ///< Room to things that stand, now; may be a lower bound.
+  double people_gap_m = 0.0;  ///< Room to the nearest person, now.
+  double blocked_s = 0.0;     ///< For how long there has been a way to go but no going.
+  std::size_t options = 0;    ///< How many futures were looked at.
+};
+
+/// Chooses among futures: the path pursued at several speeds and on either side of it, arcs, turns
+/// on the spot, a stop, and backing off from somebody who comes too near.
+///
+/// A future is admissible if the robot, having held its first command for a period and the latency
+/// and then braked, still has its margins to all that stands and to where people can be by then; or
+/// if it comes no nearer than it would by standing. Of those the cheapest (see `DriveTerm`) is
+/// taken. If there is none it brakes. Same calls, same answers.
+class LocalPlanner {
+ public:
+  /// @throws std::invalid_argument  if a limit or a parameter is out of range.
+  explicit LocalPlanner(const LocalPlannerParams& params = {});
+
+  /// Decides for one control period.
+  /// @param speed      What the robot does now.
+  /// @param path       From about here to the goal [m, world]; empty if there is nowhere to go.
+  /// @param clearance  Distance to what stands; without the people of `people`. Must not allocate.
+  /// @param face       What to keep in view, and to turn to when there is no way to go.
+  LocalPlan step(const FloorPose& pose, const VelocityCommand& speed,
+                 const std::vector<Eigen::Vector2d>& path, Clearance clearance,
+                 const std::vector<MovingPerson>& people,
+                 const std::optional<Eigen::Vector2d>& face = std::nullopt);
+
+  /// Forgets what went before.
+  void reset();
+
+  const LocalPlannerParams& params() const { return params_; }
+
+ private:
+  /// How a first command, held for a while and then braked, ends.
+  struct Braking {
+    double gap_m;
+    double people_gap_m;
+    bool admissible;
+  };
+
+  std::optional<DriveReason> findFault(const DriveScene& scene,
+                                       const std::vector<Eigen::Vector2d>& path) const;
+  bool hasArrived(const std::vector<Eigen::Vector2d>& path, const Eigen::Vector2d& position);
+  /// Whether somebody walks at the robot, or stands all but at it.
+  bool isThreatened(const DriveScene& scene, double room_m) const;
+  void layOut(const DriveScene& scene, bool threatened);
+  Braking brake(const DriveScene& scene, const VelocityCommand& command, Clearance clearance) const;
+  std::size_t measure(const DriveScene& scene, std::size_t option, Clearance clearance);
+  VelocityCommand slowed(const VelocityCommand& command, const Braking& braking) const;
+  void explain(const DriveScene& scene, LocalPlan& plan);
+
+  LocalPlannerParams params_;
+  VelocityCommand last_;
+  bool arrived_ = false;
+  double blocked_s_ = 0.0;
+  double gap_m_ = 0.0;
+  PathAhead path_;
+  Trajectories futures_;
+  std::vector<double> gaps_m_;         // Of the future at hand, per step.
+  std::vector<double> staying_gap_m_;  // Least room to people's ways when standing, per step.
+};
+
+}  // namespace heel

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// What the robot must not touch: things that stand, and people who move.
+#pragma once
+
+#include "planning/function_ref.hpp"
+
+#include <Eigen/Core>
+
+namespace heel {
+
+/// Distance from a point of the floor to the nearest thing that stands there [m, world]; NaN where
+/// nobody knows, infinite where there is nothing.
+using Clearance = FunctionRef<double(const Eigen::Vector2d&)>;
+
+/// Whether a point of the floor can be seen from another [world].
+using LineOfSight = FunctionRef<bool(const Eigen::Vector2d& from, const Eigen::Vector2d& to)>;
+
+/// Somebody who may walk, as a disc on the floor.
+struct MovingPerson {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< [m, world]
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< [m/s]
+  double radius_m = 0.25;
+};
+
+}  // namespace heel

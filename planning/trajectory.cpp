@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "planning/trajectory.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+double towards(double from, double to, double most) {
+  return from + std::clamp(to - from, -most, most);
+}
+
+}  // namespace
+
+void checkLimits(const DriveLimits& limits) {
+  for (const double limit :
+       {limits.radius_m, limits.max_speed_mps, limits.max_reverse_mps, limits.max_turn_radps,
+        limits.max_acceleration_mps2, limits.max_turn_acceleration_radps2, limits.period_s}) {
+    if (!(limit > 0.0) || !std::isfinite(limit)) {
+      throw std::invalid_argument("a drive's limits must be positive");
+    }
+  }
+}
+
+DriveState driven(const DriveLimits& limits, const DriveState& state, const VelocityCommand& wanted,
+                  double dt_s) {
+  const VelocityCommand then{
+      towards(state.speed.forward_mps, wanted.forward_mps, limits.max_acceleration_mps2 * dt_s),
+      towards(state.speed.turn_radps, wanted.turn_radps,
+              limits.max_turn_acceleration_radps2 * dt_s)};
+  const double way = 0.5 * (state.speed.forward_mps + then.forward_mps) * dt_s;
+  const double turn = 0.5 * (state.speed.turn_radps + then.turn_radps) * dt_s;
+  return {alongArc(state.pose, way, turn), then};
+}
+
+double stoppingDistance(const DriveLimits& limits, double speed_mps, double latency_s) {
+  return speed_mps * latency_s + speed_mps * speed_mps / (2.0 * limits.max_acceleration_mps2);
+}
+
+double speedToStopWithin(const DriveLimits& limits, double way_m) {
+  return std::sqrt(2.0 * limits.max_acceleration_mps2 * std::max(way_m, 0.0));
+}
+
+void addHeld(const DriveLimits& limits, const DriveState& now, const VelocityCommand& command,
+             Trajectories& out) {
+  out.commands.push_back(command);
+  DriveState state = now;
+  for (std::size_t i = 0; i < out.steps; ++i) {
+    state = driven(limits, state, command, limits.period_s);
+    out.poses.push_back(state.pose);
+  }
+}
+
+}  // namespace heel

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// What a differential drive can do, and where a command leads.
+#pragma once
+
+#include "mapping/floor_pose.hpp"
+#include "planning/velocity_command.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace heel {
+
+/// The robot as a disc that drives and turns. The defaults are a Pioneer 3-DX at the paper's speed.
+struct DriveLimits {
+  double radius_m = 0.26;
+  double max_speed_mps = 0.3;
+  double max_reverse_mps = 0.15;  ///< Only to make room for somebody.
+  double max_turn_radps = 1.0;
+  double max_acceleration_mps2 = 0.5;
+  double max_turn_acceleration_radps2 = 2.0;
+  double period_s = 0.1;  ///< From one command to the next.
+};
+
+/// @throws std::invalid_argument  unless every limit is positive and finite.
+void checkLimits(const DriveLimits& limits);
+
+/// Where a robot is and how it moves.
+struct DriveState {
+  FloorPose pose;
+  VelocityCommand speed;
+};
+
+/// `state` after `dt_s` in which the speed goes to `wanted` as fast as the limits allow.
+DriveState driven(const DriveLimits& limits, const DriveState& state, const VelocityCommand& wanted,
+                  double dt_s);
+
+/// The way to a stand from `speed_mps` when the brakes are hit `latency_s` from now [m].
+double stoppingDistance(const DriveLimits& limits, double speed_mps, double latency_s);
+
+/// The greatest speed from which the robot stands after `way_m` [m/s].
+double speedToStopWithin(const DriveLimits& limits, double way_m);
+
+/// Futures of the robot, one row of `steps` poses each, a control period apart; row by row.
+struct Trajectories {
+  std::size_t steps = 0;
+  std::vector<VelocityCommand> commands;  ///< What to do now to begin each.
+  std::vector<FloorPose> poses;           ///< `poses[row * steps + step]`, from one period on.
+
+  std::size_t size() const { return commands.size(); }
+  const FloorPose* row(std::size_t i) const { return poses.data() + i * steps; }
+  void clear() {
+    commands.clear();
+    poses.clear();
+  }
+};
+
+/// Adds the future in which one command is held.
+void addHeld(const DriveLimits& limits, const DriveState& now, const VelocityCommand& command,
+             Trajectories& out);
+
+}  // namespace heel

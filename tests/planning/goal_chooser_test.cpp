@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "planning/goal_chooser.hpp"
+
+#include "tests/support/drive_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace heel {
+namespace {
+
+using Eigen::Vector2d;
+
+const auto kOpen = [](const Vector2d&) { return 10.0; };
+const auto kSees = [](const Vector2d&, const Vector2d&) { return true; };
+const MovingPerson kStanding{{3.0, 0.0}, {0.0, 0.0}, 0.25};
+
+TEST(GoalChooser, StandsAMetreOffOnTheRobotsSideTurnedToThePerson) {
+  GoalChooser chooser;
+  const auto place = chooser.choose(kStanding, {{0, 0}, 0}, kOpen, kSees, {});
+  ASSERT_TRUE(place);
+  EXPECT_NEAR((place->pose.position - Vector2d(2.0, 0.0)).norm(), 0.0, 0.02);
+  EXPECT_NEAR(place->pose.yaw_rad, 0.0, 0.02);
+  EXPECT_TRUE(place->in_view);
+  EXPECT_FALSE(place->in_doorway);
+}
+
+TEST(GoalChooser, StaysWhereItStandsIfThatWillDo) {
+  GoalChooser chooser;
+  const FloorPose robot{{2.05, 0.1}, 0.0};
+  const auto place = chooser.choose(kStanding, robot, kOpen, kSees, {});
+  ASSERT_TRUE(place);
+  EXPECT_LT((place->pose.position - robot.position).norm(), 0.15);
+}
+
+TEST(GoalChooser, DoesNotJitterWithThePersonsPosition) {
+  GoalChooser chooser;
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0.0, 0.03);
+  const auto first = chooser.choose(kStanding, {{0, 0}, 0}, kOpen, kSees, {});
+  for (int i = 0; i < 100; ++i) {
+    MovingPerson person = kStanding;
+    person.position += Vector2d(noise(random), noise(random));
+    const auto place = chooser.choose(person, {{0, 0}, 0}, kOpen, kSees, {});
+    ASSERT_TRUE(place);
+    EXPECT_EQ(place->pose.position, first->pose.position);
+  }
+  MovingPerson gone = kStanding;
+  gone.position.x() += 1.0;
+  EXPECT_GT(chooser.choose(gone, {{0, 0}, 0}, kOpen, kSees, {})->pose.position.x(), 2.5);
+}
+
+TEST(GoalChooser, KeepsOffTheDoorwayThatThePersonWentThrough) {
+  const test::DrawnFloor floor = test::roomWithDoorway(0.9);
+  const auto clearance = [&](const Vector2d& p) { return floor.clearance(p); };
+  const DoorwayOnMap door{{3.0, 2.0}, {1.0, 0.0}, 0.9};
+  const MovingPerson person{{3.9, 2.0}, {0.0, 0.0}, 0.25};
+  GoalChooser chooser;
+  // A metre off on the straight way would be in the doorway.
+  const auto blind = chooser.choose(person, {{1, 2}, 0}, clearance, kSees, {});
+  ASSERT_TRUE(blind);
+  EXPECT_LT(blind->pose.position.x(), 3.2);
+  EXPECT_GT(inPassage(door, blind->pose.position, 0.7, 0.26), 0.5);
+  chooser.reset();
+  const auto place = chooser.choose(person, {{1, 2}, 0}, clearance, kSees, {door});
+  ASSERT_TRUE(place);
+  EXPECT_LT(inPassage(door, place->pose.position, 0.7, 0.26), 0.35);
+  EXPECT_GT((place->pose.position - person.position).norm(), 0.79);
+}
+
+TEST(GoalChooser, PrefersPlacesThatSeeThePerson) {
+  // A screen hides the person from everywhere with y < 0.3.
+  const auto sees = [](const Vector2d& from, const Vector2d&) { return from.y() > 0.3; };
+  GoalChooser chooser;
+  const auto place = chooser.choose(kStanding, {{0, 0}, 0}, kOpen, sees, {});
+  ASSERT_TRUE(place);
+  EXPECT_TRUE(place->in_view);
+  EXPECT_GT(place->pose.position.y(), 0.3);
+}
+
+TEST(GoalChooser, TakesOnlyPlacesWithRoomThatCanBeReached) {
+  GoalChooser chooser;
+  const auto tight = [](const Vector2d& p) { return p.x() < 3.2 ? 0.3 : 1.0; };
+  const auto place = chooser.choose(kStanding, {{0, 0}, 0}, tight, kSees, {});
+  ASSERT_TRUE(place);
+  EXPECT_GE(place->pose.position.x(), 3.2);
+  const auto nan = [](const Vector2d&) { return std::numeric_limits<double>::quiet_NaN(); };
+  EXPECT_FALSE(chooser.choose(kStanding, {{0, 0}, 0}, nan, kSees, {}));
+  const auto nowhere = [](const Vector2d&) { return std::numeric_limits<double>::infinity(); };
+  const FunctionRef<double(const Vector2d&)> way = nowhere;
+  EXPECT_FALSE(chooser.choose(kStanding, {{0, 0}, 0}, kOpen, kSees, {}, &way));
+}
+
+TEST(GoalChooser, StandsBehindSomebodyWhoWalksPast) {
+  GoalChooser chooser;
+  const MovingPerson person{{3.0, 0.0}, {0.0, 1.0}, 0.25};
+  const auto place = chooser.choose(person, {{0, 0.4}, 0}, kOpen, kSees, {});
+  ASSERT_TRUE(place);
+  EXPECT_LE(place->pose.position.y(), 0.45);
+}
+
+TEST(GoalChooser, RefusesBadInput) {
+  GoalChooser chooser;
+  MovingPerson person = kStanding;
+  person.velocity.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(chooser.choose(person, {{0, 0}, 0}, kOpen, kSees, {}));
+  GoalChooserParams params;
+  params.most_standoff_m = 0.5;
+  EXPECT_THROW(GoalChooser{params}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace heel

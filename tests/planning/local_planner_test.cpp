@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "planning/local_planner.hpp"
+
+#include "tests/support/allocation_count.hpp"
+#include "tests/support/drive_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace heel {
+namespace {
+
+using Eigen::Vector2d;
+using test::DrawnFloor;
+using test::DriveLoop;
+using test::LineWalker;
+
+using Path = std::vector<Vector2d>;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+DrawnFloor emptyRoom() {
+  DrawnFloor floor;
+  floor.low = {-5.0, -5.0};
+  floor.high = {5.0, 5.0};
+  return floor;
+}
+
+LineWalker walker(const Vector2d& from, const Vector2d& to) {
+  LineWalker out;
+  out.from = from;
+  out.to = to;
+  out.person.position = from;
+  return out;
+}
+
+bool drive(DriveLoop& loop, const Path& path, double limit_s) {
+  while (loop.time_s() < limit_s) {
+    if (loop.step(path).status == DriveStatus::kArrived) return true;
+  }
+  return false;
+}
+
+TEST(LocalPlanner, DrivesStraightAtFullSpeedAndStopsAtTheGoal) {
+  DriveLoop loop(emptyRoom(), {{0, 0}, 0});
+  ASSERT_TRUE(drive(loop, {{0, 0}, {3, 0}}, 20.0));
+  for (int i = 0; i < 10; ++i) loop.step({{0, 0}, {3, 0}});
+  EXPECT_NEAR(loop.state().pose.position.x(), 3.0, 0.1);
+  EXPECT_NEAR(loop.state().pose.position.y(), 0.0, 0.02);
+  EXPECT_NEAR(loop.state().speed.forward_mps, 0.0, 1e-9);
+  EXPECT_GT(loop.movingSpeed(), 0.26);
+  EXPECT_EQ(loop.turnReversals(), 0);
+}
+
+TEST(LocalPlanner, TurnsOnTheSpotToAPathBehindIt) {
+  DriveLoop loop(emptyRoom(), {{0, 0}, 3.0});
+  EXPECT_EQ(loop.step({{0, 0}, {2, 0}}).status, DriveStatus::kTurning);
+  ASSERT_TRUE(drive(loop, {{0, 0}, {2, 0}}, 15.0));
+  EXPECT_LE(loop.turnReversals(), 1);
+}
+
+TEST(LocalPlanner, PassesDoorwaysAtSpeed) {
+  for (const double width : {0.8, 0.9}) {
+    for (const double y : {0.6, 2.0, 3.4}) {
+      for (const int late : {0, 1}) {
+        const DrawnFloor floor = test::roomWithDoorway(width);
+        const Path path = test::wayOn(floor, {1.0, y}, {5.0, 4.0 - y}, 0.26);
+        DriveLoop loop(floor, {{1.0, y}, 0.0}, {}, late);
+        ASSERT_TRUE(drive(loop, path, 40.0)) << width << " " << y << " " << late;
+        EXPECT_GT(loop.leastGap(), 0.04);
+        EXPECT_GE(loop.movingSpeed(), 0.24) << width << " " << y << " " << late;
+        EXPECT_LE(loop.turnReversals(), 4);
+      }
+    }
+  }
+}
+
+TEST(LocalPlanner, StopsWithinItsStoppingDistanceWhenSomethingAppears) {
+  const Path path = {{0, 0}, {4, 0}};
+  DriveLoop loop(emptyRoom(), {{0, 0}, 0});
+  while (loop.time_s() < 4.0) loop.step(path);
+  const double before = loop.state().pose.position.x(), speed = loop.state().speed.forward_mps;
+  ASSERT_NEAR(speed, 0.3, 0.01);
+  loop.floor.boxes.push_back({{before + 0.26 + 0.12, -4.9}, {before + 1.0, 4.9}});
+  loop.step(path);
+  EXPECT_LE(loop.plan().command.forward_mps, 0.0);
+  for (int i = 0; i < 20; ++i) loop.step(path);
+  EXPECT_LE(loop.state().pose.position.x() - before, stoppingDistance({}, speed, 0.0) + 0.01);
+  EXPECT_GT(loop.leastGap(), 0.0);
+  EXPECT_NEAR(loop.state().speed.forward_mps, 0.0, 1e-9);
+}
+
+TEST(LocalPlanner, SaysThatAWallIsInTheWay) {
+  DrawnFloor floor = emptyRoom();
+  floor.boxes.push_back({{1.0, -4.9}, {1.1, 4.9}});
+  DriveLoop loop(floor, {{0, 0}, 0});
+  for (int i = 0; i < 150; ++i) loop.step({{0, 0}, {4, 0}});
+  EXPECT_EQ(loop.plan().status, DriveStatus::kBlocked);
+  EXPECT_EQ(loop.plan().reason, DriveReason::kObstacleInWay);
+  EXPECT_GT(loop.plan().blocked_s, 2.0);
+  EXPECT_GT(loop.leastGap(), 0.03);
+}
+
+TEST(LocalPlanner, StopsForAWalkerWhoComesHeadOn) {
+  DrawnFloor floor;  // A corridor with no room to pass.
+  floor.low = {-5.0, -0.5};
+  floor.high = {5.0, 0.5};
+  DriveLoop loop(floor, {{0, 0}, 0});
+  loop.walkers = {walker({4.5, 0}, {-4.0, 0})};
+  double greatest = 0.0;
+  bool gave_way = false;
+  while (loop.time_s() < 15.0) {
+    loop.step({{0, 0}, {4, 0}});
+    const double room = loop.plan().people_gap_m;
+    const bool comes = loop.walkers[0].person.velocity.x() < -0.5;
+    if (comes && room < 0.45) greatest = std::max(greatest, loop.state().speed.forward_mps);
+    gave_way = gave_way || loop.plan().reason == DriveReason::kGivesWay;
+  }
+  EXPECT_GT(loop.leastPeopleGap(), 0.05);
+  EXPECT_LT(greatest, 0.1);
+  EXPECT_TRUE(gave_way);
+}
+
+TEST(LocalPlanner, LetsACrossingWalkerPassAndGoesOn) {
+  DriveLoop loop(emptyRoom(), {{-2, 0}, 0});
+  loop.walkers = {walker({0, -3}, {0, 3})};
+  ASSERT_TRUE(drive(loop, {{-2, 0}, {2, 0}}, 40.0));
+  EXPECT_GT(loop.leastPeopleGap(), 0.1);
+}
+
+TEST(LocalPlanner, DrivesAroundSomebodyWhoStands) {
+  DriveLoop loop(emptyRoom(), {{-2, 0}, 0});
+  loop.walkers = {walker({0, 0.1}, {0, 0.1})};
+  ASSERT_TRUE(drive(loop, {{-2, 0}, {2, 0}}, 40.0));
+  EXPECT_GT(loop.leastPeopleGap(), 0.08);
+  EXPECT_LE(loop.turnReversals(), 6);
+}
+
+TEST(LocalPlanner, BacksOffOnlyOntoKnownFreeFloor) {
+  LocalPlanner planner;
+  const std::vector<MovingPerson> people = {{{0.9, 0.0}, {-1.0, 0.0}, 0.25}};
+  const auto open = [](const Vector2d&) { return 2.0; };
+  EXPECT_LT(planner.step({}, {}, {}, open, people).command.forward_mps, 0.0);
+  planner.reset();
+  const auto unknown_behind = [](const Vector2d& p) { return p.x() < -1e-3 ? kNaN : 0.3; };
+  EXPECT_EQ(planner.step({}, {}, {}, unknown_behind, people).command.forward_mps, 0.0);
+}
+
+TEST(LocalPlanner, TurnsToTheFaceWhenThereIsNowhereToGo) {
+  DriveLoop loop(emptyRoom(), {{0, 0}, 0});
+  EXPECT_EQ(loop.step({}, Vector2d(0, 2)).status, DriveStatus::kTurning);
+  for (int i = 0; i < 60; ++i) loop.step({}, Vector2d(0, 2));
+  EXPECT_NEAR(loop.state().pose.yaw_rad, M_PI / 2, 0.1);
+  EXPECT_EQ(loop.plan().status, DriveStatus::kStopped);
+  EXPECT_NEAR(loop.state().pose.position.norm(), 0.0, 1e-9);
+}
+
+TEST(LocalPlanner, StopsAndSaysWhyOnBadInput) {
+  LocalPlanner planner;
+  const auto open = [](const Vector2d&) { return 2.0; };
+  const auto unknown = [](const Vector2d&) { return kNaN; };
+  const Path path = {{0, 0}, {2, 0}};
+  const auto reason = [&](const LocalPlan& plan) {
+    EXPECT_EQ(plan.command.forward_mps, 0.0);
+    EXPECT_EQ(plan.command.turn_radps, 0.0);
+    EXPECT_EQ(plan.status, DriveStatus::kStopped);
+    return plan.reason;
+  };
+  const VelocityCommand fast{0.3, 0.0};
+  EXPECT_EQ(reason(planner.step({}, fast, {}, open, {})), DriveReason::kNoPath);
+  EXPECT_EQ(reason(planner.step({}, fast, {{0, 0}, {kNaN, 0}}, open, {})), DriveReason::kBadPath);
+  EXPECT_EQ(reason(planner.step({{kNaN, 0}, 0}, fast, path, open, {})), DriveReason::kBadPose);
+  EXPECT_EQ(reason(planner.step({}, {kNaN, 0}, path, open, {})), DriveReason::kBadPose);
+  EXPECT_EQ(reason(planner.step({}, fast, path, unknown, {})), DriveReason::kNoClearance);
+  EXPECT_EQ(reason(planner.step({}, fast, path, open, {{{1, 0}, {kNaN, 0}, 0.2}})),
+            DriveReason::kBadPeople);
+  // A face that isn't finite is none; a path of one point is a goal.
+  EXPECT_EQ(planner.step({}, {}, {{2, 0}}, open, {}, Vector2d(kNaN, 0)).reason,
+            DriveReason::kOnTheWay);
+}
+
+TEST(LocalPlanner, RefusesParametersThatMakeNoSense) {
+  LocalPlannerParams params;
+  params.limits.max_speed_mps = 0.0;
+  EXPECT_THROW(LocalPlanner{params}, std::invalid_argument);
+  params = {};
+  params.horizon_s = kNaN;
+  EXPECT_THROW(LocalPlanner{params}, std::invalid_argument);
+  params = {};
+  params.margin_m = -0.1;
+  EXPECT_THROW(LocalPlanner{params}, std::invalid_argument);
+}
+
+TEST(LocalPlanner, AllocatesNothingOnceWarmAndRepeatsItself) {
+  const DrawnFloor floor = test::roomWithDoorway(0.8);
+  const Path path = {{1, 2}, {5, 2}};
+  const std::vector<MovingPerson> people = {{{2.0, 2.5}, {-1.0, 0.0}, 0.25}};
+  const auto clearance = [&](const Vector2d& p) { return floor.clearance(p); };
+  LocalPlanner a, b;
+  for (int i = 0; i < 3; ++i) {
+    a.step({{1, 2}, 0}, {0.2, 0}, path, clearance, people);
+    b.step({{1, 2}, 0}, {0.2, 0}, path, clearance, people);
+  }
+  const long before = test::allocations();
+  const LocalPlan plan = a.step({{1.1, 2}, 0.3}, {0.25, 0.1}, path, clearance, people);
+  EXPECT_EQ(test::allocations(), before);
+  const LocalPlan same = b.step({{1.1, 2}, 0.3}, {0.25, 0.1}, path, clearance, people);
+  EXPECT_EQ(plan.command.forward_mps, same.command.forward_mps);
+  EXPECT_EQ(plan.command.turn_radps, same.command.turn_radps);
+  EXPECT_EQ(plan.costs, same.costs);
+}
+
+}  // namespace
+}  // namespace heel
