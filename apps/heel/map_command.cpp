@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -42,9 +43,10 @@ void run(Options& options) {
     throw std::invalid_argument("--low must be under --high");
   }
   const fs::path source = sourceOf(options.source);
-  ProgressBar progress("mapping", 100);
+  std::optional<ProgressBar> progress;  // Only a recording takes long.
   options.params.progress = [&](double share) {
-    progress.show(static_cast<std::size_t>(100.0 * share));
+    if (!progress) progress.emplace("mapping", 100);
+    progress->show(static_cast<std::size_t>(100.0 * share));
   };
   const SourcedMap made = openMap(source, options.params);
   const OccupancyGrid floor = made.map.floorGrid(options.band);

@@ -31,8 +31,9 @@ INSTANTIATE_TEST_SUITE_P(
     Verbs, Help,
     testing::Values(std::vector<std::string>{}, std::vector<std::string>{"learn"},
                     std::vector<std::string>{"track"}, std::vector<std::string>{"filter"},
-                    std::vector<std::string>{"inspect"}, std::vector<std::string>{"simulate"},
-                    std::vector<std::string>{"evaluate"}, std::vector<std::string>{"experiment"},
+                    std::vector<std::string>{"inspect"}, std::vector<std::string>{"map"},
+                    std::vector<std::string>{"simulate"}, std::vector<std::string>{"evaluate"},
+                    std::vector<std::string>{"experiment"},
                     std::vector<std::string>{"experiment", "detector"},
                     std::vector<std::string>{"experiment", "targets"},
                     std::vector<std::string>{"experiment", "protocol"}));

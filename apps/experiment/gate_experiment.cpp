@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/experiment/gate_experiment.hpp"
+
+#include "apps/experiment/simulated_frames.hpp"
+#include "apps/experiment/simulated_lesson.hpp"
+#include "apps/simulation/random.hpp"
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace heel {
+namespace {
+
+constexpr double kEnters_s = 1.2;  // So long people take into view.
+
+AppearanceModel learn(const ScenePerson& person, std::uint64_t seed,
+                      const GateExperimentParams& params) {
+  SimulatedFramesParams span;
+  span.seed = hashOf(seed, 31);
+  const WardrobeRooms rooms(params.scenes, seed);
+  const Scene scene = rooms.acquisition(person, params.empty_s, span.seed);
+  span.to_s = params.empty_s + kEnters_s + params.person_s;
+  SimulatedFrames recording = renderFrames(scene, span);
+  matchStereo(recording, params.perception.stereo);
+  const SimulatedLesson lesson =
+      takeLesson({&recording}, {{"", params.appearance}}, params.empty_s, params.person_s);
+  auto model = lesson.lessons.learn(0);
+  if (!model) {
+    throw std::runtime_error("wardrobe " + std::to_string(seed) +
+                             ": nothing of the person could be learned");
+  }
+  return std::move(*model);
+}
+
+/// The scene with this person in it, and all that hangs on its walls in the colour of their top.
+Scene postersOf(const ScenePerson& person, const GateExperimentParams& params) {
+  Scene scene = loadScene((params.scenes / "poster.yaml").string());
+  const ScenePerson part = scene.people.front();
+  scene.people.front() = person;
+  scene.people.front().start = part.start;
+  scene.people.front().start_yaw_rad = part.start_yaw_rad;
+  scene.people.front().path = part.path;
+  for (Furniture& thing : scene.furniture) {
+    if (thing.name != "poster" && thing.name != "coat") continue;
+    for (FurniturePart& piece : thing.parts) {
+      piece.surface.color = person.outfit.top.front.color;
+    }
+  }
+  return scene;
+}
+
+GateOutcome follow(const SimulatedFrames& recording, const AppearanceModel& model, bool gated,
+                   const GateExperimentParams& params) {
+  PerceptionParams perception_params = params.perception;
+  perception_params.gate = gated ? recording.gate : GeometricGate();
+  Perception perception(recording.setup, model, perception_params);
+  std::vector<TargetFrame> frames;
+  GateOutcome outcome;
+  double last_s = 0.0;
+  for (const SimulatedFrame& now : recording.frames) {
+    const PerceptionStep& step = perception.step(now.frame);
+    TargetFrame& frame = frames.emplace_back();
+    frame.stamp_s = now.frame.stamp_s;
+    frame.target_m = now.people_m[0];
+    if (step.target.hasPlace()) frame.estimate_m = step.target.motion.position_m();
+    const double step_s = frames.size() > 1 ? frame.stamp_s - last_s : 0.0;
+    last_s = frame.stamp_s;
+    const EstimateOf of = judge(frame, params.place_error_m);
+    if (of == EstimateOf::kTarget) outcome.right_target_s += step_s;
+    // Out of view, a track that coasts where the target went is no mistake: only one that is seen.
+    const bool is_seen = step.target.status == TargetStatus::kFollowed;
+    if (of == EstimateOf::kNobody && (frame.target_m || is_seen)) outcome.wrong_target_s += step_s;
+  }
+  outcome.target = targetMetrics(frames, params.place_error_m);
+  return outcome;
+}
+
+}  // namespace
+
+GateRun runGateExperiment(std::uint64_t seed, const GateExperimentParams& params) {
+  const ScenePerson person = randomWardrobe(seed).people[2];
+  const AppearanceModel model = learn(person, seed, params);
+  SimulatedFramesParams span;
+  span.seed = hashOf(seed, 32);
+  span.to_s = params.follow_s;
+  const SimulatedFrames recording = renderFrames(postersOf(person, params), span);
+  GateRun run;
+  run.seed = seed;
+  run.with_gate = follow(recording, model, true, params);
+  run.without_gate = follow(recording, model, false, params);
+  return run;
+}
+
+}  // namespace heel
