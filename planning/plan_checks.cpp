@@ -12,7 +12,7 @@ namespace heel {
 namespace {
 
 constexpr std::size_t kMostStates = 20000;
-constexpr int kWithoutEnd = std::numeric_limits<int>::max();  // Karp and Miller's omega
+constexpr int kWithoutEnd = std::numeric_limits<int>::max() / 2;  // Karp and Miller's omega
 
 /// A marking that can be reached, and how.
 struct State {

@@ -19,6 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kMostTokens = 1000000;
+
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r\n");
   if (first == std::string::npos) return {};
@@ -83,9 +85,11 @@ class PnmlReader {
     const std::string number = trimmed(text.substr(text.rfind(',') + 1));
     int value = 0;
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
-    if (error != std::errc() || end != number.data() + number.size() || value < least) {
-      fail(element, std::string("has the ") + name + " '" + text + "', which is not a number of " +
-                        std::to_string(least) + " or more");
+    if (error != std::errc() || end != number.data() + number.size() || value < least ||
+        value > kMostTokens) {
+      fail(element, std::string("has the ") + name + " '" + text +
+                        "', which is not a number from " + std::to_string(least) + " to " +
+                        std::to_string(kMostTokens));
     }
     return value;
   }

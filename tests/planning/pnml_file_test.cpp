@@ -109,7 +109,7 @@ TEST_F(PnmlFile, SaysWhatIsWrongWithAnElement) {
   EXPECT_EQ(error(net(kStart + kStart)), "place 'p1' has an id that is used twice");
   EXPECT_EQ(error(net("<place id='p'><name/><initialMarking><value>-1</value></initialMarking>"
                       "</place>")),
-            "place 'p' has the initialMarking '-1', which is not a number of 0 or more");
+            "place 'p' has the initialMarking '-1', which is not a number from 0 to 1000000");
   EXPECT_EQ(error(net("<place id='p'><graphics><position x='1'/></graphics><name/></place>")),
             "place 'p' is drawn at a place that is no place");
 }
@@ -127,7 +127,7 @@ TEST_F(PnmlFile, SaysWhatIsWrongWithAnArc) {
             "arc 'b' joins what another arc joins already; write an inscription instead");
   EXPECT_EQ(error(net(nodes + "<arc id='a' source='p1' target='t1'>"
                               "<inscription><value>0</value></inscription></arc>")),
-            "arc 'a' has the inscription '0', which is not a number of 1 or more");
+            "arc 'a' has the inscription '0', which is not a number from 1 to 1000000");
 }
 
 }  // namespace
