@@ -18,6 +18,7 @@ void addLearn(CLI::App& app);
 void addTrack(CLI::App& app);
 void addFilter(CLI::App& app);
 void addInspect(CLI::App& app);
+void addPlan(CLI::App& app);
 void addSimulate(CLI::App& app);
 void addEvaluate(CLI::App& app);
 void addExperiment(CLI::App& app);

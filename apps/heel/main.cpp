@@ -84,6 +84,7 @@ int main(int argc, char** argv) {
   heel::addTrack(app);
   heel::addFilter(app);
   heel::addInspect(app);
+  heel::addPlan(app);
   heel::addSimulate(app);
   heel::addEvaluate(app);
   heel::addExperiment(app);
