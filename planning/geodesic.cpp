@@ -5,6 +5,7 @@
 
 #include "planning/free_cells.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace heel {
@@ -21,8 +22,7 @@ void GeodesicField::setObstacles(const std::vector<BlockedDisc>& discs,
 
 bool GeodesicField::measureFrom(const Eigen::Vector2d& point, double within_m) {
   if (!point.allFinite()) throw std::invalid_argument("a place to measure from must be finite");
-  for (const int cell : wave_.touched())
-    distances_m_[static_cast<std::size_t>(cell)] = GridWave::kFar;
+  std::fill(distances_m_.begin(), distances_m_.end(), GridWave::kFar);
   freeCellsNear(map_, wave_, point, within_m, near_);
   seeds_.clear();
   const auto cell_size = static_cast<float>(map_.cell_size_m());

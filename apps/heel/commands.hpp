@@ -26,6 +26,7 @@ void addFollow(CLI::App& app);
 void addInspect(CLI::App& app);
 void addLocalize(CLI::App& app);
 void addMap(CLI::App& app);
+void addPlan(CLI::App& app);
 void addSimulate(CLI::App& app);
 void addEvaluate(CLI::App& app);
 void addExperiment(CLI::App& app);

@@ -91,6 +91,7 @@ int main(int argc, char** argv) {
   heel::addInspect(app);
   heel::addLocalize(app);
   heel::addMap(app);
+  heel::addPlan(app);
   heel::addSimulate(app);
   heel::addEvaluate(app);
   heel::addExperiment(app);
