@@ -4,6 +4,7 @@
 #include "apps/follower/camera_setup.hpp"
 #include "apps/follower/depth_images.hpp"
 #include "apps/heel/commands.hpp"
+#include "apps/heel/inspect_plan.hpp"
 #include "apps/mapper/map_picture.hpp"
 #include "apps/report/drawing.hpp"
 #include "apps/report/video_writer.hpp"
@@ -127,6 +128,7 @@ cv::Mat inspectFloorPlan(const fs::path& file) {
 cv::Mat inspect(const fs::path& what) {
   const fs::path extension = what.extension();
   if (extension == ".bt") return inspectWallMap(what);
+  if (extension == ".pnml") return inspectPlan(what);
   if (extension != ".yaml" && extension != ".yml") return inspectRecording(what);
   return isMapServerFile(what) ? inspectFloorPlan(what) : inspectModel(what);
 }
@@ -145,16 +147,18 @@ void run(const Options& options) {
 
 void addInspect(CLI::App& app) {
   auto options = std::make_shared<Options>();
-  CLI::App* verb = app.add_subcommand("inspect", "Tell what is in a model, a map or a recording");
+  CLI::App* verb =
+      app.add_subcommand("inspect", "Tell what is in a model, a map, a plan or a recording");
   verb->footer(
       "Examples:\n"
       "  heel inspect person.yaml\n"
       "  heel inspect maps/home/walls.bt\n"
+      "  heel inspect plan.pnml --out plan.png\n"
       "  heel inspect recordings/kitchen\n"
       "  heel inspect scene.pcd --out scene.png");
-  verb->add_option(
-          "WHAT", options->what,
-          "model or map_server map (.yaml), wall map (.bt), recording (folder), or PCD file")
+  verb->add_option("WHAT", options->what,
+                   "model or map_server map (.yaml), wall map (.bt), plan (.pnml), recording "
+                   "(folder), or PCD file")
       ->required();
   verb->add_option("--out", options->out, "where to write the picture")->capture_default_str();
   verb->callback([options] { run(*options); });

@@ -4,8 +4,8 @@
 #include "apps/report/annotate.hpp"
 
 #include "apps/report/csv_file.hpp"
-#include "apps/report/drawing.hpp"
 #include "apps/report/image_picture.hpp"
+#include "apps/report/picture_frame.hpp"
 #include "apps/report/plan_picture.hpp"
 
 #include <cmath>
@@ -26,59 +26,17 @@ cv::Size imagePanelSize(const AnnotateParams& params) {
           params.panel_height_px};
 }
 
-const cv::Scalar& colorOf(Tone tone) {
-  switch (tone) {
-    case Tone::kGood:
-      return palette::kGood;
-    case Tone::kWarning:
-      return palette::kWarning;
-    case Tone::kBad:
-      return palette::kBad;
-    case Tone::kNeutral:
-      break;
-  }
-  return palette::kInkSoft;
-}
-
-void drawHeader(const DrawnFrame& scene, cv::Mat& header) {
-  const int row = header.rows / 2;
-  const std::string time =
-      "frame " + std::to_string(scene.frame) + "    " + fixedText(scene.stamp_s, 2) + " s";
-  drawText(header, time, {header.cols, row}, palette::kInkSoft, kTextSize, Align::kRight);
-  int column = 0;
-  if (!scene.state.empty()) {
-    column = 14 + drawLabel(header, scene.state, {0, row}, colorOf(scene.tone), palette::kPaper,
-                            kTextSizeLarge);
-  }
-  const int room = header.cols - textWidth(time) - 24 - column;
-  drawText(header, fittedText(scene.reason, room), {column, row}, palette::kInk);
-}
-
 /// What the marks mean.
-void drawFooter(cv::Mat& footer) {
-  using namespace palette;
-  const int row = footer.rows / 2;
-  int column = 6;
-  const auto entry = [&](const std::string& text, const cv::Scalar& color, bool filled) {
-    const cv::Point2d at(column, row);
-    if (filled) {
-      fillCircle(footer, at, 5.0, color);
-    } else {
-      drawCircle(footer, at, 5.0, color);
-    }
-    drawText(footer, text, {column + 13, row}, kInkSoft, kTextSizeSmall);
-    column += 13 + textWidth(text, kTextSizeSmall) + 26;
-  };
-  entry("target", kTarget, true);
-  entry("other tracks", kTrack, true);
-  entry("predicted, not seen", kTrack, false);
-  entry("candidate", kBlob, false);
-  entry("candidate thrown out", kGatedOut, false);
-  fillOutline(footer,
-              {cv::Point2d(column - 5, row - 5), cv::Point2d(column + 5, row - 5),
-               cv::Point2d(column + 5, row + 5), cv::Point2d(column - 5, row + 5)},
-              kBlob, 0.7);
-  drawText(footer, "the target's colours", {column + 13, row}, kInkSoft, kTextSizeSmall);
+const std::vector<LegendEntry> kLegend = {
+    {"target", palette::kTarget},
+    {"other tracks", palette::kTrack},
+    {"predicted, not seen", palette::kTrack, LegendEntry::Mark::kRing},
+    {"candidate", palette::kBlob, LegendEntry::Mark::kRing},
+    {"candidate thrown out", palette::kGatedOut, LegendEntry::Mark::kRing},
+    {"the target's colours", palette::kBlob, LegendEntry::Mark::kSquare}};
+
+std::string timeOf(const DrawnFrame& scene) {
+  return "frame " + std::to_string(scene.frame) + "    " + fixedText(scene.stamp_s, 2) + " s";
 }
 
 }  // namespace
@@ -105,10 +63,10 @@ void annotate(const DrawnFrame& scene, const AnnotateParams& params, cv::Mat& pi
   cv::Mat image_panel = picture(image_area);
   cv::Mat plan_panel = picture(plan_area);
   cv::Mat footer = picture(cv::Rect(kMargin, image_area.br().y, width, kFooter));
-  drawHeader(scene, header);
+  drawHeader(scene.state, scene.tone, scene.reason, timeOf(scene), header);
   drawImage(scene, image_panel);
   drawPlan(scene, params.plan_ahead_m, plan_panel);
-  drawFooter(footer);
+  drawLegend(kLegend, footer);
 }
 
 }  // namespace heel

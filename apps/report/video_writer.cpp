@@ -22,7 +22,7 @@ FilmWriter::FilmWriter(fs::path path, double rate_hz, cv::Size size)
     throw std::invalid_argument("FilmWriter: the rate and the size must be above 0");
   }
   const bool wants_mp4 = path_.extension() == ".mp4";
-  if (wants_mp4 && open(path_, Format::kMp4)) return;
+  if (wants_mp4 && (open(path_, Format::kH264) || open(path_, Format::kMpeg4))) return;
   if (open(fs::path(path_).replace_extension(".avi"), Format::kMotionJpeg)) return;
   film_.reset();
   const AtomicFile reason(path_);  // throws the system's reason, which OpenCV does not tell
@@ -44,9 +44,10 @@ bool FilmWriter::open(const fs::path& path, Format format) {
   path_ = path;
   temporary_ = temporaryBeside(path);
   film_ = std::make_unique<cv::VideoWriter>();
-  const bool is_mp4 = format == Format::kMp4;
-  const int codec = is_mp4 ? cv::VideoWriter::fourcc('m', 'p', '4', 'v')
-                           : cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
+  const bool is_mp4 = format != Format::kMotionJpeg;
+  const int codec = format == Format::kH264    ? cv::VideoWriter::fourcc('a', 'v', 'c', '1')
+                    : format == Format::kMpeg4 ? cv::VideoWriter::fourcc('m', 'p', '4', 'v')
+                                               : cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
   return film_->open(temporary_.string(), is_mp4 ? cv::CAP_FFMPEG : cv::CAP_OPENCV_MJPEG, codec,
                      rate_hz_, size_);
 }

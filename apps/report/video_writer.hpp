@@ -20,9 +20,9 @@ class AtomicFile;
 
 /// Writes a film that gets its name only when it is complete, as AtomicFile does.
 ///
-/// MP4 (MPEG-4) for a path that ends in .mp4, else Motion JPEG in AVI, which OpenCV can always
-/// write. Where MP4 can't be written, `path()` ends in .avi instead. The same frames give the same
-/// bytes.
+/// MP4 for a path that ends in .mp4: H.264, which browsers play, or MPEG-4 where there is no H.264;
+/// else Motion JPEG in AVI, which OpenCV can always write. Where MP4 can't be written, `path()`
+/// ends in .avi instead. The same frames give the same bytes.
 class FilmWriter {
  public:
   /// @param rate_hz  Frames per second of the film, > 0.
@@ -48,7 +48,7 @@ class FilmWriter {
   void commit();
 
  private:
-  enum class Format { kMp4, kMotionJpeg };
+  enum class Format { kH264, kMpeg4, kMotionJpeg };
 
   bool open(const std::filesystem::path& path, Format format);
   void discard();

@@ -1,0 +1,247 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "planning/search_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace heel {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kNoShare = 1e-12;  // below this a share is none
+constexpr double kNoChance = 1e-6;  // below this a cell is not worth a look
+
+void requirePositive(const SearchMapParams& p) {
+  for (const double value :
+       {p.cell_size_m, p.body_radius_m, p.top_speed_mps, p.usual_speed_mps, p.straight_s,
+        p.place_sigma_m, p.field_of_view_rad, p.max_range_m, p.notice_s, p.robot_clearance_m,
+        p.robot_speed_mps, p.robot_turn_radps, p.look_s, p.view_spacing_m}) {
+    if (!(value > 0.0)) throw std::invalid_argument("a search map's parameters must be positive");
+  }
+}
+
+double headingOf(std::size_t way) { return static_cast<double>(way) * kPi / 4.0; }
+
+std::size_t index(int cell) { return static_cast<std::size_t>(cell); }
+
+}  // namespace
+
+SearchMap::SearchMap(const OccupancyGrid& walls, const SearchMapParams& params)
+    : params_((requirePositive(params), params)),
+      floor_(walls, params.cell_size_m, params.body_radius_m),
+      shares_(index(floor_.cells()), Shares{}),
+      next_(shares_),
+      belief_(shares_.size(), 0.0) {
+  if (floor_.nearestFree(walls.origin_m()) < 0) {
+    throw std::invalid_argument("no one can stand anywhere on this map");
+  }
+  findViews();
+}
+
+void SearchMap::findViews() {
+  reach_cells_ = static_cast<int>(std::ceil(params_.max_range_m / params_.cell_size_m));
+  const int every =
+      std::max(1, static_cast<int>(std::lround(params_.view_spacing_m / params_.cell_size_m)));
+  for (int c = 0; c < floor_.cells(); ++c) {
+    const bool is_on_lattice =
+        c % floor_.width() % every == every / 2 && c / floor_.width() % every == every / 2;
+    if (is_on_lattice && floor_.isFree(c) &&
+        floor_.isClear(floor_.center(c), params_.robot_clearance_m)) {
+      view_cells_.push_back(c);
+    }
+  }
+  const auto edge = index(2 * reach_cells_ + 1);
+  is_visible_.assign(view_cells_.size() * edge * edge, false);
+  for (std::size_t view = 0; view < view_cells_.size(); ++view) {
+    const Eigen::Vector2d from = floor_.center(view_cells_[view]);
+    for (int c = 0; c < floor_.cells(); ++c) {
+      const Eigen::Vector2d to = floor_.center(c);
+      const double range = (to - from).norm();
+      if (!floor_.isFree(c) || range < params_.min_range_m || range > params_.max_range_m) continue;
+      is_visible_[visibleIndex(view, c)] = floor_.sees(from, to);
+    }
+  }
+}
+
+std::size_t SearchMap::visibleIndex(std::size_t view, int cell) const {
+  const int from = view_cells_[view];
+  const int edge = 2 * reach_cells_ + 1;
+  const int x = cell % floor_.width() - from % floor_.width() + reach_cells_;
+  const int y = cell / floor_.width() - from / floor_.width() + reach_cells_;
+  return view * index(edge * edge) + index(y * edge + x);
+}
+
+void SearchMap::start(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity) {
+  if (!position.allFinite() || !velocity.allFinite()) {
+    throw std::invalid_argument("a search starts at a place");
+  }
+  since_seen_s_ = carried_s_ = 0.0;
+  floor_.walkingDistances(floor_.nearestFree(position), walked_m_, open_);
+  const double speed = velocity.norm();
+  speed_mps_ = std::clamp(speed, params_.usual_speed_mps, params_.top_speed_mps);
+  // The faster one walked, the surer one goes on that way.
+  Shares ways{};
+  const double sureness = 6.0 * speed;
+  const double heading = std::atan2(velocity.y(), velocity.x());
+  for (std::size_t way = 0; way < kHeadings; ++way) {
+    ways[way] = std::exp(sureness * (std::cos(headingOf(way) - heading) - 1.0));
+  }
+  std::fill(shares_.begin(), shares_.end(), Shares{});
+  for (std::size_t c = 0; c < shares_.size(); ++c) {
+    const double sigmas = static_cast<double>(walked_m_[c]) / params_.place_sigma_m;
+    if (sigmas > 2.0) continue;
+    for (std::size_t way = 0; way < kHeadings; ++way) {
+      shares_[c][way] = std::exp(-0.5 * sigmas * sigmas) * ways[way];
+    }
+  }
+  sumUp();
+}
+
+void SearchMap::spread(double elapsed_s) {
+  if (!(elapsed_s >= 0.0)) throw std::invalid_argument("time does not go back");
+  if (walked_m_.empty()) return;
+  const double step_s = params_.cell_size_m / params_.top_speed_mps;
+  carried_s_ += elapsed_s;
+  if (carried_s_ < step_s) return;
+  for (; carried_s_ >= step_s; carried_s_ -= step_s) {
+    since_seen_s_ += step_s;
+    turn();
+    walk();
+  }
+  sumUp();
+}
+
+void SearchMap::turn() {
+  const double step_s = params_.cell_size_m / params_.top_speed_mps;
+  const double aside = 0.5 * (1.0 - std::exp(-step_s / params_.straight_s));
+  for (Shares& cell : shares_) {
+    const Shares before = cell;
+    for (std::size_t way = 0; way < kHeadings; ++way) {
+      cell[way] = (1.0 - 2.0 * aside) * before[way] +
+                  aside * (before[(way + 1) % kHeadings] + before[(way + 7) % kHeadings]);
+    }
+  }
+}
+
+void SearchMap::walk() {
+  const double furthest_m = params_.top_speed_mps * since_seen_s_ + 2.0 * params_.place_sigma_m;
+  std::fill(next_.begin(), next_.end(), Shares{});
+  for (std::size_t c = 0; c < shares_.size(); ++c) {
+    for (std::size_t way = 0; way < kHeadings; ++way) {
+      const double share = shares_[c][way];
+      if (share < kNoShare) continue;
+      const int to = floor_.neighbour(static_cast<int>(c), static_cast<int>(way));
+      if (to < 0) {  // a wall: to the left or to the right of it
+        next_[c][(way + 1) % kHeadings] += 0.5 * share;
+        next_[c][(way + 7) % kHeadings] += 0.5 * share;
+        continue;
+      }
+      const double steps = way % 2 == 0 ? 1.0 : std::sqrt(0.5);
+      const bool is_too_far = static_cast<double>(walked_m_[index(to)]) > furthest_m;
+      const double walks = is_too_far ? 0.0 : steps * speed_mps_ / params_.top_speed_mps;
+      next_[index(to)][way] += walks * share;
+      next_[c][way] += (1.0 - walks) * share;
+    }
+  }
+  shares_.swap(next_);
+}
+
+void SearchMap::look(const FloorPose& camera, double elapsed_s) {
+  if (!(elapsed_s >= 0.0)) throw std::invalid_argument("time does not go back");
+  if (walked_m_.empty()) return;
+  const double unnoticed = std::max(1e-6, std::exp(-elapsed_s / params_.notice_s));
+  for (std::size_t c = 0; c < shares_.size(); ++c) {
+    if (belief_[c] < kNoShare || !isInView(camera, floor_.center(static_cast<int>(c)))) continue;
+    for (double& share : shares_[c]) share *= unnoticed;
+  }
+  sumUp();
+}
+
+bool SearchMap::isInView(const FloorPose& camera, const Eigen::Vector2d& point) const {
+  const Eigen::Vector2d ray = point - camera.position;
+  const double range = ray.norm();
+  if (range < params_.min_range_m || range > params_.max_range_m) return false;
+  const double bearing = wrapped(std::atan2(ray.y(), ray.x()) - camera.yaw_rad);
+  return std::abs(bearing) <= 0.5 * params_.field_of_view_rad &&
+         floor_.sees(camera.position, point);
+}
+
+void SearchMap::sumUp() {
+  double total = 0.0;
+  for (std::size_t c = 0; c < shares_.size(); ++c) {
+    belief_[c] = std::accumulate(shares_[c].begin(), shares_[c].end(), 0.0);
+    total += belief_[c];
+  }
+  for (std::size_t c = 0; c < shares_.size(); ++c) {
+    if (belief_[c] == 0.0) continue;
+    belief_[c] /= total;
+    for (double& share : shares_[c]) share /= total;
+  }
+}
+
+std::optional<SearchView> SearchMap::nextView(const FloorPose& camera) {
+  if (walked_m_.empty()) return std::nullopt;
+  floor_.walkingDistances(floor_.nearestFree(camera.position), way_m_, way_open_);
+  // First the place, by all that is in view around it: who goes to a room looks all around in it.
+  const double around_s = 2.0 * kPi / params_.robot_turn_radps + params_.look_s;
+  const auto way_s = [&](std::size_t view) {
+    return static_cast<double>(way_m_[index(view_cells_[view])]) / params_.robot_speed_mps;
+  };
+  std::size_t best = 0;
+  double best_rate = 0.0;
+  for (std::size_t view = 0; view < view_cells_.size(); ++view) {
+    if (!std::isfinite(way_s(view))) continue;
+    const Bearings around = chancesAround(view);
+    const double chance = std::accumulate(around.begin(), around.end(), 0.0);
+    const double rate = chance / (way_s(view) + around_s);
+    if (!(rate > best_rate)) continue;
+    best = view;
+    best_rate = rate;
+  }
+  if (best_rate == 0.0) return std::nullopt;
+  return bestLook(best, way_s(best), camera.yaw_rad);
+}
+
+SearchMap::Bearings SearchMap::chancesAround(std::size_t view) const {
+  Bearings chances{};
+  const int cell = view_cells_[view];
+  const int x0 = cell % floor_.width(), y0 = cell / floor_.width();
+  const int high_x = std::min(floor_.width() - 1, x0 + reach_cells_);
+  const int high_y = std::min(floor_.height() - 1, y0 + reach_cells_);
+  for (int y = std::max(0, y0 - reach_cells_); y <= high_y; ++y) {
+    for (int x = std::max(0, x0 - reach_cells_); x <= high_x; ++x) {
+      const int c = y * floor_.width() + x;
+      if (belief_[index(c)] < kNoChance || !is_visible_[visibleIndex(view, c)]) continue;
+      const double turns = std::atan2(y - y0, x - x0) / (2.0 * kPi) + 1.0;
+      chances[static_cast<std::size_t>(turns * kBearings) % kBearings] += belief_[index(c)];
+    }
+  }
+  return chances;
+}
+
+SearchView SearchMap::bestLook(std::size_t view, double way_s, double yaw_rad) const {
+  const Bearings around = chancesAround(view);
+  const auto in_view = static_cast<std::size_t>(
+      std::clamp(params_.field_of_view_rad / (2.0 * kPi) * kBearings, 1.0, 1.0 * kBearings));
+  SearchView best;
+  double best_rate = -1.0;
+  for (std::size_t first = 0; first < kBearings; ++first) {
+    double chance = 0.0;
+    for (std::size_t i = 0; i < in_view; ++i) chance += around[(first + i) % kBearings];
+    const double middle = static_cast<double>(first) + 0.5 * static_cast<double>(in_view);
+    const double yaw = wrapped(2.0 * kPi / kBearings * middle);
+    const double look_s =
+        std::abs(wrapped(yaw - yaw_rad)) / params_.robot_turn_radps + params_.look_s;
+    if (!(chance / look_s > best_rate)) continue;
+    best_rate = chance / look_s;
+    best = {{floor_.center(view_cells_[view]), yaw}, chance, way_s + look_s};
+  }
+  return best;
+}
+
+}  // namespace heel

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Where a person who was lost can have gone, and where to look for them.
+///
+/// Goes beyond the paper, whose robot only turns on the spot ("no search is implemented here").
+#pragma once
+
+#include "mapping/floor_pose.hpp"
+#include "planning/coarse_floor.hpp"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace heel {
+
+struct SearchMapParams {
+  double cell_size_m = 0.2;    ///< Edge of a cell of the belief.
+  double body_radius_m = 0.2;  ///< Of a person.
+
+  // How people walk.
+  double top_speed_mps = 1.2;    ///< Nobody is faster.
+  double usual_speed_mps = 0.5;  ///< Of somebody who stood when last seen; pauses included.
+  double straight_s = 2.0;       ///< Time after which one has changed one's way by 45 degrees.
+  double place_sigma_m = 0.3;    ///< How well the place where they were last seen is known.
+
+  // What the robot sees, and how it moves.
+  double field_of_view_rad = 1.0;  ///< Horizontal, of the camera.
+  double min_range_m = 0.6;
+  double max_range_m = 5.0;
+  double notice_s = 0.3;            ///< Time that a person in view goes unnoticed, on average.
+  double robot_clearance_m = 0.35;  ///< Free around a place to look from.
+  double robot_speed_mps = 0.3;
+  double robot_turn_radps = 0.8;
+  double look_s = 1.5;          ///< Time that a look takes, until a track is sure.
+  double view_spacing_m = 0.6;  ///< From one place to look from to the next.
+};
+
+/// A place to look from.
+struct SearchView {
+  FloorPose camera;     ///< Where the camera should be, and look to.
+  double chance = 0.0;  ///< That the person is in view there, as far as is known now.
+  double time_s = 0.0;  ///< To get there and look.
+};
+
+/// A belief about where a lost person is, over the cells of the floor and the eight ways in which
+/// they can be walking.
+///
+/// It begins where the person was last seen, walking as they did. With time it spreads as people
+/// walk: mostly straight on, along walls and through doorways, never further than they can have
+/// walked. What the camera has looked at without finding them loses its share.
+///
+/// Deterministic. Nothing allocates after the first start() and nextView().
+class SearchMap {
+ public:
+  /// @param walls  What bars the view and the way, for people and robot.
+  /// @throws std::invalid_argument  if a parameter is not positive, or no cell is free.
+  explicit SearchMap(const OccupancyGrid& walls, const SearchMapParams& params = {});
+
+  const CoarseFloor& floor() const { return floor_; }
+
+  /// The person was last seen here, with this velocity [m/s], both in the map's frame.
+  void start(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity);
+
+  /// Time goes by. Without a start() nothing happens.
+  void spread(double elapsed_s);
+
+  /// The camera has looked from here for a while, and the person was not found.
+  void look(const FloorPose& camera, double elapsed_s);
+
+  /// The probability that the person is in a cell of the floor; their sum is 1 after a start().
+  const std::vector<double>& belief() const { return belief_; }
+
+  /// The place from which there is most to see per time, getting there and turning once around
+  /// included, and the look from it that promises most. None before start(), or where no chance is
+  /// left within reach. Ask again after each look.
+  std::optional<SearchView> nextView(const FloorPose& camera);
+
+ private:
+  static constexpr std::size_t kHeadings = kWays.size();
+  static constexpr std::size_t kBearings = 36;
+  using Shares = std::array<double, kHeadings>;    ///< Of one cell, by way.
+  using Bearings = std::array<double, kBearings>;  ///< Of what is in view, to the left from +X.
+
+  void turn();
+  void walk();
+  void sumUp();
+  void findViews();
+  bool isInView(const FloorPose& camera, const Eigen::Vector2d& point) const;
+  std::size_t visibleIndex(std::size_t view, int cell) const;
+  Bearings chancesAround(std::size_t view) const;
+  SearchView bestLook(std::size_t view, double way_s, double yaw_rad) const;
+
+  SearchMapParams params_;
+  CoarseFloor floor_;
+  std::vector<Shares> shares_;
+  std::vector<Shares> next_;
+  std::vector<double> belief_;
+  std::vector<float> walked_m_;  ///< From where the person was last seen.
+  CoarseFloor::Open open_;
+  double speed_mps_ = 0.0;
+  double since_seen_s_ = 0.0;
+  double carried_s_ = 0.0;  ///< Time that has gone by but is less than a step.
+
+  int reach_cells_ = 0;               ///< Half the edge of a window around a view.
+  std::vector<int> view_cells_;       ///< Places to look from.
+  std::vector<bool> is_visible_;      ///< Of the cells in the window around each view, row by row.
+  std::vector<float> way_m_;  ///< Of the robot; memory of nextView().
+  CoarseFloor::Open way_open_;
+};
+
+}  // namespace heel

@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "planning/search_map.hpp"
+
+#include "tests/planning/map_lines.hpp"
+#include "tests/support/allocation_count.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+// clang-format off
+const std::vector<std::string> kThreeRooms = {  // cells of 0.2 m: 8.2 m x 4.2 m
+    "#########################################",
+    "#..........#.................#..........#",
+    "#..........#.................#..........#",
+    "#..........#.................#..........#",
+    "#..........#.................#..........#",
+    "#..........#.................#..........#",
+    "#..........#.................#..........#",
+    "#..........#.................#..........#",
+    "#.......................................#",
+    "#.......................................#",
+    "#.......................................#",
+    "#.......................................#",
+    "#.......................................#",
+    "#..........#.................#..........#",
+    "#..........#.................#..........#",
+    "#..........#.................#..........#",
+    "#..........#.................#..........#",
+    "#..........#.................#..........#",
+    "#..........#.................#..........#",
+    "#..........#.................#..........#",
+    "#########################################",
+};
+// clang-format on
+constexpr double kLeftDoor = 2.2, kRightDoor = 6.0;
+const Eigen::Vector2d kMiddle(4.1, 2.1);
+
+SearchMap threeRooms() { return SearchMap(test::drawnMap(kThreeRooms, 0.2)); }
+
+double total(const SearchMap& map) {
+  return std::accumulate(map.belief().begin(), map.belief().end(), 0.0);
+}
+
+/// The share of the belief between two walls.
+double between(const SearchMap& map, double low_x, double high_x) {
+  double sum = 0.0;
+  for (int c = 0; c < map.floor().cells(); ++c) {
+    const double x = map.floor().center(c).x();
+    if (x > low_x && x < high_x) sum += map.belief()[static_cast<std::size_t>(c)];
+  }
+  return sum;
+}
+double leftRoom(const SearchMap& map) { return between(map, 0.0, kLeftDoor); }
+double rightRoom(const SearchMap& map) { return between(map, kRightDoor, 9.0); }
+
+TEST(SearchMap, BeginsWhereThePersonWasLastSeen) {
+  SearchMap map = threeRooms();
+  EXPECT_EQ(total(map), 0.0);
+  map.start(kMiddle, {0.0, 0.0});
+  EXPECT_NEAR(total(map), 1.0, 1e-12);
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (int c = 0; c < map.floor().cells(); ++c) {
+    const double belief = map.belief()[static_cast<std::size_t>(c)];
+    mean += belief * map.floor().center(c);
+    if ((map.floor().center(c) - kMiddle).norm() > 0.7) {
+      EXPECT_EQ(belief, 0.0);
+    }
+  }
+  EXPECT_LT((mean - kMiddle).norm(), 0.01);
+}
+
+TEST(SearchMap, StaysAWhole) {
+  SearchMap map = threeRooms();
+  map.start(kMiddle, {0.7, 0.3});
+  for (int i = 0; i < 600; ++i) {
+    map.spread(0.1);
+    map.look({{1.2 + 0.005 * i, 2.1}, 0.02 * i}, 0.1);
+    ASSERT_NEAR(total(map), 1.0, 1e-9);
+  }
+}
+
+TEST(SearchMap, NobodyIsFurtherThanOneCanWalk) {
+  SearchMap map = threeRooms();
+  map.start({1.1, 3.5}, {1.2, 0.0});
+  std::vector<float> distance;
+  CoarseFloor::Open open;
+  map.floor().walkingDistances(map.floor().nearestFree({1.1, 3.5}), distance, open);
+  for (int second = 1; second < 6; ++second) {
+    map.spread(1.0);
+    for (std::size_t c = 0; c < distance.size(); ++c) {
+      if (static_cast<double>(distance[c]) > 1.2 * second + 0.6 + 0.01) {
+        ASSERT_EQ(map.belief()[c], 0.0);
+      }
+    }
+  }
+}
+
+TEST(SearchMap, NobodyIsInAWall) {
+  SearchMap map = threeRooms();
+  map.start(kMiddle, {1.0, 0.0});
+  map.spread(20.0);
+  for (int c = 0; c < map.floor().cells(); ++c) {
+    if (!map.floor().isFree(c)) {
+      EXPECT_EQ(map.belief()[static_cast<std::size_t>(c)], 0.0);
+    }
+  }
+}
+
+TEST(SearchMap, GoesThroughTheDoorThatThePersonWentTo) {
+  for (const double side : {-1.0, 1.0}) {
+    SearchMap map = threeRooms();
+    map.start(kMiddle + Eigen::Vector2d(0.8 * side, 0.0), {side, 0.0});
+    map.spread(4.0);
+    const double there = side > 0.0 ? rightRoom(map) : leftRoom(map);
+    const double other = side > 0.0 ? leftRoom(map) : rightRoom(map);
+    EXPECT_GT(there, 0.45);
+    EXPECT_LT(other, 0.05);
+  }
+}
+
+TEST(SearchMap, IsTheSameOnBothSidesOfWhoStood) {
+  SearchMap map = threeRooms();
+  map.start(kMiddle, {0.0, 0.0});
+  map.spread(10.0);
+  EXPECT_GT(leftRoom(map), 0.05);
+  EXPECT_NEAR(leftRoom(map), rightRoom(map), 1e-9);
+}
+
+TEST(SearchMap, WhatTheCameraLookedAtLosesItsShare) {
+  SearchMap map = threeRooms();
+  map.start(kMiddle, {0.0, 0.0});
+  map.spread(10.0);
+  const FloorPose camera{{2.71, 2.13}, 0.0};
+  std::vector<double> before = map.belief();
+  map.look(camera, 0.3);  // as long as it takes to notice somebody: 1 in e remains
+  double hidden_gain = 0.0;
+  for (int c = 0; c < map.floor().cells(); ++c) {
+    const auto i = static_cast<std::size_t>(c);
+    if (before[i] < 1e-9) continue;
+    const Eigen::Vector2d ray = map.floor().center(c) - camera.position;
+    const bool in_view = ray.norm() > 0.6 && ray.norm() < 5.0 &&
+                         std::abs(std::atan2(ray.y(), ray.x())) < 0.5 &&
+                         map.floor().sees(camera.position, map.floor().center(c));
+    const double gain = map.belief()[i] / before[i];
+    if (hidden_gain == 0.0 && !in_view) hidden_gain = gain;
+    if (hidden_gain == 0.0) continue;
+    EXPECT_NEAR(gain, hidden_gain * (in_view ? std::exp(-1.0) : 1.0), 1e-9);
+  }
+  EXPECT_GT(hidden_gain, 1.0);
+}
+
+TEST(SearchMap, WhoIsNotInViewIsElsewhere) {
+  SearchMap map = threeRooms();
+  map.start(kMiddle, {0.0, 0.0});
+  map.spread(10.0);
+  for (int i = 0; i < 90; ++i) map.look({{6.3, 2.1}, -1.2 + 0.03 * i}, 0.1);  // into the right room
+  EXPECT_LT(rightRoom(map), 0.1);
+  EXPECT_GT(leftRoom(map), 2.0 * rightRoom(map));
+}
+
+TEST(SearchMap, LooksIntoTheRoomThatThePersonWentTo) {
+  for (const double side : {-1.0, 1.0}) {
+    SearchMap map = threeRooms();
+    map.start(kMiddle + Eigen::Vector2d(0.8 * side, 0.0), {side, 0.0});
+    map.spread(4.0);
+    const FloorPose robot{kMiddle, 1.57};
+    const auto view = map.nextView(robot);
+    ASSERT_TRUE(view);
+    EXPECT_GT(view->chance, 0.2);
+    EXPECT_GT(side * std::cos(view->camera.yaw_rad), 0.7);  // looks that way
+    EXPECT_GE(side * (view->camera.position.x() - kMiddle.x()), -0.4);
+    EXPECT_TRUE(map.floor().isClear(view->camera.position, 0.35));
+  }
+}
+
+TEST(SearchMap, LooksWhereItHasNotLooked) {
+  SearchMap map = threeRooms();
+  map.start(kMiddle, {0.0, 0.0});
+  map.spread(12.0);
+  // Turn once around in the middle room, then look into the right one.
+  for (int i = 0; i < 63; ++i) map.look({kMiddle, 0.1 * i}, 0.3);
+  for (int i = 0; i < 30; ++i) map.look({{6.3, 2.1}, -1.2 + 0.08 * i}, 0.3);
+  const auto view = map.nextView({{5.5, 2.1}, 3.14});
+  ASSERT_TRUE(view);
+  EXPECT_LT(std::cos(view->camera.yaw_rad), -0.9);
+}
+
+TEST(SearchMap, FindsSomebodyWhoHidesByLookingWhereItSays) {
+  // Somebody stands in a corner of the left room, out of sight; the robot goes from view to view.
+  SearchMap map = threeRooms();
+  map.start({2.9, 2.1}, {-0.8, 0.2});
+  map.spread(3.0);
+  const Eigen::Vector2d person(0.7, 3.5);
+  FloorPose camera{{5.1, 2.1}, 3.14};
+  int views = 0;
+  for (bool is_found = false; !is_found && views < 6; ++views) {
+    const auto view = map.nextView(camera);
+    ASSERT_TRUE(view);
+    map.spread(view->time_s);
+    camera = view->camera;
+    map.look(camera, 1.0);
+    const Eigen::Vector2d seen = camera.inverse() * person;
+    is_found = seen.norm() < 5.0 && seen.norm() > 0.6 &&
+               std::abs(std::atan2(seen.y(), seen.x())) < 0.5 &&
+               map.floor().sees(camera.position, person);
+  }
+  EXPECT_LT(views, 6);
+}
+
+TEST(SearchMap, ManySmallTimesAreOneLargeTime) {
+  SearchMap once = threeRooms(), often = threeRooms();
+  once.start(kMiddle, {0.5, 0.0});
+  often.start(kMiddle, {0.5, 0.0});
+  once.spread(2.05);
+  for (int i = 0; i < 41; ++i) often.spread(0.05);
+  for (std::size_t c = 0; c < once.belief().size(); ++c) {
+    EXPECT_NEAR(once.belief()[c], often.belief()[c], 1e-12);
+  }
+}
+
+TEST(SearchMap, DoesNothingBeforeItStarts) {
+  SearchMap map = threeRooms();
+  map.spread(1.0);
+  map.look({kMiddle, 0.0}, 1.0);
+  EXPECT_FALSE(map.nextView({kMiddle, 0.0}));
+  EXPECT_EQ(total(map), 0.0);
+}
+
+TEST(SearchMap, AllocatesNothingOnceWarm) {
+  SearchMap map = threeRooms();
+  const auto run = [&] {
+    map.start(kMiddle, {0.5, 0.5});
+    for (int i = 0; i < 20; ++i) {
+      map.spread(0.2);
+      map.look({kMiddle, 0.3 * i}, 0.2);
+    }
+    return map.nextView({kMiddle, 0.0});
+  };
+  run();
+  const long before = test::allocations();
+  run();
+  EXPECT_EQ(test::allocations(), before);
+}
+
+TEST(SearchMap, RejectsWhatMakesNoSense) {
+  SearchMapParams params;
+  params.notice_s = 0.0;
+  EXPECT_THROW(SearchMap(test::drawnMap(kThreeRooms, 0.2), params), std::invalid_argument);
+  EXPECT_THROW(SearchMap(test::drawnMap({"##", "##"}, 0.5)), std::invalid_argument);
+  SearchMap map = threeRooms();
+  EXPECT_THROW(map.start({std::nan(""), 0.0}, {0.0, 0.0}), std::invalid_argument);
+  EXPECT_THROW(map.spread(-1.0), std::invalid_argument);
+  EXPECT_THROW(map.look({kMiddle, 0.0}, -1.0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace heel
