@@ -5,12 +5,14 @@
 #include "apps/heel/commands.hpp"
 #include "apps/heel/localize_output.hpp"
 #include "apps/simulation/scene_grid.hpp"
+#include "mapping/map_server_file.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -29,6 +31,7 @@ struct Options {
   MapScans map_scans = MapScans::kEven;
   double cell_size_m = 0.05;
   std::vector<double> start;
+  std::vector<double> scanner;
   LogLocalizationParams params;
 };
 
@@ -41,14 +44,30 @@ fs::path sceneFile(const std::string& name) {
                            std::string(HEEL_SCENES));
 }
 
+/// Whether a file is a map of ROS's map_server, which names an image, and not a scene.
+bool isMapServer(const fs::path& file) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    if (line.rfind("image:", 0) == 0) return true;
+  }
+  return false;
+}
+
 OccupancyGrid readMap(Options& options) {
   LogLocalizationParams& params = options.params;
+  if (!options.scanner.empty()) {
+    params.T_base_scanner = {{options.scanner[0], options.scanner[1]}, options.scanner[2]};
+  }
   if (options.map.empty()) {
     params.left_out = options.map_scans;
     return mapFromLog(options.log, options.map_scans, options.cell_size_m, params.T_base_scanner);
   }
-  const Scene scene = loadScene(sceneFile(options.map).string());
-  params.T_base_scanner = {scene.robot.laser.at.head<2>(), 0.0};
+  const fs::path file = sceneFile(options.map);
+  if (isMapServer(file)) return loadMapServer(file);
+  const Scene scene = loadScene(file.string());
+  if (options.scanner.empty()) {
+    params.T_base_scanner = {scene.robot.laser.at.head<2>(), 0.0};
+  }
   return laserGrid(scene, options.cell_size_m);
 }
 
@@ -94,7 +113,8 @@ void addLocalize(CLI::App& app) {
       "others are localized on it.");
   verb->add_option("LOG", options->log, "a folder made by 'heel simulate', or a CARMEN log (.gz)")
       ->required();
-  verb->add_option("--map", options->map, "a scene's name or YAML file");
+  verb->add_option("--map", options->map,
+                   "a scene's name, or the YAML file of a scene or of a ROS map");
   verb->add_option("--out", options->out, "folder for tables and the picture")->required();
   const std::map<std::string, MapScans> scans{
       {"even", MapScans::kEven}, {"first-half", MapScans::kFirstHalf}, {"all", MapScans::kAll}};
@@ -110,6 +130,10 @@ void addLocalize(CLI::App& app) {
       ->delimiter(',')
       ->expected(3)
       ->excludes(global);
+  verb->add_option("--scanner", options->scanner,
+                   "its place on the robot: X,Y,YAW [m, m, rad]; else the scene's, or 0,0,0")
+      ->delimiter(',')
+      ->expected(3);
   verb->add_option("--seed", options->params.localization.seed, "of the particles")
       ->capture_default_str();
   verb->callback([options] { run(*options); });
