@@ -27,14 +27,15 @@ void tryToWrite(const fs::path& path) {
 
 }  // namespace
 
-FilmWriter::FilmWriter(fs::path path, double rate_hz, cv::Size size)
+FilmWriter::FilmWriter(fs::path path, double rate_hz, cv::Size size, FilmUse use)
     : path_(std::move(path)), rate_hz_(rate_hz), size_(size) {
   if (!(rate_hz > 0.0) || size.empty()) {
     throw std::invalid_argument("FilmWriter: the rate and the size must be above 0");
   }
   tryToWrite(path_);
   const bool wants_mp4 = path_.extension() == ".mp4";
-  if (wants_mp4 && (open(path_, Format::kH264) || open(path_, Format::kMpeg4))) return;
+  if (wants_mp4 && use == FilmUse::kBrowser && open(path_, Format::kH264)) return;
+  if (wants_mp4 && open(path_, Format::kMpeg4)) return;
   if (open(fs::path(path_).replace_extension(".avi"), Format::kMotionJpeg)) return;
   throw std::runtime_error(path_.string() + " cannot be written: OpenCV has no film format here");
 }

@@ -62,6 +62,14 @@ TEST_P(Film, IsTheSameBytesOnEveryRun) {
   EXPECT_EQ(readText(folder / ("a" + GetParam())), readText(folder / ("b" + GetParam())));
 }
 
+TEST(FilmForBrowsers, HoldsItsFrames) {
+  const TempFolder folder;
+  FilmWriter film(folder / "film.mp4", 10.0, kSize, heel::FilmUse::kBrowser);
+  writeFilm(film, 30);
+  cv::VideoCapture read(film.path().string());
+  EXPECT_EQ(read.get(cv::CAP_PROP_FRAME_COUNT), 30.0);
+}
+
 TEST_P(Film, IsNotLeftHalfWritten) {
   const TempFolder folder;
   {
