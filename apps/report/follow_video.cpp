@@ -7,7 +7,6 @@
 #include "apps/report/image_picture.hpp"
 #include "apps/report/map_drawing.hpp"
 #include "apps/report/picture_frame.hpp"
-#include "apps/report/plan_picture.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +51,7 @@ void drawTrail(const Outline& trail, const cv::Scalar& color, cv::Mat& panel) {
 
 FollowVideo::FollowVideo(const OccupancyGrid& map, double robot_radius_m,
                          const FollowVideoParams& params)
-    : params_(params), robot_radius_m_(robot_radius_m), bounds_m_(occupiedBounds(map)) {
+    : params_(params), grid_(map), robot_radius_m_(robot_radius_m), bounds_m_(occupiedBounds(map)) {
   if (map.empty() || params.panel_height_px <= 0 || params.least_map_width_px <= 0 ||
       params.most_map_width_px < params.least_map_width_px || !(params.image_aspect > 0.0)) {
     throw std::invalid_argument("FollowVideo: the map is empty, or a size is not above 0");
@@ -63,7 +62,7 @@ FollowVideo::FollowVideo(const OccupancyGrid& map, double robot_radius_m,
   }
   bounds_m_.min() -= Vector2d::Constant(0.2);
   bounds_m_.max() += Vector2d::Constant(0.2);
-  drawMap(map);
+  drawMap();
 }
 
 cv::Rect FollowVideo::imageArea() const {
@@ -97,7 +96,7 @@ cv::Point2d FollowVideo::pixelOf(const Vector2d& place_m) const {
   return onMap(place_m) + cv::Point2d(mapArea().tl());
 }
 
-void FollowVideo::drawMap(const OccupancyGrid& map) {
+void FollowVideo::drawMap() {
   const Vector2d size_m = bounds_m_.sizes();
   const auto fitting =
       static_cast<int>(std::lround(params_.panel_height_px * size_m.x() / size_m.y()));
@@ -110,7 +109,7 @@ void FollowVideo::drawMap(const OccupancyGrid& map) {
       const Vector2d place =
           bounds_m_.center() +
           Vector2d(column + 0.5 - map_.cols / 2.0, map_.rows / 2.0 - row - 0.5) / scale_;
-      const Occupancy what = map.at(place);
+      const Occupancy what = grid_.at(place);
       if (what == Occupancy::kFree) continue;
       const cv::Scalar& c = what == Occupancy::kOccupied ? kWall : palette::kPaper;
       map_.at<cv::Vec3b>(row, column) = {cv::saturate_cast<uchar>(c[0]),
@@ -118,6 +117,28 @@ void FollowVideo::drawMap(const OccupancyGrid& map) {
                                          cv::saturate_cast<uchar>(c[2])};
     }
   }
+}
+
+/// From the camera on along the rays of its columns, each up to a wall.
+std::vector<Vector2d> FollowVideo::seenArea(const DrawnFrame& view) const {
+  if (!(view.camera.fx > 0.0) || !view.T_floor_camera.matrix().allFinite()) return {};
+  constexpr int kRays = 96;
+  const Vector2d eye = view.T_floor_camera.translation().head<2>();
+  std::vector<Vector2d> area = {eye};
+  for (int i = 0; i <= kRays; ++i) {
+    const double column = view.camera.width * double(i) / kRays;
+    const Eigen::Vector3d ray =
+        view.T_floor_camera.linear() *
+        Eigen::Vector3d((column - view.camera.cx) / view.camera.fx, 0.0, 1.0);
+    const Vector2d along = ray.head<2>().normalized();
+    double reach_m = 0.0;
+    while (reach_m < params_.view_range_m &&
+           grid_.at(Vector2d(eye + reach_m * along)) != Occupancy::kOccupied) {
+      reach_m += grid_.cell_size_m();
+    }
+    area.emplace_back(eye + std::min(reach_m, params_.view_range_m) * along);
+  }
+  return area;
 }
 
 void FollowVideo::drawObstacles(const FollowVideoFrame& frame, cv::Mat& panel) const {
@@ -170,10 +191,7 @@ void FollowVideo::draw(const FollowVideoFrame& frame, cv::Mat& picture) const {
 
   cv::Mat panel = picture(mapArea());
   map_.copyTo(panel);
-  fillOutline(
-      panel,
-      onMap(visibleFloor(frame.view.camera, frame.view.T_floor_camera, params_.view_range_m)),
-      palette::kInk, 0.12);
+  fillOutline(panel, onMap(seenArea(frame.view)), palette::kInk, 0.12);
   drawObstacles(frame, panel);
   drawTrail(onMap(frame.person_trail), palette::kTarget, panel);
   drawTrail(onMap(frame.robot_trail), kRobot, panel);

@@ -18,7 +18,7 @@
 
 namespace heel {
 
-/// A film's still parts: the map with its walls, drawn once.
+/// Size of the pictures of one film, and how far they reach.
 struct FollowVideoParams {
   int panel_height_px = 540;  ///< Of the image and of the map beside it.
   double image_aspect = 4.0 / 3.0;
@@ -47,8 +47,7 @@ struct FollowVideoFrame {
 /// Draws the pictures of one film.
 class FollowVideo {
  public:
-  /// @param map  Its walls are drawn once, with the drawing turned so that it is no taller than
-  ///        wide where that fits better.
+  /// @param map  Its walls are drawn once, and bound what the camera is shown to see.
   /// @throws std::invalid_argument  if the map is empty or a size is not above 0.
   FollowVideo(const OccupancyGrid& map, double robot_radius_m,
               const FollowVideoParams& params = {});
@@ -67,12 +66,14 @@ class FollowVideo {
   cv::Rect mapArea() const;
   cv::Point2d onMap(const Eigen::Vector2d& place_m) const;  ///< In the map's own panel.
   std::vector<cv::Point2d> onMap(const std::vector<Eigen::Vector2d>& places_m) const;
-  void drawMap(const OccupancyGrid& map);
+  void drawMap();
+  std::vector<Eigen::Vector2d> seenArea(const DrawnFrame& view) const;
   void drawRobot(const FollowVideoFrame& frame, cv::Mat& panel) const;
   void drawPeople(const FollowVideoFrame& frame, cv::Mat& panel) const;
   void drawObstacles(const FollowVideoFrame& frame, cv::Mat& panel) const;
 
   FollowVideoParams params_;
+  OccupancyGrid grid_;
   double robot_radius_m_;
   Eigen::AlignedBox2d bounds_m_;
   double scale_ = 1.0;  ///< Pixels a metre on the map.

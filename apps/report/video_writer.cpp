@@ -16,16 +16,27 @@ namespace heel {
 
 namespace fs = std::filesystem;
 
-FilmWriter::FilmWriter(fs::path path, double rate_hz, cv::Size size)
+namespace {
+
+/// OpenCV does not tell why it can't write; the system does.
+void tryToWrite(const fs::path& path) {
+  AtomicFile file(path);
+  file.write("film");
+  file.close();
+}
+
+}  // namespace
+
+FilmWriter::FilmWriter(fs::path path, double rate_hz, cv::Size size, FilmUse use)
     : path_(std::move(path)), rate_hz_(rate_hz), size_(size) {
   if (!(rate_hz > 0.0) || size.empty()) {
     throw std::invalid_argument("FilmWriter: the rate and the size must be above 0");
   }
+  tryToWrite(path_);
   const bool wants_mp4 = path_.extension() == ".mp4";
-  if (wants_mp4 && (open(path_, Format::kH264) || open(path_, Format::kMpeg4))) return;
+  if (wants_mp4 && use == FilmUse::kBrowser && open(path_, Format::kH264)) return;
+  if (wants_mp4 && open(path_, Format::kMpeg4)) return;
   if (open(fs::path(path_).replace_extension(".avi"), Format::kMotionJpeg)) return;
-  film_.reset();
-  const AtomicFile reason(path_);  // throws the system's reason, which OpenCV does not tell
   throw std::runtime_error(path_.string() + " cannot be written: OpenCV has no film format here");
 }
 

@@ -18,16 +18,22 @@ namespace heel {
 
 class AtomicFile;
 
+/// What a film in MP4 is for.
+enum class FilmUse {
+  kArchive,  ///< MPEG-4: the same frames give the same bytes.
+  kBrowser,  ///< H.264, which browsers play, where there is an encoder; its bytes may differ.
+};
+
 /// Writes a film that gets its name only when it is complete, as AtomicFile does.
 ///
-/// MP4 for a path that ends in .mp4: H.264, which browsers play, or MPEG-4 where there is no H.264;
-/// else Motion JPEG in AVI, which OpenCV can always write. Where MP4 can't be written, `path()`
-/// ends in .avi instead. The same frames give the same bytes.
+/// MP4 for a path that ends in .mp4, else Motion JPEG in AVI, which OpenCV can always write. Where
+/// MP4 can't be written, `path()` ends in .avi instead.
 class FilmWriter {
  public:
   /// @param rate_hz  Frames per second of the film, > 0.
   /// @throws std::runtime_error  if no film can be written there: one sentence.
-  FilmWriter(std::filesystem::path path, double rate_hz, cv::Size size);
+  FilmWriter(std::filesystem::path path, double rate_hz, cv::Size size,
+             FilmUse use = FilmUse::kArchive);
   ~FilmWriter();
   FilmWriter(const FilmWriter&) = delete;
   FilmWriter& operator=(const FilmWriter&) = delete;

@@ -98,7 +98,7 @@
   if (film) {
     const leave = () => byId('film-card').classList.add('gone');
     film.addEventListener('error', leave);
-    if (film.error || film.networkState === 3) leave();
+    if (film.error) leave();
   }
   show(run.start);
   document.documentElement.setAttribute('data-ready', String(count));
