@@ -64,9 +64,8 @@ void FollowOutput::draw(const Readings& readings, const FollowStep& step, const 
   if (!video_) {
     video_.emplace(follower.floor(), follower.robot().drive.radius_m);
     drawn_.emplace(follower.robot().camera);
-    const double rate_hz = readings.stamp_s > 0.0 ? 1.0 / readings.stamp_s : 10.0;
     if (film_wanted_)
-      film_.emplace(folder_ / "follow.mp4", std::min(rate_hz, 10.0), video_->size());
+      film_.emplace(folder_ / "follow.mp4", 10.0, video_->size(), FilmUse::kBrowser);
   }
   Frame seen;
   seen.stamp_s = readings.stamp_s;
