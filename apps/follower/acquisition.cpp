@@ -3,6 +3,7 @@
 
 #include "apps/follower/acquisition.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -31,7 +32,9 @@ const char* toText(AcquisitionEnd end) {
 
 Acquisition::Acquisition(const PinholeCamera& camera, const Eigen::Isometry3d& T_base_camera,
                          const AcquisitionParams& params)
-    : params_(params), detector_(camera, T_base_camera, params.detector) {
+    : params_(params),
+      detector_(camera, T_base_camera, params.detector),
+      eye_m_(T_base_camera.translation().head<2>()) {
   for (const double value : {params.background_s, params.person_s, params.max_missing_s,
                              params.max_speed_mps, params.max_jump_m}) {
     if (!(value >= 0.0)) throw std::invalid_argument("acquisition: a parameter is negative");
@@ -61,6 +64,7 @@ const AcquisitionStep& Acquisition::step(double stamp_s, const cv::Mat& image_bg
       result_.state = AcquisitionState::kWaiting;
     }
     step_.view = &detector_.detect(background_, image_bgr, depth_m);
+    tellPeopleApart();
     findPerson(stamp_s);
     labelPixels();
   }
@@ -71,6 +75,23 @@ const AcquisitionStep& Acquisition::step(double stamp_s, const cv::Mat& image_bg
   return step_;
 }
 
+// Of several blobs on one ray only the greatest counts.
+void Acquisition::tellPeopleApart() {
+  people_.clear();
+  const auto& blobs = step_.view->blobs;
+  for (const int i : step_.view->people) {
+    const Eigen::Vector2d sight = blobs[static_cast<std::size_t>(i)].position_m - eye_m_;
+    const bool is_split = std::any_of(people_.begin(), people_.end(), [&](int other) {
+      const Eigen::Vector2d to_other = blobs[static_cast<std::size_t>(other)].position_m - eye_m_;
+      const Eigen::Vector2d ray = to_other.normalized();
+      const double aside_m = std::abs(ray.x() * sight.y() - ray.y() * sight.x());
+      const double apart_m = std::abs(sight.dot(ray) - to_other.norm());
+      return aside_m < params_.ray_width_m && apart_m < params_.max_split_m;
+    });
+    if (!is_split) people_.push_back(i);
+  }
+}
+
 // The first to enter is the person; from then on they are the one nearest to their last place.
 void Acquisition::findPerson(double stamp_s) {
   const auto end = [&](AcquisitionEnd why) {
@@ -78,10 +99,9 @@ void Acquisition::findPerson(double stamp_s) {
     result_.end = why;
     step_.person = -1;
   };
-  const auto& people = step_.view->people;
   bool entered = result_.state == AcquisitionState::kPerson;
   const bool is_sure = result_.person_frames >= params_.confirm_frames;
-  if (entered && !is_sure && people.size() == 1 && somebodyElseIsThere(stamp_s)) {
+  if (entered && !is_sure && people_.size() == 1 && somebodyElseIsThere(stamp_s)) {
     forgetPerson();  // the first look was noise, or this one is: begin with the newest
     entered = false;
   } else if (somebodyElseIsThere(stamp_s)) {
@@ -93,7 +113,7 @@ void Acquisition::findPerson(double stamp_s) {
     return end(AcquisitionEnd::kTimeIsUp);
   }
   step_.usable = true;
-  if (people.empty()) {
+  if (people_.empty()) {
     ++(entered ? result_.missed_frames : result_.waiting_frames);
     if (!entered || stamp_s - result_.last_seen_s <= params_.max_missing_s + kSameTime_s) return;
     if (is_sure) return end(AcquisitionEnd::kPersonLeft);
@@ -103,10 +123,10 @@ void Acquisition::findPerson(double stamp_s) {
     result_.state = AcquisitionState::kPerson;
     result_.first_seen_s = stamp_s;
   }
-  result_.last_place_m = step_.view->blobs[static_cast<std::size_t>(people.front())].position_m;
+  result_.last_place_m = step_.view->blobs[static_cast<std::size_t>(people_.front())].position_m;
   result_.last_seen_s = stamp_s;
   ++result_.person_frames;
-  step_.person = people.front();
+  step_.person = people_.front();
 }
 
 void Acquisition::forgetPerson() {
@@ -118,9 +138,8 @@ void Acquisition::forgetPerson() {
 
 // Several people, or one who can't have come there from the person's last place.
 bool Acquisition::somebodyElseIsThere(double stamp_s) const {
-  const auto& people = step_.view->people;
-  if (people.size() != 1 || result_.state != AcquisitionState::kPerson) return people.size() > 1;
-  const auto& place = step_.view->blobs[static_cast<std::size_t>(people.front())].position_m;
+  if (people_.size() != 1 || result_.state != AcquisitionState::kPerson) return people_.size() > 1;
+  const auto& place = step_.view->blobs[static_cast<std::size_t>(people_.front())].position_m;
   const double reach_m =
       params_.max_jump_m + params_.max_speed_mps * (stamp_s - result_.last_seen_s);
   return (place - result_.last_place_m).norm() > reach_m;

@@ -19,6 +19,10 @@ struct AcquisitionParams {
   double max_missing_s = 1.0;  ///< Not seen for longer: the person has left.
   double max_speed_mps = 3.0;  ///< With max_jump_m: how far the person may be from the last place.
   double max_jump_m = 0.3;
+  /// Depth is coarse far away, and breaks one body into two along the ray of sight: what is this
+  /// near to that ray, and no further away along it than max_split_m, is the same person's.
+  double ray_width_m = 0.35;
+  double max_split_m = 0.8;
   double min_learn_height_m = 1.0;  ///< What is higher counts as the torso.
   /// Depth and colour images never fit to the pixel, so a moving person's disparity takes in a rim
   /// of the room. The person's pixels are therefore those that differ in intensity too, unless
@@ -102,6 +106,7 @@ class Acquisition {
 
  private:
   void findPerson(double stamp_s);
+  void tellPeopleApart();
   bool somebodyElseIsThere(double stamp_s) const;
   void forgetPerson();
   void labelPixels();
@@ -109,6 +114,8 @@ class Acquisition {
 
   AcquisitionParams params_;
   PeopleDetector detector_;
+  Eigen::Vector2d eye_m_;    // the camera, on the floor
+  std::vector<int> people_;  // blobs of different people in the view
   BackgroundLearner learner_;
   BackgroundModel background_;
   AcquisitionResult result_;

@@ -39,6 +39,15 @@ double bearing(const FloorPose& from, const Vector2d& to) {
 
 }  // namespace
 
+FollowerParams::FollowerParams() {
+  paths.safety_m = 0.08;  // more than the local planner's margin, or it stops where the path goes
+  goal.ahead_cost = 0.0;  // people who are followed turn and stop; round them is out of their view
+  goal.lead_s = 0.2;
+  drive.terms.weights[static_cast<std::size_t>(DriveTerm::kView)] = 4.0;
+  obstacles.memory_gain = 3.0;
+  obstacles.max_memory_s = 8.0;
+}
+
 const char* toText(FollowStage stage) {
   switch (stage) {
     case FollowStage::kBegin:
@@ -66,6 +75,7 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
       params_(params),
       walls_(std::move(walls)),
       floor_(walls_->floorGrid({0.05, robot.height_m})),
+      to_walls_(floor_, 1.0),
       watch_(params.watch),
       localization_(
           walls_->floorGrid({robot.scanner_height_m - 0.05, robot.scanner_height_m + 0.05}),
@@ -132,6 +142,7 @@ void Follower::localize(const RobotReadings& readings) {
 
 // What stands and moves around the robot that no map shows.
 void Follower::lookAround(const RobotReadings& readings) {
+  if (step_.is_learning) return;  // whoever is there now will be the one to follow
   const FloorPose& pose = step_.robot.pose;
   std::optional<FloorDisc> own;
   if (step_.target) own = FloorDisc{*step_.target, params_.target_radius_m};
@@ -143,7 +154,8 @@ void Follower::lookAround(const RobotReadings& readings) {
   }
   obstacles_age_s_ += dt_s_;
   if (watch_.imageIsGood() && obstacles_age_s_ > params_.obstacles_every_s - 1e-6) {
-    layer_.addPoints(obstacle_points_.of(*readings.frame));
+    keepUnmapped(obstacle_points_.of(*readings.frame));
+    layer_.addPoints(unmapped_);
     obstacles_age_s_ = 0.0;
   }
   layer_.finish();
@@ -157,6 +169,14 @@ void Follower::lookAround(const RobotReadings& readings) {
     if (!is_target) people_.push_back(person);
   }
   step_.people = &people_;
+}
+
+void Follower::keepUnmapped(const std::vector<Eigen::Vector3f>& points) {
+  unmapped_.clear();
+  for (const Eigen::Vector3f& point : points) {
+    const Vector2d place = step_.robot.pose * Vector2d(point.head<2>().cast<double>());
+    if (to_walls_.at(place) > params_.mapped_within_m) unmapped_.push_back(point);
+  }
 }
 
 // Phase 1 (section 2).
@@ -270,11 +290,7 @@ void Follower::drive() {
       follow();
       break;
     case FollowingAction::kFace:
-      if (step_.target) {
-        const DriveState now{step_.robot.pose, speed_};
-        step_.velocity.turn_radps =
-            turnToFace(robot_.drive, now, *step_.target, params_.drive.facing);
-      }
+      face();
       break;
     case FollowingAction::kGoToLastSeen:
       goToLastSeen();
@@ -332,19 +348,36 @@ void Follower::search() {
   is_there_ = turn == 0.0;
 }
 
+// Stays where it is, turned to the person, unless it must make room.
+void Follower::face() {
+  plan_.path.clear();
+  step_.velocity = localCommand();
+}
+
 // Around what the map and the moment show, in view of the person if there is one.
 void Follower::driveTo(const Vector2d& goal) {
   const FloorPose& pose = step_.robot.pose;
   planner_.plan(pose.position, goal, plan_);
+  if (!plan_.found()) {  // What is in the way may be gone by then: as the map has it.
+    planner_.setObstacles({});
+    planner_.plan(pose.position, goal, plan_);
+    planner_.setObstacles({}, &layer_.window());
+  }
   if (!plan_.found()) plan_.path.clear();
-  const auto clearance = [this](const Vector2d& p) { return planner_.clearance().clearance(p); };
-  const LocalPlan now =
-      local_planner_.step(pose, speed_, plan_.path, clearance, people_, step_.target);
-  step_.velocity = now.command;
+  step_.velocity = localCommand();
   step_.goal = goal;
   step_.path = &plan_.path;
-  has_arrived_ = now.status == DriveStatus::kArrived || !plan_.found();
+  has_arrived_ = has_arrived_ || !plan_.found();
+}
+
+// Along the path, if there is one, without touching anything; in view of the target.
+VelocityCommand Follower::localCommand() {
+  const auto clearance = [this](const Vector2d& p) { return planner_.clearance().clearance(p); };
+  const LocalPlan now =
+      local_planner_.step(step_.robot.pose, speed_, plan_.path, clearance, people_, step_.target);
+  has_arrived_ = now.status == DriveStatus::kArrived;
   if (step_.reason.empty()) step_.reason = describe(now.reason);
+  return now.command;
 }
 
 }  // namespace heel

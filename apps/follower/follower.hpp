@@ -14,6 +14,7 @@
 #include "apps/follower/wall_gate.hpp"
 #include "mapping/localization.hpp"
 #include "mapping/obstacle_layer.hpp"
+#include "mapping/wall_distance.hpp"
 #include "mapping/wall_map.hpp"
 #include "planning/following_plan.hpp"
 #include "planning/global_planner.hpp"
@@ -53,6 +54,8 @@ struct FollowerParams {
   GoalChooserParams goal;
   SearchMapParams search;
 
+  FollowerParams();  ///< With what suits following where a part's own default is for other uses.
+
   bool use_wall_gate = true;
   double near_m = 1.0;             ///< The paper's metre: nearer than this the robot stops ...
   double far_m = 1.2;              ///< ... until the person is further than this.
@@ -63,6 +66,7 @@ struct FollowerParams {
   double new_view_s = 3.0;         ///< So often a search thinks again where to look.
   double lost_turn_radps = 0.4;    ///< Turn of a robot that does not know where it is.
   double target_radius_m = 0.45;   ///< Readings this near to the target are the target's own.
+  double mapped_within_m = 0.15;   ///< Points this near to what the map shows are that.
   double obstacles_every_s = 0.2;  ///< How often the camera looks for obstacles.
 };
 
@@ -128,9 +132,12 @@ class Follower {
   void checkFacts();
   void begin(FollowingAction action);
   void drive();
+  void keepUnmapped(const std::vector<Eigen::Vector3f>& points);
   void rememberTheLost();
   void driveTo(const Eigen::Vector2d& goal);
+  VelocityCommand localCommand();
   void follow();
+  void face();
   void goToLastSeen();
   void seek();
   void search();
@@ -139,6 +146,7 @@ class Follower {
   FollowerParams params_;
   std::shared_ptr<const WallMap> walls_;
   OccupancyGrid floor_;
+  WallDistance to_walls_;
 
   SensorWatch watch_;
   Localization localization_;
@@ -173,6 +181,7 @@ class Follower {
   GlobalPlan plan_;
   std::vector<MovingPerson> people_;
   std::vector<MaskedDisc> masked_;
+  std::vector<Eigen::Vector3f> unmapped_;  // points in the base frame
 };
 
 }  // namespace heel

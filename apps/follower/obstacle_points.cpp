@@ -53,6 +53,7 @@ const std::vector<Eigen::Vector3f>& ObstaclePoints::of(const Frame& frame) {
       cv::resize(frame.right_bgr, right_, size, 0.0, 0.0, cv::INTER_AREA);
       matcher_.match(left_, right_, disparity_);
       disparityToDepth(disparity_, camera_, depth_m_);
+      findTexture();
       break;
     case SensorKind::kRgbd:
       cv::resize(frame.depth_m, depth_m_, size, 0.0, 0.0, cv::INTER_NEAREST);
@@ -66,6 +67,13 @@ const std::vector<Eigen::Vector3f>& ObstaclePoints::of(const Frame& frame) {
   return points_;
 }
 
+void ObstaclePoints::findTexture() {
+  cv::cvtColor(left_, grey_, cv::COLOR_BGR2GRAY);
+  cv::Sobel(grey_, slope_, CV_16S, 1, 0, 3, 0.25);  // a slope of one level a column is 8
+  texture_ = cv::abs(slope_) >= 2 * params_.min_texture;
+  cv::dilate(texture_, texture_, cv::Mat());
+}
+
 void ObstaclePoints::collect() {
   points_.clear();
   const PinholeCamera& camera = camera_.left;
@@ -77,6 +85,7 @@ void ObstaclePoints::collect() {
     const float* depth = depth_m_.ptr<float>(v);
     for (int u = 0; u < depth_m_.cols; ++u) {
       if (!(depth[u] > 0.0F)) continue;  // NaN too
+      if (!texture_.empty() && texture_.at<std::uint8_t>(v, u) == 0) continue;
       const Eigen::Vector3f seen(static_cast<float>((u - camera.cx) / camera.fx) * depth[u],
                                  static_cast<float>((v - camera.cy) / camera.fy) * depth[u],
                                  depth[u]);

@@ -19,9 +19,12 @@ namespace heel {
 struct ObstaclePointsParams {
   int width_px = 160;          ///< Images are made this small, or left as they are if smaller.
   double nearest_m = 0.45;     ///< Nearer things can't be matched.
-  double max_range_m = 3.0;    ///< On the floor, from the camera.
+  double max_range_m = 2.0;    ///< On the floor, from the camera; it is coarse further away.
   double min_height_m = 0.08;  ///< Lower points are the floor's noise.
   double max_height_m = 1.2;   ///< Higher ones the robot passes under.
+  /// Only where the image changes by this much from one column to the next (of 256 levels) is a
+  /// match to be trusted: in blank surfaces it runs on from their rims. Rims are obstacle enough.
+  int min_texture = 8;
 };
 
 /// Dense depth on small images: a table top of the size of a hand is enough of an obstacle, so a
@@ -34,6 +37,7 @@ class ObstaclePoints {
   const std::vector<Eigen::Vector3f>& of(const Frame& frame);
 
  private:
+  void findTexture();
   void collect();
 
   SensorKind sensor_;
@@ -42,6 +46,7 @@ class ObstaclePoints {
   ObstaclePointsParams params_;
   StereoMatcher matcher_;
   cv::Mat left_, right_, disparity_, depth_m_;
+  cv::Mat grey_, slope_, texture_;  // texture_: CV_8UC1, not 0 where there is some; empty: all
   std::vector<Eigen::Vector3f> points_;
 };
 

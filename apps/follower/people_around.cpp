@@ -3,7 +3,9 @@
 
 #include "apps/follower/people_around.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace heel {
 
@@ -26,12 +28,27 @@ void PeopleAround::step(double stamp_s, const LaserScan& scan, const FloorPose& 
   tracker_.step(stamp_s, things_);
   people_.clear();
   for (const Track& track : tracker_.tracks()) {
-    if (track.status == TrackStatus::kTentative) continue;
+    if (track.status == TrackStatus::kTentative || !hasWalked(track)) continue;
     MovingPerson person{track.motion.position_m(), track.motion.velocity_mps(),
                         params_.person_radius_m};
     if (person.velocity.norm() > params_.max_speed_mps) person.velocity.setZero();
     people_.push_back(person);
   }
+}
+
+bool PeopleAround::hasWalked(const Track& track) {
+  auto walk = std::find_if(walks_.begin(), walks_.end(),
+                           [&](const Walk& w) { return w.track_id == track.id; });
+  if (walk == walks_.end()) {
+    walks_.erase(
+        std::remove_if(walks_.begin(), walks_.end(),
+                       [&](const Walk& w) { return tracker_.findTrack(w.track_id) == nullptr; }),
+        walks_.end());
+    walk = walks_.insert(walks_.end(), {track.id, track.motion.position_m(), false});
+  }
+  const double gone_m = (track.motion.position_m() - walk->from_m).norm();
+  walk->has_walked = walk->has_walked || gone_m > params_.walked_m;
+  return walk->has_walked;
 }
 
 // Runs of neighbouring ends that the map does not show.

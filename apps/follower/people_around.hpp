@@ -20,6 +20,7 @@ struct PeopleAroundParams {
   double max_gap_m = 0.3;    ///< Ends of neighbouring beams further apart are two things.
   double max_size_m = 0.9;   ///< A wider thing is no person.
   double pair_m = 0.5;       ///< Two legs nearer than this are one person's.
+  double walked_m = 0.5;     ///< Who is so far from where they were first, walks.
   double person_radius_m = 0.25;
   double max_speed_mps = 2.0;  ///< Nobody indoors is faster; what seems so is two things.
   TrackerParams tracker = defaultTracker();
@@ -27,8 +28,8 @@ struct PeopleAroundParams {
   static TrackerParams defaultTracker();
 };
 
-/// Tracks everything of a person's size that the map does not show. Furniture that is not on the
-/// map is tracked too, and stands still.
+/// Tracks everything of a person's size that the map does not show. Who has walked is a person from
+/// then on; what has never moved is furniture, and left to who looks for obstacles.
 class PeopleAround {
  public:
   explicit PeopleAround(const PeopleAroundParams& params = {});
@@ -44,11 +45,19 @@ class PeopleAround {
   void findThings(const LaserScan& scan, const FloorPose& T_world_scanner,
                   const Clearance& clearance);
   void addThing(const std::vector<Eigen::Vector2d>& ends);
+  bool hasWalked(const Track& track);
 
   PeopleAroundParams params_;
   Tracker tracker_;
   std::vector<Eigen::Vector2d> ends_;  // of the thing that is being gathered
   std::vector<Observation> things_;
+  /// Of a track: where it was first, and whether it has left that place.
+  struct Walk {
+    int track_id;
+    Eigen::Vector2d from_m;
+    bool has_walked;
+  };
+  std::vector<Walk> walks_;
   std::vector<MovingPerson> people_;
 };
 
