@@ -29,13 +29,18 @@ void AppearanceLearner::addRoom(const cv::Mat& image_bgr, const cv::Mat& mask) {
 }
 
 void AppearanceLearner::addPerson(const ColorCloud& cloud, const pcl::Indices& indices) {
+  const bool is_picture = cloud.height > 1;
+  upper_body_.clear();
   for (const auto index : indices) {
     const pcl::PointXYZRGB& p = cloud[static_cast<std::size_t>(index)];
     if (!std::isfinite(p.z)) continue;
+    upper_body_.add(static_cast<double>(p.z),
+                    is_picture ? static_cast<int>(index) / static_cast<int>(cloud.width) : -1);
     for (std::size_t band = 0; band < person_.size(); ++band) {
       if (params_.bands[band].contains(p.z)) person_[band].add(p.b, p.g, p.r);
     }
   }
+  if (const auto height_m = upper_body_.height_m()) heights_m_.push_back(*height_m);
 }
 
 }  // namespace heel

@@ -29,7 +29,9 @@ class AppearanceLearner {
 
   /// Counts the colours of the person's points, each for the bands that hold its height.
   /// @param cloud    In a frame whose z is the height over the floor.
-  /// @param indices  The person's points, of any height; those without position are left out.
+  /// @param indices  The person's points in one frame, of any height; those without position are
+  ///                 left out. They tell the stature too; of an organized cloud, a head that the
+  ///                 picture's upper edge may have cut off is not measured.
   void addPerson(const ColorCloud& cloud, const pcl::Indices& indices);
 
   const ColorHistogram& room() const { return room_; }
@@ -38,12 +40,17 @@ class AppearanceLearner {
   const std::vector<ColorHistogram>& person() const { return person_; }
 
   /// @throws std::invalid_argument  if nothing of the person, or of the room, has been added.
-  AppearanceModel learn() const { return AppearanceModel(params_, person_, room_); }
+  AppearanceModel learn() const { return AppearanceModel(params_, person_, room_, stature()); }
+
+  /// Of all frames so far.
+  std::optional<Stature> stature() const { return statureFrom(heights_m_); }
 
  private:
   AppearanceParams params_;
   std::vector<ColorHistogram> person_;
   ColorHistogram room_;
+  StatureSample upper_body_;       // Of the frame that is being added.
+  std::vector<double> heights_m_;  // Of the frames that showed one.
 };
 
 }  // namespace heel

@@ -43,7 +43,8 @@ std::optional<AppearanceModel> ModelLessons::learn(std::size_t model) const {
   const bool seen = std::any_of(learner.person().begin(), learner.person().end(),
                                 [](const ColorHistogram& histogram) { return !histogram.empty(); });
   if (!seen || learner.room().empty()) return std::nullopt;
-  return AppearanceModel(models_[model].params, learner.person(), learner.room());
+  return AppearanceModel(models_[model].params, learner.person(), learner.room(),
+                         learner.stature());
 }
 
 }  // namespace heel
