@@ -8,6 +8,11 @@
 #include <stdexcept>
 
 namespace heel {
+namespace {
+
+constexpr float kHighest_m = 2.2F;  // Nobody's head is higher.
+
+}  // namespace
 
 AppearanceLearner::AppearanceLearner(const AppearanceParams& params)
     : params_(params), person_(params.bands.size()) {
@@ -29,18 +34,28 @@ void AppearanceLearner::addRoom(const cv::Mat& image_bgr, const cv::Mat& mask) {
 }
 
 void AppearanceLearner::addPerson(const ColorCloud& cloud, const pcl::Indices& indices) {
-  const bool is_picture = cloud.height > 1;
-  upper_body_.clear();
   for (const auto index : indices) {
     const pcl::PointXYZRGB& p = cloud[static_cast<std::size_t>(index)];
     if (!std::isfinite(p.z)) continue;
-    upper_body_.add(static_cast<double>(p.z),
-                    is_picture ? static_cast<int>(index) / static_cast<int>(cloud.width) : -1);
     for (std::size_t band = 0; band < person_.size(); ++band) {
       if (params_.bands[band].contains(p.z)) person_[band].add(p.b, p.g, p.r);
     }
   }
-  if (const auto height_m = upper_body_.height_m()) heights_m_.push_back(*height_m);
+}
+
+void AppearanceLearner::addBody(const ColorCloud& cloud, const Eigen::Vector2d& position_m,
+                                double radius_m) {
+  const auto radius2 = static_cast<float>(radius_m * radius_m);
+  const Eigen::Vector2f middle = position_m.cast<float>();
+  const bool is_picture = cloud.height > 1;
+  body_.clear();
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const pcl::PointXYZRGB& p = cloud[i];
+    if (!((Eigen::Vector2f(p.x, p.y) - middle).squaredNorm() <= radius2)) continue;  // Or NaN.
+    if (p.z > kHighest_m) continue;
+    body_.add(static_cast<double>(p.z), is_picture ? static_cast<int>(i / cloud.width) : -1);
+  }
+  if (const auto height_m = body_.height_m()) heights_m_.push_back(*height_m);
 }
 
 }  // namespace heel

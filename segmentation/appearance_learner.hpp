@@ -8,6 +8,7 @@
 #include "cloud/color_cloud.hpp"
 #include "segmentation/appearance_model.hpp"
 
+#include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
 #include <pcl/types.h>
 
@@ -29,10 +30,14 @@ class AppearanceLearner {
 
   /// Counts the colours of the person's points, each for the bands that hold its height.
   /// @param cloud    In a frame whose z is the height over the floor.
-  /// @param indices  The person's points in one frame, of any height; those without position are
-  ///                 left out. They tell the stature too; of an organized cloud, a head that the
-  ///                 picture's upper edge may have cut off is not measured.
+  /// @param indices  The person's points, of any height; those without position are left out.
   void addPerson(const ColorCloud& cloud, const pcl::Indices& indices);
+
+  /// Takes the stature of the person who stands at a place in this frame. Of an organized cloud, a
+  /// head that the picture's upper edge may have cut off is not measured.
+  /// @param cloud     All points of the frame, as bodies are measured when they are compared, too.
+  /// @param radius_m  As BodyAppearanceParams::radius_m.
+  void addBody(const ColorCloud& cloud, const Eigen::Vector2d& position_m, double radius_m = 0.20);
 
   const ColorHistogram& room() const { return room_; }
 
@@ -49,7 +54,7 @@ class AppearanceLearner {
   AppearanceParams params_;
   std::vector<ColorHistogram> person_;
   ColorHistogram room_;
-  StatureSample upper_body_;       // Of the frame that is being added.
+  StatureSample body_;             // Of the frame that is being added.
   std::vector<double> heights_m_;  // Of the frames that showed one.
 };
 

@@ -45,10 +45,11 @@ double BodyMatcher::matchPixels(const ForEachPixel& for_each) {
     least = std::min(least, std::pow(affinity, params_.sharpness));
   }
   const std::optional<double> height_m = heights_.height_m();
+  if (stature_ && !height_m) least = std::min(least, params_.unknown_stature);
   if (stature_ && height_m) {
     const double apart =
         (*height_m - stature_->height_m) / std::hypot(params_.stature_sigma_m, stature_->spread_m);
-    least = std::min(least, std::exp(-0.5 * apart * apart));
+    least = std::min(least, std::max(std::exp(-0.5 * apart * apart), params_.least_stature));
   }
   return std::max(least, 1e-6);
 }

@@ -20,8 +20,12 @@ struct BodyMatchParams {
   double prior_affinity = 0.6;
   /// An affinity counts to this power. It brings the scale of bodyAppearance(): 0.41 parted people
   /// best on simulated wardrobes.
-  double sharpness = 2.5;
+  double sharpness = 2.2;
   double stature_sigma_m = 0.05;  ///< Of a frame's stature, besides what it scattered in phase 1.
+  double least_stature = 0.15;    ///< A single frame's stature may be wild; it counts so much.
+  /// Who is not seen up to the head counts no more than this where the stature is known: enough to
+  /// be followed on, not to be taken for the target.
+  double unknown_stature = 0.4;
 };
 
 /// Compares bodies with a model: each band's colours by their distribution, and the stature. The
@@ -35,7 +39,7 @@ class BodyMatcher {
   explicit BodyMatcher(const AppearanceModel& model, const BodyMatchParams& params = {});
 
   /// In (0, 1], 1 for the same: the least, over the bands, of affinity^sharpness (see ColorSample)
-  /// and, of e^(-d^2 / 2 sigma^2), d the difference of the statures if both are known.
+  /// and, of e^(-d^2 / 2 sigma^2) where both statures are known and differ by d.
   double match(const BodyView& view, const WorldBlob& blob);
 
   /// The same over the points of a cloud in the base frame.

@@ -25,7 +25,7 @@ struct Stature {
 class StatureSample {
  public:
   static constexpr double kLeastHeight_m = 1.2;  ///< What is lower is not looked at.
-  static constexpr int kEdgeRows = 2;
+  static constexpr int kEdgeRows = 8;            ///< Stereo has no depth in the outermost few.
   static constexpr int kMinPoints = 60;
 
   void clear();

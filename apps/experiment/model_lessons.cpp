@@ -38,6 +38,10 @@ void ModelLessons::addPerson(const ColorCloud& cloud, const pcl::Indices& indice
   for (AppearanceLearner& learner : learners_) learner.addPerson(cloud, indices);
 }
 
+void ModelLessons::addBody(const ColorCloud& cloud, const Eigen::Vector2d& position_m) {
+  for (AppearanceLearner& learner : learners_) learner.addBody(cloud, position_m);
+}
+
 std::optional<AppearanceModel> ModelLessons::learn(std::size_t model) const {
   const AppearanceLearner& learner = learners_.at(learner_of_.at(model));
   const bool seen = std::any_of(learner.person().begin(), learner.person().end(),

@@ -41,6 +41,8 @@ LearnedPerson learnPerson(Recording& recording, const CameraSetup& setup,
         if (step.person >= 0) {
           pointsOfPerson(step, person);
           learner.addPerson(*step.view->cloud, person);
+          learner.addBody(*step.view->cloud,
+                          step.view->blobs[static_cast<std::size_t>(step.person)].position_m);
         }
       }
       if (observer) observer(frame, step);

@@ -27,8 +27,8 @@ TEST(StatureSample, OneWildPointHardlyMovesIt) {
 }
 
 TEST(StatureSample, SaysNothingOfAHeadThatMayBeCutOff) {
-  EXPECT_FALSE(bodyUpTo(1.7, 1).height_m());
-  EXPECT_TRUE(bodyUpTo(1.7, 2).height_m());
+  EXPECT_FALSE(bodyUpTo(1.7, StatureSample::kEdgeRows - 1).height_m());
+  EXPECT_TRUE(bodyUpTo(1.7, StatureSample::kEdgeRows).height_m());
 }
 
 TEST(StatureSample, SaysNothingFromLegsOrAFewPoints) {
