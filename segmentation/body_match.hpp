@@ -20,7 +20,7 @@ struct BodyMatchParams {
   double prior_affinity = 0.6;
   /// An affinity counts to this power. It brings the scale of bodyAppearance(): 0.41 parted people
   /// best on simulated wardrobes.
-  double sharpness = 2.2;
+  double sharpness = 2.0;
   double stature_sigma_m = 0.05;  ///< Of a frame's stature, besides what it scattered in phase 1.
   double least_stature = 0.15;    ///< A single frame's stature may be wild; it counts so much.
   /// Who is not seen up to the head counts no more than this where the stature is known: enough to
