@@ -8,6 +8,7 @@
 #include "cloud/color_cloud.hpp"
 #include "segmentation/appearance_model.hpp"
 
+#include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
 #include <pcl/types.h>
 
@@ -32,18 +33,29 @@ class AppearanceLearner {
   /// @param indices  The person's points, of any height; those without position are left out.
   void addPerson(const ColorCloud& cloud, const pcl::Indices& indices);
 
+  /// Takes the stature of the person who stands at a place in this frame. Of an organized cloud, a
+  /// head that the picture's upper edge may have cut off is not measured.
+  /// @param cloud     All points of the frame, as bodies are measured when they are compared, too.
+  /// @param radius_m  As BodyAppearanceParams::radius_m.
+  void addBody(const ColorCloud& cloud, const Eigen::Vector2d& position_m, double radius_m = 0.20);
+
   const ColorHistogram& room() const { return room_; }
 
   /// Counts of each band.
   const std::vector<ColorHistogram>& person() const { return person_; }
 
   /// @throws std::invalid_argument  if nothing of the person, or of the room, has been added.
-  AppearanceModel learn() const { return AppearanceModel(params_, person_, room_); }
+  AppearanceModel learn() const { return AppearanceModel(params_, person_, room_, stature()); }
+
+  /// Of all frames so far.
+  std::optional<Stature> stature() const { return statureFrom(heights_m_); }
 
  private:
   AppearanceParams params_;
   std::vector<ColorHistogram> person_;
   ColorHistogram room_;
+  StatureSample body_;             // Of the frame that is being added.
+  std::vector<double> heights_m_;  // Of the frames that showed one.
 };
 
 }  // namespace heel

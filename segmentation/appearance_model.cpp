@@ -25,15 +25,29 @@ void check(const AppearanceParams& params) {
   }
 }
 
-ColorScore makeScore(const AppearanceParams& params, const ColorHistogram& person,
-                     const ColorHistogram& room) {
+ColorScore plainScore(const AppearanceParams& params, const ColorHistogram& person,
+                      const ColorHistogram& room) {
   switch (params.model) {
     case ColorModel::kPrincipalColors:
       return principalColorScore(person, params.principal_colors);
     case ColorModel::kColorRatio:
       return colorRatioScore(person, room, params.color_ratio);
+    case ColorModel::kHueSaturation:
+      return hueSaturationScore(person, params.hue_saturation);
   }
   throw std::invalid_argument("there is no such colour model");
+}
+
+ColorScore makeScore(const AppearanceParams& params, const ColorHistogram& person,
+                     const ColorHistogram& room) {
+  ColorScore plain = plainScore(params, person, room);
+  if (!params.suppress_background) return plain;
+  ColorRatioParams room_only = params.color_ratio;
+  room_only.other_weight = 1e-3;  // Next to nothing: only the room's colours are discounted.
+  return [plain = std::move(plain), share = colorRatioScore(person, room, room_only)](
+             std::uint8_t b, std::uint8_t g, std::uint8_t r) {
+    return plain(b, g, r) * share(b, g, r);
+  };
 }
 
 /// Tabulates the band's scores, stretched so that the person's best colour has 255: the paper's
@@ -69,8 +83,8 @@ std::vector<BodyBand> wholeBody() {
 }
 
 AppearanceModel::AppearanceModel(AppearanceParams params, std::vector<ColorHistogram> person,
-                                 ColorHistogram room)
-    : params_(std::move(params)), room_(std::move(room)) {
+                                 ColorHistogram room, std::optional<Stature> stature)
+    : params_(std::move(params)), room_(std::move(room)), stature_(stature) {
   check(params_);
   if (person.size() != params_.bands.size()) {
     throw std::invalid_argument("each band of an appearance needs its counts of the person");
@@ -147,7 +161,12 @@ AppearanceModel mergeAppearances(const AppearanceModel& a, const AppearanceModel
   }
   ColorHistogram room = a.room();
   room.merge(b.room());
-  return AppearanceModel(a.params(), std::move(person), std::move(room));
+  // Of two measures of one height, the one that rests on more.
+  const auto frames = [](const AppearanceModel& m) {
+    return m.stature() ? m.stature()->frames : 0;
+  };
+  return AppearanceModel(a.params(), std::move(person), std::move(room),
+                         frames(a) >= frames(b) ? a.stature() : b.stature());
 }
 
 }  // namespace heel

@@ -9,9 +9,11 @@
 #include "segmentation/color_histogram.hpp"
 #include "segmentation/color_score.hpp"
 #include "segmentation/color_table.hpp"
+#include "segmentation/stature.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,13 @@ namespace heel {
 enum class ColorModel {
   kPrincipalColors,  ///< The paper's.
   kColorRatio,       ///< The person's colours against the room's.
+  kHueSaturation,    ///< A joint histogram of hue and saturation.
+};
+
+/// How a body that may be the target's is compared with the model.
+enum class BodyComparison {
+  kCoverage,  ///< By the share of it that has the target's colours: bodyAppearance().
+  kMatch,     ///< By the distribution of its colours and by its stature: BodyMatcher.
 };
 
 /// Heights over the floor that share their colours.
@@ -47,9 +56,15 @@ std::vector<BodyBand> wholeBody();
 struct AppearanceParams {
   ColorModel model = ColorModel::kColorRatio;
   std::vector<BodyBand> bands = torsoAndHead();
+  BodyComparison comparison = BodyComparison::kCoverage;
   ThresholdParams threshold;
   ColorRatioParams color_ratio;
   PrincipalColorParams principal_colors;
+  HueSaturationParams hue_saturation;
+  /// Multiplies a colour's score by p / (p + q), p and q the person's and the room's smoothed
+  /// shares of it (see colorRatioScore(), which does so by itself): what the empty room has as well
+  /// counts little.
+  bool suppress_background = false;
   double max_error_share = 0.6;    ///< Over it, a band does not tell the person from the room.
   std::uint64_t min_points = 500;  ///< A band needs that many points to be relied on.
 };
@@ -89,11 +104,13 @@ class AppearanceModel {
   /// @param room    Counts of what is not the person.
   /// @throws std::invalid_argument  if a parameter is out of range, all of `person` is empty, or
   ///                                `room` is.
-  AppearanceModel(AppearanceParams params, std::vector<ColorHistogram> person, ColorHistogram room);
+  AppearanceModel(AppearanceParams params, std::vector<ColorHistogram> person, ColorHistogram room,
+                  std::optional<Stature> stature = {});
 
   const AppearanceParams& params() const { return params_; }
   const std::vector<AppearanceBand>& bands() const { return bands_; }
   const ColorHistogram& room() const { return room_; }
+  const std::optional<Stature>& stature() const { return stature_; }
 
   /// The paper's filter: passes what passes the table of any band. Its scores are 0 and 255.
   ColorTable filterTable() const;
@@ -108,6 +125,7 @@ class AppearanceModel {
   AppearanceParams params_;
   std::vector<AppearanceBand> bands_;
   ColorHistogram room_;
+  std::optional<Stature> stature_;
 };
 
 /// The model of all that either was learned from, with thresholds chosen anew.

@@ -28,13 +28,18 @@ template <typename Enum>
 using Names = std::vector<std::pair<Enum, std::string>>;
 
 const Names<ColorModel> kModels = {{ColorModel::kPrincipalColors, "principal_colors"},
-                                   {ColorModel::kColorRatio, "color_ratio"}};
+                                   {ColorModel::kColorRatio, "color_ratio"},
+                                   {ColorModel::kHueSaturation, "hue_saturation"}};
 const Names<ThresholdRule> kRules = {{ThresholdRule::kFewestErrors, "fewest_errors"},
                                      {ThresholdRule::kMostSelective, "most_selective"}};
+
+const Names<BodyComparison> kComparisons = {{BodyComparison::kCoverage, "coverage"},
+                                            {BodyComparison::kMatch, "match"}};
 
 template <typename Params, typename Visitor>
 void visitParams(Params& params, Visitor& visitor) {
   visitor.choice("model", params.model, kModels);
+  visitor.choice("comparison", params.comparison, kComparisons);
   visitor.begin("color_ratio");
   visitor.field("dark_offset", params.color_ratio.dark_offset);
   visitor.field("chroma_limit", params.color_ratio.chroma_limit);
@@ -50,6 +55,11 @@ void visitParams(Params& params, Visitor& visitor) {
   visitor.field("hue_bins", params.principal_colors.hue_bins);
   visitor.field("value_bins", params.principal_colors.value_bins);
   visitor.end();
+  visitor.begin("hue_saturation");
+  visitor.field("hue_bins", params.hue_saturation.hue_bins);
+  visitor.field("saturation_bins", params.hue_saturation.saturation_bins);
+  visitor.end();
+  visitor.field("suppress_background", params.suppress_background);
   visitor.begin("threshold");
   visitor.choice("rule", params.threshold.rule, kRules);
   visitor.field("false_positive_weight", params.threshold.false_positive_weight);
@@ -59,6 +69,13 @@ void visitParams(Params& params, Visitor& visitor) {
   visitor.field("min_points", params.min_points);
 }
 
+template <typename Values, typename Visitor>
+void visitStature(Values& stature, Visitor& visitor) {
+  visitor.field("height_m", stature.height_m);
+  visitor.field("spread_m", stature.spread_m);
+  visitor.field("frames", stature.frames);
+}
+
 // --- Reading ------------------------------------------------------------------------------------
 
 [[noreturn]] void complain(const std::string& field, const std::string& why) {
@@ -66,6 +83,7 @@ void visitParams(Params& params, Visitor& visitor) {
 }
 
 const char* kindOf(double) { return "a number"; }
+const char* kindOf(bool) { return "true or false"; }
 const char* kindOf(int) { return "a whole number"; }
 const char* kindOf(std::uint64_t) { return "a count"; }
 const char* kindOf(const std::string&) { return "a text"; }
@@ -178,8 +196,14 @@ AppearanceModel readModel(const YAML::Node& root) {
     thresholds.push_back(static_cast<std::uint8_t>(threshold));
     person.push_back(readColors(band));
   }
+  std::optional<Stature> stature;
+  if (root["stature"]) {
+    reader.begin("stature");
+    visitStature(stature.emplace(), reader);
+    reader.end();
+  }
   reader.begin("room");
-  AppearanceModel model(std::move(params), std::move(person), readColors(reader));
+  AppearanceModel model(std::move(params), std::move(person), readColors(reader), stature);
   for (std::size_t i = 0; i < thresholds.size(); ++i) model.setThreshold(i, thresholds[i]);
   return model;
 }
@@ -239,6 +263,11 @@ std::string toYaml(const AppearanceModel& model) {
     out << YAML::EndMap;
   }
   out << YAML::EndSeq;
+  if (model.stature()) {
+    writer.begin("stature");
+    visitStature(*model.stature(), writer);
+    writer.end();
+  }
   writer.begin("room");
   writeColors(out, model.room());
   writer.end();

@@ -50,6 +50,11 @@ double bodyAppearance(const BodyView& view, const WorldBlob& blob,
                       const std::vector<AppearanceBand>& bands,
                       const BodyAppearanceParams& params = {});
 
+/// Whether a point of the base frame lies in the upright cylinder about a place, between the ends
+/// of a band of height.
+bool isInCylinder(const Eigen::Vector3f& p, const Eigen::Vector2d& position_m, const BodyBand& band,
+                  double radius_m);
+
 /// The same over the points of a cloud in the base frame.
 double bodyAppearance(const ColorCloud& cloud, const WorldBlob& blob,
                       const std::vector<AppearanceBand>& bands,

@@ -35,6 +35,18 @@ struct PrincipalColorParams {
 ColorScore principalColorScore(const ColorHistogram& person,
                                const PrincipalColorParams& params = {});
 
+/// One histogram of hue and saturation together.
+struct HueSaturationParams {
+  int hue_bins = 36;        ///< Over the full circle.
+  int saturation_bins = 8;  ///< Over [0, 1].
+};
+
+/// The person's share of the colour's bin, smoothed by one bin each way. Blind to value, so light
+/// and shade are one; so are grey, black and white, and of what is dark, hue and saturation are
+/// mostly noise.
+/// @throws std::invalid_argument  if a parameter is out of range or `person` is empty.
+ColorScore hueSaturationScore(const ColorHistogram& person, const HueSaturationParams& params = {});
+
 /// How colours are smoothed and compared with the room's. Units are at each field.
 struct ColorRatioParams {
   /// Added to each channel before its logarithm: below it, colours count as alike.

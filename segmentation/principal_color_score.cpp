@@ -3,6 +3,7 @@
 
 #include "segmentation/color_clusters.hpp"
 #include "segmentation/color_score.hpp"
+#include "segmentation/hsv.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,43 +15,14 @@
 namespace heel {
 namespace {
 
-struct Hsv {
-  double hue;  // in [0, 1): a turn; 0 for greys
-  double saturation;
-  double value;
-};
-
-Hsv toHsv(std::uint8_t b8, std::uint8_t g8, std::uint8_t r8) {
-  const double b = b8 / 255.0;
-  const double g = g8 / 255.0;
-  const double r = r8 / 255.0;
-  const double value = std::max({b, g, r});
-  const double range = value - std::min({b, g, r});
-  if (range <= 0.0) return {0.0, 0.0, value};
-  double sixths = 0.0;
-  if (value == r) {
-    sixths = (g - b) / range;
-  } else if (value == g) {
-    sixths = 2.0 + (b - r) / range;
-  } else {
-    sixths = 4.0 + (r - g) / range;
-  }
-  if (sixths < 0.0) sixths += 6.0;
-  return {sixths / 6.0, range / value, value};
-}
-
-std::size_t binOf(double share, std::size_t bins) {
-  return std::min(static_cast<std::size_t>(share * static_cast<double>(bins)), bins - 1);
-}
-
 /// The paper's A = <D_H, D_V>.
 struct PrincipalColor {
   std::vector<double> hue_shares;
   std::vector<double> value_shares;
 
   double operator()(const Hsv& c) const {
-    return c.saturation * hue_shares[binOf(c.hue, hue_shares.size())] +
-           (1.0 - c.saturation) * value_shares[binOf(c.value, value_shares.size())];
+    return c.saturation * hue_shares[hsvBin(c.hue, hue_shares.size())] +
+           (1.0 - c.saturation) * value_shares[hsvBin(c.value, value_shares.size())];
   }
 };
 
@@ -62,8 +34,8 @@ PrincipalColor makePrincipalColor(const ColorHistogram& points,
   points.forEach([&](Bgr c, std::uint64_t count) {
     const Hsv hsv = toHsv(c.b, c.g, c.r);
     const double share = static_cast<double>(count) / total;
-    color.hue_shares[binOf(hsv.hue, color.hue_shares.size())] += share;
-    color.value_shares[binOf(hsv.value, color.value_shares.size())] += share;
+    color.hue_shares[hsvBin(hsv.hue, color.hue_shares.size())] += share;
+    color.value_shares[hsvBin(hsv.value, color.value_shares.size())] += share;
   });
   return color;
 }

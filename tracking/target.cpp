@@ -83,6 +83,9 @@ TargetTracker::TargetTracker(const TargetParams& params, const TrackerParams& tr
   require(std::isfinite(params.min_appearance_ratio) && params.min_appearance_ratio >= 1.0,
           "min_appearance_ratio must be at least 1");
   require(params.appearance_frames >= 1, "appearance_frames must be at least 1");
+  require(params.release_share >= 0.0 && params.release_share <= 1.0,
+          "release_share must be in [0, 1]");
+  require(params.release_s >= 0.0, "release_s must not be negative");
   require(params.max_speed_mps > 0.0, "max_speed_mps must be positive");
   require(isNotNegative(params.reach_slack_m), "reach_slack_m must not be negative");
   require(params.coast_memory_s > 0.0, "coast_memory_s must be positive");
@@ -115,6 +118,11 @@ const TargetEstimate& TargetTracker::step(double stamp_s,
     chooseAtStart();
   }
   const Track* target = tracker_.findTrack(estimate_.track_id);
+  if (target != nullptr && isMistaken(*target)) {
+    estimate_.track_id = TargetEstimate::kNoTrack;
+    estimate_.last_seen = seen_before_;
+    target = nullptr;
+  }
   if (target == nullptr && search()) {
     target = tracker_.findTrack(estimate_.track_id);
   }
@@ -201,6 +209,20 @@ void TargetTracker::take(const Track& track, TargetReason reason) {
   estimate_.reason = reason;
   likely_id_ = TargetEstimate::kNoTrack;
   had_target_ = true;
+  taken_by_looks_ = reason == TargetReason::kRecognized;
+  unlike_since_s_.reset();
+  seen_before_ = estimate_.last_seen;
+}
+
+/// Whether the target was taken by looks that it has not had for some time.
+bool TargetTracker::isMistaken(const Track& track) {
+  if (track.status != TrackStatus::kConfirmed) return false;  // Unseen: its looks are old.
+  if (!taken_by_looks_ || track.appearance() >= params_.release_share * params_.min_appearance) {
+    unlike_since_s_.reset();
+    return false;
+  }
+  if (!unlike_since_s_) unlike_since_s_ = *tracker_.stamp_s();
+  return *tracker_.stamp_s() - *unlike_since_s_ >= params_.release_s;
 }
 
 /// Fills the estimate from the target's track.

@@ -28,6 +28,12 @@ struct TargetParams {
   /// target was last seen than max_speed_mps * (time since) + reach_slack_m.
   double max_speed_mps = 2.0;
   double reach_slack_m = 0.8;
+  /// Whoever was taken by looks is let go once their appearance has been under this share of
+  /// min_appearance
+  double release_share = 0.6;
+  /// for so long: they were somebody else, taken on one good look. A target that was started at a
+  /// place is kept, for its looks were not what it was chosen by.
+  double release_s = 2.0;
   double coast_memory_s = 1.0;        ///< Time unseen in which the confidence falls to 1/e.
   double confusion_distance_m = 0.8;  ///< Somebody nearer than this can be mistaken for the target.
   bool start_by_appearance = true;    ///< Find the target by looks when no start was given.
@@ -124,6 +130,7 @@ class TargetTracker {
   void chooseAtStart();
   bool search();
   void take(const Track& track, TargetReason reason);
+  bool isMistaken(const Track& track);
   void describe(const Track& track, const std::vector<Observation>& observations);
   void explainUnseen(const Track& track, const std::vector<Observation>& observations);
   double confidenceOf(const Track& track) const;
@@ -134,6 +141,10 @@ class TargetTracker {
   TargetEstimate estimate_;
   std::optional<Eigen::Vector2d> start_m_;
   bool had_target_ = false;
+  bool taken_by_looks_ = false;
+  std::optional<double>
+      unlike_since_s_;                   // The target has looked unlike itself in all frames since.
+  std::optional<LastSeen> seen_before_;  // What was known when the target was taken by looks.
   int likely_id_ = TargetEstimate::kNoTrack;  ///< Who alone looked like the target last frame,
   int likely_frames_ = 0;                     ///< and in how many frames in a row.
 };

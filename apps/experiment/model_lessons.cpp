@@ -38,12 +38,17 @@ void ModelLessons::addPerson(const ColorCloud& cloud, const pcl::Indices& indice
   for (AppearanceLearner& learner : learners_) learner.addPerson(cloud, indices);
 }
 
+void ModelLessons::addBody(const ColorCloud& cloud, const Eigen::Vector2d& position_m) {
+  for (AppearanceLearner& learner : learners_) learner.addBody(cloud, position_m);
+}
+
 std::optional<AppearanceModel> ModelLessons::learn(std::size_t model) const {
   const AppearanceLearner& learner = learners_.at(learner_of_.at(model));
   const bool seen = std::any_of(learner.person().begin(), learner.person().end(),
                                 [](const ColorHistogram& histogram) { return !histogram.empty(); });
   if (!seen || learner.room().empty()) return std::nullopt;
-  return AppearanceModel(models_[model].params, learner.person(), learner.room());
+  return AppearanceModel(models_[model].params, learner.person(), learner.room(),
+                         learner.stature());
 }
 
 }  // namespace heel

@@ -15,13 +15,29 @@ std::vector<OfferedModel> offeredModels() {
     params.bands = std::move(bands);
     return params;
   };
+  const auto discounted = [&](ColorModel model, int colors) {
+    AppearanceParams params = make(model, colors, upperBody());
+    params.suppress_background = true;
+    return params;
+  };
+  const auto matched = [&](std::vector<BodyBand> bands) {
+    AppearanceParams params = make(ColorModel::kColorRatio, 1, std::move(bands));
+    params.comparison = BodyComparison::kMatch;
+    return params;
+  };
   return {{"paper, k = 1", make(ColorModel::kPrincipalColors, 1, upperBody())},
           {"paper, k from the data", make(ColorModel::kPrincipalColors, 0, upperBody())},
           {"paper, k = 1, torso + head", make(ColorModel::kPrincipalColors, 1, torsoAndHead())},
           {"paper, k = 1, + legs", make(ColorModel::kPrincipalColors, 1, wholeBody())},
+          {"paper, k = 1, room discounted", discounted(ColorModel::kPrincipalColors, 1)},
+          {"paper, k from the data, disc.", discounted(ColorModel::kPrincipalColors, 0)},
+          {"hue-saturation", make(ColorModel::kHueSaturation, 1, upperBody())},
+          {"hue-saturation, room discounted", discounted(ColorModel::kHueSaturation, 1)},
           {"ratio to the room", make(ColorModel::kColorRatio, 1, upperBody())},
           {"ratio, torso + head (default)", AppearanceParams()},
-          {"ratio, torso + head + legs", make(ColorModel::kColorRatio, 1, wholeBody())}};
+          {"ratio, torso + head + legs", make(ColorModel::kColorRatio, 1, wholeBody())},
+          {"match, torso + head", matched(torsoAndHead())},
+          {"match, torso + head + legs", matched(wholeBody())}};
 }
 
 }  // namespace heel

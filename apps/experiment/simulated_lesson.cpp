@@ -38,7 +38,10 @@ SimulatedLesson takeLesson(const std::vector<const SimulatedFrames*>& recordings
       const AcquisitionStep& step = acquisition.step(frame.stamp_s, frame.image_bgr, frame.depth_m);
       if (!step.usable) continue;
       lesson.lessons.addRoom(frame.image_bgr, step.labels == AcquisitionStep::kScene);
-      if (step.person >= 0) lesson.lessons.addPerson(*step.view->cloud, personPoints(step));
+      if (step.person < 0) continue;
+      lesson.lessons.addPerson(*step.view->cloud, personPoints(step));
+      lesson.lessons.addBody(*step.view->cloud,
+                             step.view->blobs[static_cast<std::size_t>(step.person)].position_m);
     }
   }
   lesson.result = acquisition.result();

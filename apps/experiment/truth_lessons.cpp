@@ -45,6 +45,7 @@ std::vector<ModelLessons> learnEveryone(const std::filesystem::path& path, const
         }
       }
       lessons[i].addPerson(cloud, near);
+      lessons[i].addBody(cloud, place.cast<double>());
     }
   }
   return lessons;

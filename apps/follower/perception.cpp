@@ -70,6 +70,9 @@ Perception::Perception(const CameraSetup& setup, const AppearanceModel& model,
                                                                : PlanViewCamera().focal_length_px}),
       finder_(params.blobs),
       tracker_(params.target, params.tracker, gateOf(params)) {
+  if (model.params().comparison == BodyComparison::kMatch) {
+    body_matcher_.emplace(model, params.match);
+  }
   for (const AppearanceBand& band : bands_) {
     height_crops_.emplace_back(HeightCropParams{band.body.min_height_m, band.body.max_height_m});
   }
@@ -180,12 +183,14 @@ void Perception::findCandidates(const Frame& frame, const FloorPose& robot) {
   }
 }
 
-double Perception::appearanceOf(const WorldBlob& blob, const Frame& frame) const {
+double Perception::appearanceOf(const WorldBlob& blob, const Frame& frame) {
   if (frame.image_bgr.empty()) {
-    return bodyAppearance(*step_.cloud, blob, bands_, params_.body);
+    return body_matcher_ ? body_matcher_->match(*step_.cloud, blob)
+                         : bodyAppearance(*step_.cloud, blob, bands_, params_.body);
   }
-  return bodyAppearance({frame.image_bgr, depth_m_, camera_.left, T_base_camera_}, blob, bands_,
-                        params_.body);
+  const BodyView view{frame.image_bgr, depth_m_, camera_.left, T_base_camera_};
+  return body_matcher_ ? body_matcher_->match(view, blob)
+                       : bodyAppearance(view, blob, bands_, params_.body);
 }
 
 // Silence is what users of trackers complain of most: name the first stage that left nothing.

@@ -13,12 +13,14 @@
 #include "segmentation/appearance_filter.hpp"
 #include "segmentation/appearance_model.hpp"
 #include "segmentation/body_appearance.hpp"
+#include "segmentation/body_match.hpp"
 #include "segmentation/height_crop.hpp"
 #include "segmentation/plan_view.hpp"
 #include "segmentation/world_blobs.hpp"
 #include "tracking/target.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,7 +48,8 @@ struct PerceptionParams {
   PlanViewParams plan_view;
   WorldBlobParams blobs;
   CandidateParams candidates;
-  BodyAppearanceParams body;
+  BodyAppearanceParams body;  ///< For models that compare by coverage,
+  BodyMatchParams match;      ///< and for those that compare distributions.
   TrackerParams tracker;
   TargetParams target;
   GeometricGate gate;  ///< Besides "too close": where a person can be seen.
@@ -103,7 +106,7 @@ class Perception {
   void measureDepth(const Frame& frame);
   void keepStanding();
   void findCandidates(const Frame& frame, const FloorPose& robot);
-  double appearanceOf(const WorldBlob& blob, const Frame& frame) const;
+  double appearanceOf(const WorldBlob& blob, const Frame& frame);
   const char* whyNotSeen() const;
 
   SensorKind sensor_;
@@ -124,6 +127,7 @@ class Perception {
   pcl::IndicesPtr in_band_;
   PlanView plan_view_;
   WorldBlobFinder finder_;
+  std::optional<BodyMatcher> body_matcher_;  // if the model asks for it
   TargetTracker tracker_;
   PerceptionStep step_;
 };

@@ -8,9 +8,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,7 @@ struct Options {
   std::filesystem::path out;
   std::filesystem::path people;
   bool people_only = false;
+  std::string models;
   AppearanceExperimentParams params;
 };
 
@@ -108,7 +111,17 @@ void runSimulated(const Options& options) {
   }
 }
 
-void run(const Options& options) {
+void keepModels(std::vector<OfferedModel>& models, const std::string& text) {
+  models.erase(std::remove_if(models.begin(), models.end(),
+                              [&](const OfferedModel& model) {
+                                return model.name.find(text) == std::string::npos;
+                              }),
+               models.end());
+  if (models.empty()) throw std::runtime_error("no model's name holds '" + text + "'");
+}
+
+void run(Options& options) {
+  keepModels(options.params.models, options.models);
   if (!options.people_only) runSimulated(options);
   if (!options.people.empty()) runPeople(options);
   if (!options.out.empty()) std::printf("wrote %s\n", options.out.string().c_str());
@@ -136,6 +149,8 @@ void addAppearanceExperiment(CLI::App& verb) {
       "then the same on a recording of real people, empty at first, with truth.csv");
   experiment->add_flag("--people-only", options->people_only, "leave the simulation out")
       ->needs(people);
+  experiment->add_option("--models", options->models,
+                         "only models whose names, as the tables have them, hold this text");
   experiment->add_option("--out", options->out, "folder for tables and pictures");
   experiment->callback([options] { run(*options); });
 }

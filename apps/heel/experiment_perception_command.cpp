@@ -24,6 +24,7 @@ struct Options {
   int recordings = 50;
   std::uint64_t seed = 1;
   bool legs = false;
+  bool match = false;
   std::filesystem::path out;
   PerceptionTruthParams params;
 };
@@ -92,6 +93,7 @@ void writeFiles(const std::filesystem::path& folder, const std::vector<Perceptio
 
 void run(Options& options) {
   if (options.legs) options.params.appearance.bands = wholeBody();
+  if (options.match) options.params.appearance.comparison = BodyComparison::kMatch;
   const auto count = static_cast<std::size_t>(options.recordings);
   ProgressBar progress("perception", count);
   std::vector<PerceptionTruthRun> runs;
@@ -121,6 +123,8 @@ void addPerceptionExperiment(CLI::App& verb) {
       ->capture_default_str();
   experiment->add_option("--seed", options->seed, "of the first")->capture_default_str();
   experiment->add_flag("--legs", options->legs, "learn the legs too");
+  experiment->add_flag("--match", options->match,
+                       "compare bodies by the distribution of their colours and by stature");
   experiment->add_option("--out", options->out, "folder for tables");
   experiment->callback([options] { run(*options); });
 }

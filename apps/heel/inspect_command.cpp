@@ -34,12 +34,22 @@ struct Options {
 
 constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 
+const char* nameOf(ColorModel model) {
+  switch (model) {
+    case ColorModel::kPrincipalColors:
+      return "principal colours, the paper's";
+    case ColorModel::kColorRatio:
+      return "colours against the room's";
+    case ColorModel::kHueSaturation:
+      return "hue and saturation";
+  }
+  return "unknown";
+}
+
 cv::Mat inspectModel(const fs::path& file) {
   const AppearanceModel model = loadAppearance(file);
-  std::printf("appearance model (%s), %zu band%s\n",
-              model.params().model == ColorModel::kPrincipalColors
-                  ? "principal colours, the paper's"
-                  : "colours against the room's",
+  std::printf("appearance model (%s%s), %zu band%s\n", nameOf(model.params().model),
+              model.params().suppress_background ? ", the room's discounted" : "",
               model.bands().size(), model.bands().size() == 1 ? "" : "s");
   for (const AppearanceBand& band : model.bands()) {
     std::printf(
@@ -48,6 +58,10 @@ cv::Mat inspectModel(const fs::path& file) {
         band.body.name.c_str(), band.body.min_height_m, band.body.max_height_m,
         static_cast<unsigned long long>(band.person.total()), band.delta(),
         100.0 * band.errors.false_positive_share, 100.0 * band.errors.false_negative_share);
+  }
+  if (model.stature()) {
+    std::printf("  stature %.2f m, seen in %d frames, spread %.3f m\n", model.stature()->height_m,
+                model.stature()->frames, model.stature()->spread_m);
   }
   const Separability separability = model.separability();
   if (!separability.advice.empty()) std::printf("  warning: %s\n", separability.advice.c_str());

@@ -153,6 +153,10 @@ void addLearn(CLI::App& app) {
       ->check(CLI::Range(0, 8))
       ->type_name("K");
   verb->add_flag_callback(
+      "--match", [options] { options->params.appearance.comparison = BodyComparison::kMatch; },
+      "tell people apart by the distribution of their colours and by stature: surer, but lost "
+      "sooner where the light changes");
+  verb->add_flag_callback(
       "--legs", [options] { options->params.appearance.bands = wholeBody(); },
       "also learn from below 1 m: trousers tell people in similar jumpers apart");
   verb->callback([options] { run(*options); });

@@ -45,6 +45,17 @@ TEST(AppearanceLearner, CountsOnlyTheIndices) {
   EXPECT_EQ(learner.person()[0](3, 2, 1), 1U);
 }
 
+TEST(AppearanceLearner, TakesTheStatureOfWhoStandsThere) {
+  AppearanceLearner learner;
+  ColorCloud cloud;
+  for (float z = 0.1F; z < 1.8F; z += 0.002F) cloud.push_back(makePoint(z, 180, 30, 40));
+  for (int i = 0; i < 99; ++i) cloud.push_back({3.0F, 0.0F, 2.1F, 0, 0, 0});  // Somebody else.
+  for (int frame = 0; frame < 6; ++frame) learner.addBody(cloud, {2.05, 0.0});
+  ASSERT_TRUE(learner.stature());
+  EXPECT_NEAR(learner.stature()->height_m, 1.79, 0.01);
+  EXPECT_EQ(learner.stature()->frames, 6);
+}
+
 TEST(AppearanceLearner, IgnoresWhatIsBelowAMetre) {
   AppearanceLearner learner;
   ColorCloud cloud;

@@ -76,6 +76,24 @@ TEST_F(AppearanceFile, GivesBackTheModel) {
   EXPECT_EQ(loaded.params().threshold.max_false_negative_share, 0.1234567);
 }
 
+TEST_F(AppearanceFile, GivesBackTheStatureAndHowToCompare) {
+  AppearanceParams params;
+  params.comparison = BodyComparison::kMatch;
+  params.model = ColorModel::kHueSaturation;
+  params.suppress_background = true;
+  saveAppearance(
+      AppearanceModel(params, test::paintPerson(), test::paintRoom(), Stature{1.73, 0.015, 42}),
+      file_);
+  const AppearanceModel loaded = loadAppearance(file_);
+  EXPECT_EQ(loaded.params().comparison, BodyComparison::kMatch);
+  EXPECT_EQ(loaded.params().model, ColorModel::kHueSaturation);
+  EXPECT_TRUE(loaded.params().suppress_background);
+  ASSERT_TRUE(loaded.stature());
+  EXPECT_EQ(loaded.stature()->height_m, 1.73);
+  EXPECT_EQ(loaded.stature()->spread_m, 0.015);
+  EXPECT_EQ(loaded.stature()->frames, 42);
+}
+
 TEST_F(AppearanceFile, IsTheSameWhenWrittenAgain) {
   saveAppearance(makeModel(), file_);
   const std::string first = text();

@@ -25,6 +25,22 @@ using test::paintRoom;
 
 bool passes(const ColorTable& table, Bgr c) { return table.passes(c.b, c.g, c.r); }
 
+TEST(AppearanceModel, DiscountsTheRoomsColorsWhenToldTo) {
+  AppearanceParams params;
+  params.model = ColorModel::kPrincipalColors;
+  params.bands = upperBody();
+  ColorHistogram person = paint(kRed, 1000);
+  person.merge(paint(kFloor, 1000));
+  const AppearanceModel plain(params, {person}, paintRoom());
+  params.suppress_background = true;
+  const AppearanceModel discounted(params, {person}, paintRoom());
+  const auto floor_over_red = [](const AppearanceModel& m) {
+    const ColorTable& table = m.bands()[0].table;
+    return static_cast<double>(table(kFloor.b, kFloor.g, kFloor.r)) / table(kRed.b, kRed.g, kRed.r);
+  };
+  EXPECT_LT(floor_over_red(discounted), 0.6 * floor_over_red(plain));
+}
+
 TEST(AppearanceModel, LearnsFromMoreThanAMetreUpUnlessTold) {
   for (const BodyBand& band : AppearanceParams().bands) EXPECT_GE(band.min_height_m, 1.0);
   for (const BodyBand& band : upperBody()) EXPECT_GE(band.min_height_m, 1.0);

@@ -158,5 +158,28 @@ TEST(ColorRatioScore, RefusesParametersOutOfRange) {
   EXPECT_THROW(colorRatioScore(person, person, params), std::invalid_argument);
 }
 
+TEST(HueSaturation, IsBlindToLightAndShade) {
+  const auto score = hueSaturationScore(paint(kRed, 3000));
+  EXPECT_GT(score(40, 30, 180), 0.05);
+  EXPECT_NEAR(score(20, 15, 90), score(40, 30, 180), 0.05);
+  EXPECT_LT(score(180, 30, 40), 1e-3);
+}
+
+TEST(HueSaturation, HuesGoRound) {
+  HueSaturationParams params;
+  params.hue_bins = 36;
+  ColorHistogram purplish;
+  purplish.add(10, 0, 200);  // A hue just under a full turn,
+  const auto score = hueSaturationScore(purplish, params);
+  EXPECT_GT(score(0, 10, 200), 0.0);  // and one just over 0.
+}
+
+TEST(HueSaturation, RejectsBadInput) {
+  HueSaturationParams params;
+  EXPECT_THROW(hueSaturationScore(ColorHistogram()), std::invalid_argument);
+  params.hue_bins = 0;
+  EXPECT_THROW(hueSaturationScore(paint(kRed, 9), params), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace heel

@@ -188,6 +188,36 @@ TEST(TargetTracker, IsFoundAgainByItsLooks) {
   EXPECT_NE(run.target().estimate().track_id, id);
 }
 
+TEST(TargetTracker, LetsGoOfSomebodyTakenOnOneGoodLook) {
+  TargetParams params;
+  params.release_s = 1.0;
+  Scene run(params);
+  run.see({seen(2, 0)}, 2);
+  ASSERT_EQ(run.target().estimate().reason, TargetReason::kRecognized);
+  EXPECT_EQ(run.see({seen(2, 0, kUnlike)}, 5).status, TargetStatus::kFollowed);
+  const TargetEstimate& estimate = run.see({seen(2, 0, kUnlike)}, 8);
+  EXPECT_EQ(estimate.status, TargetStatus::kLost);
+  EXPECT_EQ(estimate.reason, TargetReason::kNobodyLooksLike);
+  EXPECT_FALSE(estimate.last_seen);  // Where the wrong one was says nothing of the target.
+  EXPECT_EQ(run.see({seen(9, 0)}, 2).reason, TargetReason::kRecognized);
+}
+
+TEST(TargetTracker, KeepsATargetThatLooksOtherwiseForAWhile) {
+  Scene run;
+  run.see({seen(2, 0)}, 2);
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_EQ(run.see({seen(2, 0, kUnlike)}, 8).status, TargetStatus::kFollowed);
+    EXPECT_EQ(run.see({seen(2, 0)}, 4).status, TargetStatus::kFollowed);
+  }
+}
+
+TEST(TargetTracker, KeepsWhoWasStartedAtAPlaceWhateverTheyLookLike) {
+  Scene run;
+  run.see({seen(2, 0, kUnlike)});
+  run.target().startAt({2, 0});
+  EXPECT_EQ(run.see({seen(2, 0, kUnlike)}, 40).status, TargetStatus::kFollowed);
+}
+
 TEST(TargetTracker, IsNotFoundWhereItCannotHaveWalked) {
   Scene run;
   run.target().startAt({0.0, 0.0});

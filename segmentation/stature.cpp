@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "segmentation/stature.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace heel {
+namespace {
+
+constexpr double kShareAbove = 0.02;
+constexpr std::size_t kMinFrames = 5;
+
+double quantile(std::vector<double>& values, double share) {
+  const auto n = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + n, values.end());
+  return values[static_cast<std::size_t>(n)];
+}
+
+}  // namespace
+
+void StatureSample::clear() {
+  heights_m_.clear();
+  cut_off_ = false;
+}
+
+void StatureSample::add(double height_m, int row) {
+  if (height_m < kLeastHeight_m) return;
+  heights_m_.push_back(height_m);
+  cut_off_ = cut_off_ || (row >= 0 && row < kEdgeRows);
+}
+
+std::optional<double> StatureSample::height_m() {
+  if (cut_off_ || heights_m_.size() < kMinPoints) return std::nullopt;
+  return quantile(heights_m_, 1.0 - kShareAbove);
+}
+
+std::optional<Stature> statureFrom(std::vector<double> heights_m) {
+  if (heights_m.size() < kMinFrames) return std::nullopt;
+  Stature stature;
+  stature.frames = static_cast<int>(heights_m.size());
+  stature.height_m = quantile(heights_m, 0.5);
+  // Of a Gaussian, half lies within 0.6745 standard deviations.
+  stature.spread_m = (quantile(heights_m, 0.75) - quantile(heights_m, 0.25)) / (2.0 * 0.6745);
+  return stature;
+}
+
+}  // namespace heel

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// How tall somebody is: what tells people apart who wear the same.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace heel {
+
+/// Of a person, learned over many frames.
+struct Stature {
+  double height_m = 0.0;  ///< Median of what single frames show.
+  double spread_m = 0.0;  ///< Their standard deviation (of the middle half, so robust).
+  int frames = 0;         ///< On how many it rests.
+};
+
+/// What a single frame shows of somebody's height.
+///
+/// Not the highest point, which noise lifts, but a height that 2 % of the points of the upper body
+/// are above. Nothing without enough points of the upper body, or if they reach the upper edge of
+/// the picture: the head may be cut off then.
+class StatureSample {
+ public:
+  static constexpr double kLeastHeight_m = 1.2;  ///< What is lower is not looked at.
+  static constexpr int kEdgeRows = 8;            ///< Stereo has no depth in the outermost few.
+  static constexpr int kMinPoints = 60;
+
+  void clear();
+  /// @param row  In the picture; a negative one means that there is no picture.
+  void add(double height_m, int row);
+  std::optional<double> height_m();
+
+ private:
+  std::vector<double> heights_m_;
+  bool cut_off_ = false;
+};
+
+/// Nothing from fewer than five frames.
+std::optional<Stature> statureFrom(std::vector<double> heights_m);
+
+}  // namespace heel
