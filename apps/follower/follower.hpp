@@ -180,7 +180,7 @@ class Follower {
   bool has_arrived_ = false;  // where the last driveTo() went, or as near as can be
   GlobalPlan plan_;
   std::vector<MovingPerson> people_;
-  std::vector<MaskedDisc> masked_;
+  std::vector<FloorDisc> masked_;
   std::vector<Eigen::Vector3f> unmapped_;  // points in the base frame
 };
 
