@@ -67,7 +67,8 @@ void FaultySensors::readImages(const Readings& readings) {
     }
   }
   for (const Fault& fault : faults_) {
-    if (fault.kind == Fault::Kind::kPairOutOfStep) right.copyTo(older_right_);
+    if (fault.kind == Fault::Kind::kPairOutOfStep)
+      older_right_ = right.clone();  // frame_ may hold the last one
   }
 }
 
