@@ -44,6 +44,7 @@ FollowerParams::FollowerParams() {
   goal.ahead_cost = 0.0;  // people who are followed turn and stop; round them is out of their view
   goal.lead_s = 0.2;
   drive.terms.weights[static_cast<std::size_t>(DriveTerm::kView)] = 4.0;
+  obstacles.min_points = 6;
   obstacles.memory_gain = 3.0;
   obstacles.max_memory_s = 8.0;
 }
@@ -375,8 +376,8 @@ VelocityCommand Follower::localCommand() {
   const auto clearance = [this](const Vector2d& p) { return planner_.clearance().clearance(p); };
   const LocalPlan now =
       local_planner_.step(step_.robot.pose, speed_, plan_.path, clearance, people_, step_.target);
-  has_arrived_ = now.status == DriveStatus::kArrived;
-  if (step_.reason.empty()) step_.reason = describe(now.reason);
+  has_arrived_ = now.status == DriveStatus::kArrived || now.blocked_s > params_.give_up_s;
+  step_.reason += (step_.reason.empty() ? "" : "; ") + std::string(describe(now.reason));
   return now.command;
 }
 

@@ -65,6 +65,7 @@ struct FollowerParams {
   double search_s = 60.0;          ///< Budget of a search.
   double new_view_s = 3.0;         ///< So often a search thinks again where to look.
   double lost_turn_radps = 0.4;    ///< Turn of a robot that does not know where it is.
+  double give_up_s = 4.0;          ///< Blocked for so long, it is as near as it can get.
   double target_radius_m = 0.45;   ///< Readings this near to the target are the target's own.
   double mapped_within_m = 0.15;   ///< Points this near to what the map shows are that.
   double obstacles_every_s = 0.2;  ///< How often the camera looks for obstacles.

@@ -28,7 +28,7 @@ void PeopleAround::step(double stamp_s, const LaserScan& scan, const FloorPose& 
   tracker_.step(stamp_s, things_);
   people_.clear();
   for (const Track& track : tracker_.tracks()) {
-    if (track.status == TrackStatus::kTentative || !hasWalked(track)) continue;
+    if (track.status == TrackStatus::kTentative || !walks(track, stamp_s)) continue;
     MovingPerson person{track.motion.position_m(), track.motion.velocity_mps(),
                         params_.person_radius_m};
     if (person.velocity.norm() > params_.max_speed_mps) person.velocity.setZero();
@@ -36,19 +36,23 @@ void PeopleAround::step(double stamp_s, const LaserScan& scan, const FloorPose& 
   }
 }
 
-bool PeopleAround::hasWalked(const Track& track) {
-  auto walk = std::find_if(walks_.begin(), walks_.end(),
-                           [&](const Walk& w) { return w.track_id == track.id; });
-  if (walk == walks_.end()) {
-    walks_.erase(
-        std::remove_if(walks_.begin(), walks_.end(),
-                       [&](const Walk& w) { return tracker_.findTrack(w.track_id) == nullptr; }),
-        walks_.end());
-    walk = walks_.insert(walks_.end(), {track.id, track.motion.position_m(), false});
+bool PeopleAround::walks(const Track& track, double stamp_s) {
+  const Eigen::Vector2d place_m = track.motion.position_m();
+  const auto stride = std::find_if(strides_.begin(), strides_.end(),
+                                   [&](const Stride& s) { return s.track_id == track.id; });
+  if (stride == strides_.end()) {
+    const auto ended = [this](const Stride& s) {
+      return tracker_.findTrack(s.track_id) == nullptr;
+    };
+    strides_.erase(std::remove_if(strides_.begin(), strides_.end(), ended), strides_.end());
+    strides_.push_back({track.id, place_m, -std::numeric_limits<double>::infinity()});
+    return false;
   }
-  const double gone_m = (track.motion.position_m() - walk->from_m).norm();
-  walk->has_walked = walk->has_walked || gone_m > params_.walked_m;
-  return walk->has_walked;
+  if ((place_m - stride->place_m).norm() > params_.stride_m) {
+    stride->place_m = place_m;
+    stride->stamp_s = stamp_s;
+  }
+  return stamp_s - stride->stamp_s < params_.rests_after_s;
 }
 
 // Runs of neighbouring ends that the map does not show.

@@ -15,12 +15,13 @@
 namespace heel {
 
 struct PeopleAroundParams {
-  double off_map_m = 0.2;    ///< An end this near to what the map shows is that.
-  double max_range_m = 5.0;  ///< Further away, a leg is a beam or two.
-  double max_gap_m = 0.3;    ///< Ends of neighbouring beams further apart are two things.
-  double max_size_m = 0.9;   ///< A wider thing is no person.
-  double pair_m = 0.5;       ///< Two legs nearer than this are one person's.
-  double walked_m = 0.5;     ///< Who is so far from where they were first, walks.
+  double off_map_m = 0.2;      ///< An end this near to what the map shows is that.
+  double max_range_m = 5.0;    ///< Further away, a leg is a beam or two.
+  double max_gap_m = 0.3;      ///< Ends of neighbouring beams further apart are two things.
+  double max_size_m = 0.9;     ///< A wider thing is no person.
+  double pair_m = 0.5;         ///< Two legs nearer than this are one person's.
+  double stride_m = 0.3;       ///< Who leaves a place by so much walks, ...
+  double rests_after_s = 2.0;  ///< ... until they have not done so for as long.
   double person_radius_m = 0.25;
   double max_speed_mps = 2.0;  ///< Nobody indoors is faster; what seems so is two things.
   TrackerParams tracker = defaultTracker();
@@ -28,8 +29,8 @@ struct PeopleAroundParams {
   static TrackerParams defaultTracker();
 };
 
-/// Tracks everything of a person's size that the map does not show. Who has walked is a person from
-/// then on; what has never moved is furniture, and left to who looks for obstacles.
+/// Tracks everything of a person's size that the map does not show, and tells of what walks. What
+/// stands, furniture or person, is left to who looks for obstacles.
 class PeopleAround {
  public:
   explicit PeopleAround(const PeopleAroundParams& params = {});
@@ -45,19 +46,19 @@ class PeopleAround {
   void findThings(const LaserScan& scan, const FloorPose& T_world_scanner,
                   const Clearance& clearance);
   void addThing(const std::vector<Eigen::Vector2d>& ends);
-  bool hasWalked(const Track& track);
+  bool walks(const Track& track, double stamp_s);
 
   PeopleAroundParams params_;
   Tracker tracker_;
   std::vector<Eigen::Vector2d> ends_;  // of the thing that is being gathered
   std::vector<Observation> things_;
-  /// Of a track: where it was first, and whether it has left that place.
-  struct Walk {
+  /// The last stride of a track.
+  struct Stride {
     int track_id;
-    Eigen::Vector2d from_m;
-    bool has_walked;
+    Eigen::Vector2d place_m;
+    double stamp_s;
   };
-  std::vector<Walk> walks_;
+  std::vector<Stride> strides_;
   std::vector<MovingPerson> people_;
 };
 
