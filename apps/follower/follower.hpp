@@ -165,6 +165,7 @@ class Follower {
 
   FollowStep step_;
   double dt_s_ = 0.0;
+  double steady_s_ = 0.0;  // a clock that does not jump
   VelocityCommand speed_;  // by odometry
   TargetEstimate target_;
   FollowingFacts facts_;
