@@ -15,6 +15,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 namespace heel {
@@ -50,6 +51,7 @@ void print(const FollowSummary& summary, const Options& options, const FollowOut
 }
 
 void run(Options& options) {
+  if (!(options.loop.limit_s > 0.0)) throw std::invalid_argument("--limit must be positive");
   const Scene scene = sceneOf(options);
   const PetriPlan plan = loadPlan(planFile(options.plan), followingVocabulary());
   FollowOutput output(options.out, !options.no_film);
