@@ -134,6 +134,7 @@ void addAppearanceExperiment(CLI::App& verb) {
   options->params.scenes = HEEL_SCENES;
   CLI::App* experiment = verb.add_subcommand(
       "appearance", "Who is detected with whose model: the paper's section 4.1, in simulation");
+  experiment->footer("Example:\n  heel experiment appearance --out out/appearance");
   experiment->add_option("--wardrobes", options->wardrobes, "random wardrobes besides the paper's")
       ->check(CLI::Range(0, 10000))
       ->capture_default_str();

@@ -100,6 +100,7 @@ void addGateExperiment(CLI::App& verb) {
   options->params.scenes = HEEL_SCENES;
   CLI::App* experiment = verb.add_subcommand(
       "gate", "What the map's walls are good for: a target among posters of the same colour");
+  experiment->footer("Example:\n  heel experiment gate --out out/gate");
   experiment->add_option("--recordings", options->recordings, "how many")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();

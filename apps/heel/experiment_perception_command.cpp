@@ -118,6 +118,7 @@ void addPerceptionExperiment(CLI::App& verb) {
   options->params.scenes = HEEL_SCENES;
   CLI::App* experiment = verb.add_subcommand(
       "perception", "The perception against exact truth, on simulated recordings");
+  experiment->footer("Example:\n  heel experiment perception --out out/perception");
   experiment->add_option("--recordings", options->recordings, "how many")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
