@@ -32,11 +32,16 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(std::vector<std::string>{}, std::vector<std::string>{"learn"},
                     std::vector<std::string>{"track"}, std::vector<std::string>{"filter"},
                     std::vector<std::string>{"inspect"}, std::vector<std::string>{"map"},
-                    std::vector<std::string>{"simulate"}, std::vector<std::string>{"evaluate"},
-                    std::vector<std::string>{"experiment"},
+                    std::vector<std::string>{"plan"}, std::vector<std::string>{"localize"},
+                    std::vector<std::string>{"follow"}, std::vector<std::string>{"simulate"},
+                    std::vector<std::string>{"evaluate"}, std::vector<std::string>{"experiment"},
                     std::vector<std::string>{"experiment", "detector"},
                     std::vector<std::string>{"experiment", "targets"},
-                    std::vector<std::string>{"experiment", "protocol"}));
+                    std::vector<std::string>{"experiment", "protocol"},
+                    std::vector<std::string>{"experiment", "appearance"},
+                    std::vector<std::string>{"experiment", "perception"},
+                    std::vector<std::string>{"experiment", "gate"},
+                    std::vector<std::string>{"experiment", "localization"}));
 
 TEST(Call, WithoutAVerbNamesTheVerbs) {
   EXPECT_TRUE(failsWith(heel({}), {"name a verb", "learn, track, filter", "'heel --help'"}));

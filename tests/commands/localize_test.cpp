@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// heel localize: calls that can't be met.
+
+#include "tests/commands/heel.hpp"
+#include "tests/support/temp_folder.hpp"
+
+#include <gmock/gmock.h>
+
+namespace heel::test {
+namespace {
+
+class Localize : public testing::Test {
+ protected:
+  HeelRun localize(const std::string& log, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> call = {"localize", folder_ / log, "--out", folder_ / "out"};
+    call.insert(call.end(), more.begin(), more.end());
+    return heel(call);
+  }
+  TempFolder folder_;
+};
+
+TEST_F(Localize, NamesALogThatIsNone) {
+  EXPECT_TRUE(failsWith(localize("none.log"), {"none.log"}));
+  EXPECT_TRUE(failsWith(localize("none.log", {"--map", "home"}), {"none.log"}));
+  writeText(folder_ / "empty.log", "");
+  EXPECT_TRUE(failsWith(localize("empty.log"), {"empty.log"}));
+  writeText(folder_ / "noise.log.gz", "this is not compressed");
+  EXPECT_TRUE(failsWith(localize("noise.log.gz"), {"noise.log.gz"}));
+  std::filesystem::create_directory(folder_ / "folder");
+  EXPECT_TRUE(failsWith(localize("folder"), {"folder"}));
+}
+
+TEST_F(Localize, NamesAMapThatIsNone) {
+  writeText(folder_ / "some.log", "");
+  EXPECT_TRUE(failsWith(localize("some.log", {"--map", "attic"}), {"attic"}));
+  EXPECT_TRUE(failsWith(localize("some.log", {"--map", folder_ / "none.yaml"}), {"none.yaml"}));
+  writeText(folder_ / "lone.yaml", "image: none.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n");
+  EXPECT_TRUE(failsWith(localize("some.log", {"--map", folder_ / "lone.yaml"}), {"none.pgm"}));
+}
+
+}  // namespace
+}  // namespace heel::test
