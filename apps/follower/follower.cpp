@@ -163,7 +163,7 @@ void Follower::lookAround(const RobotReadings& readings) {
   planner_.setObstacles({}, &layer_.window());
 
   people_.clear();
-  if (step_.target) people_.push_back({*step_.target, target_.motion.velocity_mps()});
+  if (step_.target) people_.push_back({*step_.target, target_velocity_});
   for (const MovingPerson& person : people_around_.people()) {
     const bool is_target =
         step_.target && (person.position - *step_.target).norm() < params_.target_radius_m;
@@ -210,14 +210,29 @@ void Follower::see(const Frame& frame) {
 // The Petri net plan (section 3.4).
 void Follower::decide() {
   if (step_.is_learning) return;
-  step_.target.reset();
-  if (target_.hasPlace()) step_.target = target_.motion.position_m();
+  placeTarget();
   checkFacts();
   const PlanStep& now = runner_.step(facts_);
   step_.outcome = now.outcome;
   const FollowingAction action = currentAction(runner_);
   if (action != action_) begin(action);
   step_.action = action_ = action;
+}
+
+// The camera knows who the target is. The laser sees further to the sides: for a while it can go
+// on with the target's legs.
+void Follower::placeTarget() {
+  step_.target.reset();
+  legs_alone_s_ = target_.hasPlace() ? 0.0 : legs_alone_s_ + dt_s_;
+  if (target_.hasPlace()) {
+    step_.target = target_.motion.position_m();
+    target_velocity_ = target_.motion.velocity_mps();
+    legs_ = people_around_.nearest(*step_.target, params_.legs_within_m);
+  } else if (const Track* legs = people_around_.find(legs_);
+             legs != nullptr && legs_alone_s_ < params_.legs_alone_s) {
+    step_.target = legs->motion.position_m();
+    target_velocity_ = legs->motion.velocity_mps();
+  }
 }
 
 // From the moment of a loss on, where the person can be: spread by time, thinned by looks.
@@ -308,7 +323,7 @@ void Follower::drive() {
 // Stands off the person, in view of them and in nobody's way.
 void Follower::follow() {
   if (!step_.target) return driveTo(target_.last_seen->position_m);
-  const MovingPerson target{*step_.target, target_.motion.velocity_mps()};
+  const MovingPerson target{*step_.target, target_velocity_};
   const auto clearance = [this](const Vector2d& p) { return planner_.clearance().clearance(p); };
   const auto sees = [this](const Vector2d& from, const Vector2d& to) {
     const double eye_m = robot_.camera.T_base_camera.translation().z();
