@@ -233,6 +233,7 @@ void Follower::placeTarget() {
     step_.target = legs->motion.position_m();
     target_velocity_ = legs->motion.velocity_mps();
   }
+  if (step_.target) last_place_ = *step_.target;
 }
 
 // From the moment of a loss on, where the person can be: spread by time, thinned by looks.
@@ -242,9 +243,7 @@ void Follower::rememberTheLost() {
     search_is_over_ = false;
     return;
   }
-  if (unseen_s_ == 0.0 && target_.last_seen) {
-    search_.start(target_.last_seen->position_m, target_.last_seen->velocity_mps);
-  }
+  if (unseen_s_ == 0.0) search_.start(last_place_, target_velocity_);
   unseen_s_ += dt_s_;
   search_.spread(dt_s_);
   if (watch_.imageIsGood()) search_.look(step_.robot.pose, dt_s_);
@@ -274,9 +273,8 @@ void Follower::begin(FollowingAction action) {
   view_.reset();
   if (action == FollowingAction::kSeek) {
     turned_rad_ = 0.0;
-    const LastSeen seen = target_.last_seen.value_or(LastSeen());
     // Where they were going by then, for the robot may stand where they were seen.
-    seek_side_ = bearing(step_.robot.pose, seen.position_m + seen.velocity_mps) < 0.0 ? -1.0 : 1.0;
+    seek_side_ = bearing(step_.robot.pose, last_place_ + target_velocity_) < 0.0 ? -1.0 : 1.0;
   }
 }
 
@@ -322,7 +320,7 @@ void Follower::drive() {
 
 // Stands off the person, in view of them and in nobody's way.
 void Follower::follow() {
-  if (!step_.target) return driveTo(target_.last_seen->position_m);
+  if (!step_.target) return driveTo(last_place_);
   const MovingPerson target{*step_.target, target_velocity_};
   const auto clearance = [this](const Vector2d& p) { return planner_.clearance().clearance(p); };
   const auto sees = [this](const Vector2d& from, const Vector2d& to) {
@@ -333,9 +331,7 @@ void Follower::follow() {
   driveTo(place ? place->pose.position : *step_.target);
 }
 
-void Follower::goToLastSeen() {
-  if (target_.last_seen) driveTo(target_.last_seen->position_m);
-}
+void Follower::goToLastSeen() { driveTo(last_place_); }
 
 // A turn on the spot, towards the side where the person was last seen.
 void Follower::seek() {

@@ -170,6 +170,7 @@ class Follower {
   double dt_s_ = 0.0;
   VelocityCommand speed_;  // by odometry
   TargetEstimate target_;
+  Eigen::Vector2d last_place_ = Eigen::Vector2d::Zero();  // of the target, as far as was known
   Eigen::Vector2d target_velocity_ = Eigen::Vector2d::Zero();
   int legs_ = 0;               // the target's, among the people around
   double legs_alone_s_ = 0.0;  // since the camera saw the target

@@ -27,6 +27,8 @@ fs::path sceneFile(const std::string& scene) {
   return find(scene, sceneFolder(), ".yaml", "scene");
 }
 
-fs::path planFile(const std::string& plan) { return find(plan, HEEL_PLANS, ".pnml", "plan"); }
+fs::path planFolder() { return HEEL_PLANS; }
+
+fs::path planFile(const std::string& plan) { return find(plan, planFolder(), ".pnml", "plan"); }
 
 }  // namespace heel

@@ -17,6 +17,9 @@ std::filesystem::path sceneFolder();
 /// @throws std::runtime_error  if there is neither.
 std::filesystem::path sceneFile(const std::string& scene);
 
+/// The folder of the plans that come with Heel.
+std::filesystem::path planFolder();
+
 /// A plan's PNML file: the path itself, or the name of a plan that comes with Heel.
 /// @throws std::runtime_error  if there is neither.
 std::filesystem::path planFile(const std::string& plan);
