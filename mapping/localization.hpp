@@ -91,7 +91,7 @@ class Localization {
   /// A scan that was taken at the place of the last increment.
   /// @return whether the scan was weighed: it was not if the robot has hardly moved since the last
   ///         one, or no beam was usable.
-  bool update(const LaserScan& scan, const std::vector<MaskedDisc>& leave_out = {});
+  bool update(const LaserScan& scan, const std::vector<FloorDisc>& leave_out = {});
 
   const LocalizationEstimate& estimate() const { return estimate_; }
   const ParticleSet& particles() const { return particles_; }

@@ -18,7 +18,7 @@ ScanBeams::ScanBeams(const FloorPose& T_base_scanner, const ScanBeamsParams& par
   ends_.reserve(params.beams);
 }
 
-const BeamEnds& ScanBeams::choose(const LaserScan& scan, const std::vector<MaskedDisc>& leave_out) {
+const BeamEnds& ScanBeams::choose(const LaserScan& scan, const std::vector<FloorDisc>& leave_out) {
   usable_.clear();
   const Eigen::Rotation2Dd step(scan.step_rad);
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
@@ -27,7 +27,7 @@ const BeamEnds& ScanBeams::choose(const LaserScan& scan, const std::vector<Maske
     const double angle = scan.angle(i);
     const Eigen::Vector2d end =
         T_base_scanner_ * Eigen::Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
-    const bool masked = std::any_of(leave_out.begin(), leave_out.end(), [&](const MaskedDisc& d) {
+    const bool masked = std::any_of(leave_out.begin(), leave_out.end(), [&](const FloorDisc& d) {
       return (end - d.center).squaredNorm() <= d.radius_m * d.radius_m;
     });
     if (!masked && end.allFinite()) usable_.push_back(end);

@@ -5,18 +5,13 @@
 /// The beams of a scan that localization looks at, and how well the map explains them.
 #pragma once
 
+#include "mapping/floor_disc.hpp"
 #include "mapping/laser_scan.hpp"
 #include "mapping/likelihood_field.hpp"
 
 #include <vector>
 
 namespace heel {
-
-/// Beams that end in here are left out: a person who is tracked, in the robot's base frame.
-struct MaskedDisc {
-  Eigen::Vector2d center = Eigen::Vector2d::Zero();  ///< [m]
-  double radius_m = 0.4;
-};
 
 /// Which beams are used.
 struct ScanBeamsParams {
@@ -31,7 +26,8 @@ class ScanBeams {
   /// @throws std::invalid_argument  unless there are beams, and 0 <= min_range_m < max_range_m.
   ScanBeams(const FloorPose& T_base_scanner, const ScanBeamsParams& params);
 
-  const BeamEnds& choose(const LaserScan& scan, const std::vector<MaskedDisc>& leave_out);
+  /// @param leave_out  What ends in these is left out: people who are tracked, in the base frame.
+  const BeamEnds& choose(const LaserScan& scan, const std::vector<FloorDisc>& leave_out);
 
   const BeamEnds& ends() const { return ends_; }
   const FloorPose& T_base_scanner() const { return T_base_scanner_; }

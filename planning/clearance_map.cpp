@@ -100,7 +100,7 @@ int ClearanceMap::cellOf(const Eigen::Vector2d& point) const {
   return static_cast<int>(p.y()) * width_ + static_cast<int>(p.x());
 }
 
-void ClearanceMap::addToLayer(int x0, int y0, int x1, int y1, const BlockedDisc* disc) {
+void ClearanceMap::addToLayer(int x0, int y0, int x1, int y1, const FloorDisc* disc) {
   x0 = std::max(x0, 0);
   y0 = std::max(y0, 0);
   x1 = std::min(x1, width_ - 1);
@@ -121,17 +121,17 @@ void ClearanceMap::addToLayer(int x0, int y0, int x1, int y1, const BlockedDisc*
   }
 }
 
-const std::vector<int>& ClearanceMap::setLayer(const std::vector<BlockedDisc>& discs,
+const std::vector<int>& ClearanceMap::setLayer(const std::vector<FloorDisc>& discs,
                                                const OccupancyGrid* cells) {
   next_layer_.clear();
   changed_.clear();
   const auto cell = [](double v) { return static_cast<int>(std::clamp(std::floor(v), -1e9, 1e9)); };
-  for (const BlockedDisc& disc : discs) {
+  for (const FloorDisc& disc : discs) {
     if (!disc.center.allFinite() || !std::isfinite(disc.radius_m)) {
       throw std::invalid_argument("a blocked disc must be finite");
     }
   }
-  for (const BlockedDisc& disc : discs) {
+  for (const FloorDisc& disc : discs) {
     const Eigen::Vector2d c = (disc.center - origin_m_) / cell_size_m_;
     const double r = disc.radius_m / cell_size_m_;
     addToLayer(cell(c.x() - r), cell(c.y() - r), cell(c.x() + r), cell(c.y() + r), &disc);

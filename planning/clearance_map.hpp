@@ -5,6 +5,7 @@
 /// How far away blocked floor is, and whether a round body can go straight from here to there.
 #pragma once
 
+#include "mapping/floor_disc.hpp"
 #include "mapping/occupancy_grid.hpp"
 
 #include <Eigen/Core>
@@ -13,12 +14,6 @@
 #include <vector>
 
 namespace heel {
-
-/// A round piece of floor that a robot can't be on, besides what the map shows.
-struct BlockedDisc {
-  Eigen::Vector2d center = Eigen::Vector2d::Zero();  ///< World [m].
-  double radius_m = 0.0;
-};
 
 /// A map's blocked cells, taken as whole squares, and the distance of every cell's middle to the
 /// nearest of them. Outside the map all is blocked. A layer of further blocked cells (what stands
@@ -32,7 +27,7 @@ class ClearanceMap {
   /// Lays this layer in place of the last one; a cell is blocked where a disc, or an occupied cell
   /// of `cells` (which may have another cell size), covers a part of it.
   /// @return  the cells whose distance has changed, until the next call.
-  const std::vector<int>& setLayer(const std::vector<BlockedDisc>& discs,
+  const std::vector<int>& setLayer(const std::vector<FloorDisc>& discs,
                                    const OccupancyGrid* cells = nullptr);
 
   int width() const { return width_; }
@@ -58,7 +53,7 @@ class ClearanceMap {
 
  private:
   static std::size_t index(int cell) { return static_cast<std::size_t>(cell); }
-  void addToLayer(int x0, int y0, int x1, int y1, const BlockedDisc* disc);
+  void addToLayer(int x0, int y0, int x1, int y1, const FloorDisc* disc);
   void findNextBlocked(int row);
   void measure(int x0, int y0, int x1, int y1);
 

@@ -15,8 +15,7 @@ GeodesicField::GeodesicField(const OccupancyGrid& map, double radius_m, bool unk
       wave_(map_, {radius_m, 1.0, 0.0}),
       distances_m_(map.cells().size(), GridWave::kFar) {}
 
-void GeodesicField::setObstacles(const std::vector<BlockedDisc>& discs,
-                                 const OccupancyGrid* cells) {
+void GeodesicField::setObstacles(const std::vector<FloorDisc>& discs, const OccupancyGrid* cells) {
   wave_.mend(map_.setLayer(discs, cells));
 }
 

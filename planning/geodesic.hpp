@@ -27,7 +27,7 @@ class GeodesicField {
   GeodesicField& operator=(const GeodesicField&) = delete;
 
   /// Takes these, in place of those before, as blocked besides the map; call measureFrom() again.
-  void setObstacles(const std::vector<BlockedDisc>& discs, const OccupancyGrid* cells = nullptr);
+  void setObstacles(const std::vector<FloorDisc>& discs, const OccupancyGrid* cells = nullptr);
 
   /// Measures from the free place nearest to `point`.
   /// @param within_m  How far away that place may be.

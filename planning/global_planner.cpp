@@ -62,8 +62,7 @@ GlobalPlanner::GlobalPlanner(const OccupancyGrid& map, const GlobalPlannerParams
       wave_(map_, {radius_m_, params.comfort_m, params.crowding}),
       taut_(map_, radius_m_) {}
 
-void GlobalPlanner::setObstacles(const std::vector<BlockedDisc>& discs,
-                                 const OccupancyGrid* cells) {
+void GlobalPlanner::setObstacles(const std::vector<FloorDisc>& discs, const OccupancyGrid* cells) {
   const std::vector<int>& changed = map_.setLayer(discs, cells);
   if (changed.empty()) return;
   mended_ = true;

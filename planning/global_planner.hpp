@@ -72,7 +72,7 @@ class GlobalPlanner {
 
   /// Takes these, in place of those before, as blocked besides the map: discs, and the occupied
   /// cells of a grid, which may be smaller and of another cell size.
-  void setObstacles(const std::vector<BlockedDisc>& discs, const OccupancyGrid* cells = nullptr);
+  void setObstacles(const std::vector<FloorDisc>& discs, const OccupancyGrid* cells = nullptr);
 
   /// @param start,goal  World [m].
   /// @throws std::invalid_argument  if a coordinate is not finite.

@@ -58,7 +58,8 @@ void FaultySensors::readImages(const Readings& readings) {
       result_.pair_gap_s = kPairGap_s;
     }
     if (active(Fault::Kind::kLightsOut, stamp_s) != nullptr) {
-      frame_.image_bgr = cv::Mat::zeros(right.size(), right.type());
+      // Not zeros(): assigned, it would be written into the simulator's own image.
+      frame_.image_bgr = cv::Mat(right.size(), right.type(), cv::Scalar::all(0));
       frame_.right_bgr = frame_.image_bgr;
     }
     if (active(Fault::Kind::kNoise, stamp_s) != nullptr) {
@@ -67,7 +68,8 @@ void FaultySensors::readImages(const Readings& readings) {
     }
   }
   for (const Fault& fault : faults_) {
-    if (fault.kind == Fault::Kind::kPairOutOfStep) right.copyTo(older_right_);
+    if (fault.kind == Fault::Kind::kPairOutOfStep)
+      older_right_ = right.clone();  // frame_ may hold the last one
   }
 }
 

@@ -64,7 +64,7 @@ class Roaming {
   RoamingDriver& driver_;
   const Readings* readings_ = nullptr;
   FloorPose odometry_;
-  std::vector<MaskedDisc> people_;
+  std::vector<FloorDisc> people_;
 };
 
 /// Adds up errors over a run.

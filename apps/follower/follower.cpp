@@ -104,6 +104,7 @@ const FollowStep& Follower::step(const RobotReadings& readings, const StageDone&
   step_.acquisition = nullptr;
   step_.perception = nullptr;
   watch_.step(readings);
+  if (!watch_.timeJumped()) steady_s_ += dt_s_;
 
   localize(readings);
   finished(FollowStage::kLocalize);
@@ -182,7 +183,9 @@ void Follower::keepUnmapped(const std::vector<Eigen::Vector3f>& points) {
 
 // Phase 1 (section 2).
 void Follower::learn(const Frame& frame) {
-  step_.acquisition = &learner_->step(frame);
+  Frame steady = frame;
+  steady.stamp_s = steady_s_;  // the learner bears no clock that jumps
+  step_.acquisition = &learner_->step(steady);
   if (!learner_->isDone()) return;
   if (!learner_->hasPerson()) {
     throw NobodyLearned("nobody entered to be learned, or several did together");

@@ -168,6 +168,7 @@ class Follower {
 
   FollowStep step_;
   double dt_s_ = 0.0;
+  double steady_s_ = 0.0;  // a clock that does not jump
   VelocityCommand speed_;  // by odometry
   TargetEstimate target_;
   Eigen::Vector2d last_place_ = Eigen::Vector2d::Zero();  // of the target, as far as was known
@@ -188,7 +189,7 @@ class Follower {
   bool has_arrived_ = false;  // where the last driveTo() went, or as near as can be
   GlobalPlan plan_;
   std::vector<MovingPerson> people_;
-  std::vector<MaskedDisc> masked_;
+  std::vector<FloorDisc> masked_;
   std::vector<Eigen::Vector3f> unmapped_;  // points in the base frame
 };
 

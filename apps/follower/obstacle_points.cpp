@@ -84,7 +84,7 @@ void ObstaclePoints::collect() {
   for (int v = 0; v < depth_m_.rows; ++v) {
     const float* depth = depth_m_.ptr<float>(v);
     for (int u = 0; u < depth_m_.cols; ++u) {
-      if (!(depth[u] > 0.0F)) continue;  // NaN too
+      if (!(depth[u] > 0.0F && std::isfinite(depth[u]))) continue;  // NaN too
       if (!texture_.empty() && texture_.at<std::uint8_t>(v, u) == 0) continue;
       const Eigen::Vector3f seen(static_cast<float>((u - camera.cx) / camera.fx) * depth[u],
                                  static_cast<float>((v - camera.cy) / camera.fy) * depth[u],

@@ -56,12 +56,14 @@ bool PeopleAround::walks(const Track& track, double stamp_s) {
       return tracker_.findTrack(s.track_id) == nullptr;
     };
     strides_.erase(std::remove_if(strides_.begin(), strides_.end(), ended), strides_.end());
-    strides_.push_back({track.id, place_m, -std::numeric_limits<double>::infinity()});
+    strides_.push_back({track.id, place_m, stamp_s, -std::numeric_limits<double>::infinity()});
     return false;
   }
-  if ((place_m - stride->place_m).norm() > params_.stride_m) {
+  const bool is_stride = (place_m - stride->place_m).norm() > params_.stride_m;
+  if (is_stride) stride->stamp_s = stamp_s;
+  if (is_stride || stamp_s - stride->since_s > params_.rests_after_s) {
     stride->place_m = place_m;
-    stride->stamp_s = stamp_s;
+    stride->since_s = stamp_s;
   }
   return stamp_s - stride->stamp_s < params_.rests_after_s;
 }

@@ -15,13 +15,15 @@
 namespace heel {
 
 struct PeopleAroundParams {
-  double off_map_m = 0.2;      ///< An end this near to what the map shows is that.
-  double max_range_m = 5.0;    ///< Further away, a leg is a beam or two.
-  double max_gap_m = 0.3;      ///< Ends of neighbouring beams further apart are two things.
-  double max_size_m = 0.9;     ///< A wider thing is no person.
-  double pair_m = 0.5;         ///< Two legs nearer than this are one person's.
-  double stride_m = 0.3;       ///< Who leaves a place by so much walks, ...
-  double rests_after_s = 2.0;  ///< ... until they have not done so for as long.
+  double off_map_m = 0.2;    ///< An end this near to what the map shows is that.
+  double max_range_m = 5.0;  ///< Further away, a leg is a beam or two.
+  double max_gap_m = 0.3;    ///< Ends of neighbouring beams further apart are two things.
+  double max_size_m = 0.9;   ///< A wider thing is no person.
+  double pair_m = 0.5;       ///< Two legs nearer than this are one person's.
+  /// Who leaves a place by so much, within rests_after_s, walks; the middle of what is seen of a
+  /// thing that stands shifts as much, slowly, when the robot drives around it.
+  double stride_m = 0.3;
+  double rests_after_s = 2.0;  ///< Who has not done so for as long does not walk any more.
   double person_radius_m = 0.25;
   double max_speed_mps = 2.0;  ///< Nobody indoors is faster; what seems so is two things.
   TrackerParams tracker = defaultTracker();
@@ -57,10 +59,11 @@ class PeopleAround {
   Tracker tracker_;
   std::vector<Eigen::Vector2d> ends_;  // of the thing that is being gathered
   std::vector<Observation> things_;
-  /// The last stride of a track.
+  /// The last stride of a track, and since when a new one is measured from where.
   struct Stride {
     int track_id;
     Eigen::Vector2d place_m;
+    double since_s;
     double stamp_s;
   };
   std::vector<Stride> strides_;

@@ -11,7 +11,7 @@ namespace heel {
 
 void SensorWatch::step(const RobotReadings& readings) {
   const double dt_s = begun_ ? readings.stamp_s - stamp_s_ : 0.0;
-  time_jumped_ = dt_s < 0.0 || dt_s > params_.max_gap_s;
+  time_jumped_ = !(dt_s >= 0.0 && dt_s <= params_.max_gap_s);  // NaN too
   const double passed_s = time_jumped_ ? 0.0 : dt_s;
   begun_ = true;
   stamp_s_ = readings.stamp_s;
@@ -45,7 +45,7 @@ void SensorWatch::step(const RobotReadings& readings) {
 }
 
 bool SensorWatch::isUsable(const RobotReadings& readings) const {
-  if (readings.frame == nullptr || std::abs(readings.pair_gap_s) > params_.max_pair_gap_s) {
+  if (readings.frame == nullptr || !(std::abs(readings.pair_gap_s) <= params_.max_pair_gap_s)) {
     return false;
   }
   const cv::Mat& image = readings.frame->image_bgr;

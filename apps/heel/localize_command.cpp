@@ -4,6 +4,7 @@
 #include "apps/experiment/log_localization.hpp"
 #include "apps/heel/commands.hpp"
 #include "apps/heel/localize_output.hpp"
+#include "apps/heel/scene_argument.hpp"
 #include "apps/simulation/scene_grid.hpp"
 #include "mapping/map_server_file.hpp"
 
@@ -12,7 +13,6 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -35,24 +35,6 @@ struct Options {
   LogLocalizationParams params;
 };
 
-/// A scene's file: the path itself, or the name of a scene that comes with Heel.
-fs::path sceneFile(const std::string& name) {
-  if (fs::exists(name)) return name;
-  const fs::path shipped = fs::path(HEEL_SCENES) / (name + ".yaml");
-  if (fs::exists(shipped)) return shipped;
-  throw std::runtime_error(name + ": there is no such map, neither as a file nor in " +
-                           std::string(HEEL_SCENES));
-}
-
-/// Whether a file is a map of ROS's map_server, which names an image, and not a scene.
-bool isMapServer(const fs::path& file) {
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
-    if (line.rfind("image:", 0) == 0) return true;
-  }
-  return false;
-}
-
 OccupancyGrid readMap(Options& options) {
   LogLocalizationParams& params = options.params;
   if (!options.scanner.empty()) {
@@ -62,8 +44,8 @@ OccupancyGrid readMap(Options& options) {
     params.left_out = options.map_scans;
     return mapFromLog(options.log, options.map_scans, options.cell_size_m, params.T_base_scanner);
   }
-  const fs::path file = sceneFile(options.map);
-  if (isMapServer(file)) return loadMapServer(file);
+  const fs::path file = mapSource(options.map);
+  if (isMapServerFile(file)) return loadMapServer(file);
   const Scene scene = loadScene(file.string());
   if (options.scanner.empty()) {
     params.T_base_scanner = {scene.robot.laser.at.head<2>(), 0.0};

@@ -32,17 +32,11 @@ struct Options {
   MapSourceParams params;
 };
 
-/// A path that is there, else the name of a scene that comes with Heel.
-fs::path sourceOf(const std::string& name) {
-  const bool is_path = fs::path(name).has_extension() || fs::path(name).has_parent_path();
-  return is_path ? fs::path(name) : sceneFile(name);
-}
-
 void run(Options& options) {
   if (!(options.band.low_m < options.band.high_m)) {
     throw std::invalid_argument("--low must be under --high");
   }
-  const fs::path source = sourceOf(options.source);
+  const fs::path source = mapSource(options.source);
   std::optional<ProgressBar> progress;  // Only a recording takes long.
   options.params.progress = [&](double share) {
     if (!progress) progress.emplace("mapping", 100);

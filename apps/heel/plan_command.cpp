@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "apps/heel/commands.hpp"
+#include "apps/heel/scene_argument.hpp"
+#include "apps/mapper/map_source.hpp"
 #include "apps/report/csv_file.hpp"
 #include "apps/report/drawing.hpp"
 #include "apps/report/result_files.hpp"
 #include "apps/report/video_writer.hpp"
-#include "apps/simulation/floor_plan.hpp"
 #include "planning/global_planner.hpp"
 
 #include <CLI/CLI.hpp>
@@ -31,40 +32,11 @@ struct Options {
   std::string map;
   std::vector<double> from, to;
   fs::path out = "plan";
-  double cell_size_m = 0.05;
+  MapSourceParams source;
   GlobalPlannerParams planner;
 };
 
 constexpr double kStep_m = 0.1;  ///< Of path.csv.
-
-/// A scene's file: the path itself, or the name of a scene that comes with Heel.
-fs::path sceneFile(const std::string& scene) {
-  if (fs::exists(scene)) return scene;
-  const fs::path shipped = fs::path(HEEL_SCENES) / (scene + ".yaml");
-  if (fs::exists(shipped)) return shipped;
-  throw std::runtime_error(scene + ": there is no such scene, neither as a file nor in " +
-                           std::string(HEEL_SCENES));
-}
-
-/// What the robot's map shows of a scene: a cell is occupied if a wall or a piece of furniture
-/// comes into its inscribed circle.
-OccupancyGrid gridOf(const Scene& scene, double cell_size_m) {
-  const FloorBounds bounds = floorBounds(scene);
-  const Eigen::Vector2d low = bounds.low.array() - 0.2;
-  const Eigen::Vector2d cells = (bounds.high - low).array() / cell_size_m + 0.2 / cell_size_m;
-  const FloorPlan plan(scene, true);
-  OccupancyGrid grid(low, cell_size_m, static_cast<int>(std::ceil(cells.x())),
-                     static_cast<int>(std::ceil(cells.y())));
-  for (int y = 0; y < grid.height(); ++y) {
-    for (int x = 0; x < grid.width(); ++x) {
-      const GridCell cell{x, y};
-      if (plan.clearance(grid.center(cell)) < 0.5 * cell_size_m) {
-        grid.at(cell) = Occupancy::kOccupied;
-      }
-    }
-  }
-  return grid;
-}
 
 cv::Mat drawPlan(const OccupancyGrid& map, const GlobalPlan& plan, const Options& options) {
   const int longest = std::max(map.width(), map.height());
@@ -97,7 +69,9 @@ cv::Mat drawPlan(const OccupancyGrid& map, const GlobalPlan& plan, const Options
 }
 
 void run(const Options& options) {
-  const OccupancyGrid map = gridOf(loadScene(sceneFile(options.map).string()), options.cell_size_m);
+  const fs::path source = mapSource(options.map);
+  const OccupancyGrid map = openMap(source, options.source).map.floorGrid();
+  if (map.empty()) throw std::runtime_error(source.string() + ": there is nothing to map in it");
   GlobalPlanner planner(map, options.planner);
   const GlobalPlan plan =
       planner.plan({options.from[0], options.from[1]}, {options.to[0], options.to[1]});
@@ -141,7 +115,9 @@ void addPlan(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* verb = app.add_subcommand("plan", "Plan a path on a map");
   verb->footer("Example:\n  heel plan home --from 1,1 --to 6,4 --out out/plan");
-  verb->add_option("MAP", options->map, "scene file, or the name of a scene of Heel's")->required();
+  verb->add_option("MAP", options->map,
+                   "a scene's name or YAML file, a map_server YAML, a picture, or a wall map (.bt)")
+      ->required();
   verb->add_option("--from", options->from, "where the robot is: x,y in metres")
       ->required()
       ->delimiter(',')
@@ -155,9 +131,9 @@ void addPlan(CLI::App& app) {
   verb->add_option("--radius", options->planner.robot_radius_m, "of the robot, in metres")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  verb->add_option("--cell", options->cell_size_m, "edge of the map's cells, in metres")
-      ->check(CLI::Range(0.01, 0.5))
-      ->capture_default_str();
+  verb->add_option("--cell", options->source.cell_size_m,
+                   "edge of the map's cells, and of a picture's pixel, in metres")
+      ->check(CLI::Range(0.01, 0.5));
   verb->callback([options] { run(*options); });
 }
 

@@ -27,6 +27,11 @@ fs::path sceneFile(const std::string& scene) {
   return find(scene, sceneFolder(), ".yaml", "scene");
 }
 
+fs::path mapSource(const std::string& map) {
+  const bool is_path = fs::path(map).has_extension() || fs::path(map).has_parent_path();
+  return is_path ? fs::path(map) : sceneFile(map);
+}
+
 fs::path planFolder() { return HEEL_PLANS; }
 
 fs::path planFile(const std::string& plan) { return find(plan, planFolder(), ".pnml", "plan"); }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// Scenes and plans, as users name them.
+/// Scenes, maps and plans, as users name them.
 #pragma once
 
 #include <filesystem>
@@ -16,6 +16,10 @@ std::filesystem::path sceneFolder();
 /// A scene's file: the path itself, or the name of a scene that comes with Heel.
 /// @throws std::runtime_error  if there is neither.
 std::filesystem::path sceneFile(const std::string& scene);
+
+/// What a map is made of: a path, or the name of a scene that comes with Heel; see openMap().
+/// @throws std::runtime_error  if it is a name, and there is no such scene.
+std::filesystem::path mapSource(const std::string& map);
 
 /// The folder of the plans that come with Heel.
 std::filesystem::path planFolder();

@@ -168,6 +168,31 @@ TEST_F(AcquisitionTest, BearsShortGapsAndEndsWhenThePersonHasLeft) {
   EXPECT_EQ(acquisition.result().person_frames, 2);
 }
 
+TEST_F(AcquisitionTest, ABodyThatDepthBrokeInTwoAlongTheRayIsOnePerson) {
+  for (int i = 0; i < 4; ++i) {
+    ActedScene scene = ActedScene().person(2.2, 0.5);
+    const cv::Rect body = scene.board(2.2, 0.5);
+    const cv::Rect lower(body.x, body.y + body.height / 2, body.width, body.height / 2);
+    scene.depth(lower).setTo(2.85);
+    EXPECT_TRUE(act(scene).usable) << i;
+  }
+  EXPECT_EQ(acquisition.result().state, AcquisitionState::kPerson);
+  EXPECT_EQ(acquisition.result().person_frames, 4);
+}
+
+TEST_F(AcquisitionTest, TwoPeopleSideBySideAreTwo) {
+  act(ActedScene().person(2.5, 0.4).person(2.5, -0.4));
+  act(ActedScene().person(2.5, 0.4).person(2.5, -0.4));
+  EXPECT_EQ(acquisition.result().end, AcquisitionEnd::kSecondPerson);
+}
+
+TEST_F(AcquisitionTest, OneFarBehindAnotherOnARayIsASecondPerson) {
+  const auto scene = [] { return ActedScene().person(3.6, 0.45).person(2.4, 0.0); };
+  act(scene());
+  act(scene());
+  EXPECT_EQ(acquisition.result().end, AcquisitionEnd::kSecondPerson);
+}
+
 TEST_F(AcquisitionTest, RefusesStampsThatRunBackwards) {
   const ActedScene scene;
   EXPECT_THROW(acquisition.step(99.0, scene.image, scene.depth), std::invalid_argument);

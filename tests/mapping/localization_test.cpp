@@ -195,7 +195,7 @@ TEST(Localization, SameSeedSameResult) {
 
 TEST(Localization, AllocatesNothingOnceWarm) {
   Driver driver;
-  const std::vector<MaskedDisc> people{{{1.0, 0.0}, 0.3}};
+  const std::vector<FloorDisc> people{{{1.0, 0.0}, 0.3}};
   Localization localization(driver.room);
   driver.drive(localization, 20);
   std::vector<LaserScan> scans;

@@ -172,7 +172,7 @@ TEST(GlobalPlanner, MendsItsSearchToWhatItWouldBeAnew) {
     GlobalPlanner planner(grid, kRobot), fresh(grid, kRobot);
     const Eigen::Vector2d start = test::randomPlace(random, map, kBody_m);
     for (int k = 0; k < 10; ++k) {
-      std::vector<BlockedDisc> discs;
+      std::vector<FloorDisc> discs;
       for (int d = 0; d < 4; ++d) discs.push_back({{place(random), place(random)}, radius(random)});
       planner.setObstacles(discs);
       fresh.setObstacles(discs);
@@ -257,7 +257,7 @@ TEST(GlobalPlanner, DoesNotAllocateOnceWarm) {
   GlobalPlanner planner(map.grid(), kRobot);
   FloorPath places;
   for (int i = 0; i < 20; ++i) places.push_back(test::randomPlace(random, map, kBody_m));
-  const std::vector<BlockedDisc> none, some = {{{4, 4}, 0.3}, {{6, 2}, 0.2}};
+  const std::vector<FloorDisc> none, some = {{{4, 4}, 0.3}, {{6, 2}, 0.2}};
   GlobalPlan plan;
   const auto work = [&] {
     for (std::size_t i = 1; i < places.size(); ++i) {
