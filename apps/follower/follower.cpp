@@ -164,7 +164,7 @@ void Follower::lookAround(const RobotReadings& readings) {
   planner_.setObstacles({}, &layer_.window());
 
   people_.clear();
-  if (step_.target) people_.push_back({*step_.target, target_.motion.velocity_mps()});
+  if (step_.target) people_.push_back({*step_.target, target_velocity_});
   for (const MovingPerson& person : people_around_.people()) {
     const bool is_target =
         step_.target && (person.position - *step_.target).norm() < params_.target_radius_m;
@@ -213,14 +213,30 @@ void Follower::see(const Frame& frame) {
 // The Petri net plan (section 3.4).
 void Follower::decide() {
   if (step_.is_learning) return;
-  step_.target.reset();
-  if (target_.hasPlace()) step_.target = target_.motion.position_m();
+  placeTarget();
   checkFacts();
   const PlanStep& now = runner_.step(facts_);
   step_.outcome = now.outcome;
   const FollowingAction action = currentAction(runner_);
   if (action != action_) begin(action);
   step_.action = action_ = action;
+}
+
+// The camera knows who the target is. The laser sees further to the sides: for a while it can go
+// on with the target's legs.
+void Follower::placeTarget() {
+  step_.target.reset();
+  legs_alone_s_ = target_.hasPlace() ? 0.0 : legs_alone_s_ + dt_s_;
+  if (target_.hasPlace()) {
+    step_.target = target_.motion.position_m();
+    target_velocity_ = target_.motion.velocity_mps();
+    legs_ = people_around_.nearest(*step_.target, params_.legs_within_m);
+  } else if (const Track* legs = people_around_.find(legs_);
+             legs != nullptr && legs_alone_s_ < params_.legs_alone_s) {
+    step_.target = legs->motion.position_m();
+    target_velocity_ = legs->motion.velocity_mps();
+  }
+  if (step_.target) last_place_ = *step_.target;
 }
 
 // From the moment of a loss on, where the person can be: spread by time, thinned by looks.
@@ -230,9 +246,7 @@ void Follower::rememberTheLost() {
     search_is_over_ = false;
     return;
   }
-  if (unseen_s_ == 0.0 && target_.last_seen) {
-    search_.start(target_.last_seen->position_m, target_.last_seen->velocity_mps);
-  }
+  if (unseen_s_ == 0.0) search_.start(last_place_, target_velocity_);
   unseen_s_ += dt_s_;
   search_.spread(dt_s_);
   if (watch_.imageIsGood()) search_.look(step_.robot.pose, dt_s_);
@@ -262,9 +276,8 @@ void Follower::begin(FollowingAction action) {
   view_.reset();
   if (action == FollowingAction::kSeek) {
     turned_rad_ = 0.0;
-    const LastSeen seen = target_.last_seen.value_or(LastSeen());
     // Where they were going by then, for the robot may stand where they were seen.
-    seek_side_ = bearing(step_.robot.pose, seen.position_m + seen.velocity_mps) < 0.0 ? -1.0 : 1.0;
+    seek_side_ = bearing(step_.robot.pose, last_place_ + target_velocity_) < 0.0 ? -1.0 : 1.0;
   }
 }
 
@@ -310,8 +323,8 @@ void Follower::drive() {
 
 // Stands off the person, in view of them and in nobody's way.
 void Follower::follow() {
-  if (!step_.target) return driveTo(target_.last_seen->position_m);
-  const MovingPerson target{*step_.target, target_.motion.velocity_mps()};
+  if (!step_.target) return driveTo(last_place_);
+  const MovingPerson target{*step_.target, target_velocity_};
   const auto clearance = [this](const Vector2d& p) { return planner_.clearance().clearance(p); };
   const auto sees = [this](const Vector2d& from, const Vector2d& to) {
     const double eye_m = robot_.camera.T_base_camera.translation().z();
@@ -321,9 +334,7 @@ void Follower::follow() {
   driveTo(place ? place->pose.position : *step_.target);
 }
 
-void Follower::goToLastSeen() {
-  if (target_.last_seen) driveTo(target_.last_seen->position_m);
-}
+void Follower::goToLastSeen() { driveTo(last_place_); }
 
 // A turn on the spot, towards the side where the person was last seen.
 void Follower::seek() {

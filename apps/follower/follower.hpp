@@ -61,11 +61,13 @@ struct FollowerParams {
   double far_m = 1.2;              ///< ... until the person is further than this.
   double lost_after_s = 0.5;       ///< Without the target's place for longer, it is lost.
   double seek_radps = 0.6;         ///< Turn of a seek.
-  double looked_around_rad = 3.5;  ///< So much of a turn has seen what is near.
+  double looked_around_rad = 1.0;  ///< So much of a turn has seen what is near.
   double search_s = 60.0;          ///< Budget of a search.
   double new_view_s = 3.0;         ///< So often a search thinks again where to look.
   double lost_turn_radps = 0.4;    ///< Turn of a robot that does not know where it is.
   double give_up_s = 4.0;          ///< Blocked for so long, it is as near as it can get.
+  double legs_within_m = 0.4;      ///< Legs this near to the target are the target's.
+  double legs_alone_s = 4.0;       ///< For so long the laser alone goes on with them.
   double target_radius_m = 0.45;   ///< Readings this near to the target are the target's own.
   double mapped_within_m = 0.15;   ///< Points this near to what the map shows are that.
   double obstacles_every_s = 0.2;  ///< How often the camera looks for obstacles.
@@ -130,6 +132,7 @@ class Follower {
   void learn(const Frame& frame);
   void see(const Frame& frame);
   void decide();
+  void placeTarget();
   void checkFacts();
   void begin(FollowingAction action);
   void drive();
@@ -168,6 +171,10 @@ class Follower {
   double steady_s_ = 0.0;  // a clock that does not jump
   VelocityCommand speed_;  // by odometry
   TargetEstimate target_;
+  Eigen::Vector2d last_place_ = Eigen::Vector2d::Zero();  // of the target, as far as was known
+  Eigen::Vector2d target_velocity_ = Eigen::Vector2d::Zero();
+  int legs_ = 0;               // the target's, among the people around
+  double legs_alone_s_ = 0.0;  // since the camera saw the target
   FollowingFacts facts_;
   FollowingAction action_ = FollowingAction::kStop;
   double unseen_s_ = 0.0;  // since the target had a place

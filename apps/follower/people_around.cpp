@@ -36,6 +36,17 @@ void PeopleAround::step(double stamp_s, const LaserScan& scan, const FloorPose& 
   }
 }
 
+int PeopleAround::nearest(const Eigen::Vector2d& place_m, double within_m) const {
+  int id = 0;
+  for (const Track& track : tracker_.tracks()) {
+    const double away_m = (track.motion.position_m() - place_m).norm();
+    if (track.status == TrackStatus::kTentative || away_m > within_m) continue;
+    within_m = away_m;
+    id = track.id;
+  }
+  return id;
+}
+
 bool PeopleAround::walks(const Track& track, double stamp_s) {
   const Eigen::Vector2d place_m = track.motion.position_m();
   const auto stride = std::find_if(strides_.begin(), strides_.end(),

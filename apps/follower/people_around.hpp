@@ -41,6 +41,11 @@ class PeopleAround {
   void step(double stamp_s, const LaserScan& scan, const FloorPose& T_world_scanner,
             const Clearance& clearance);
 
+  /// Whoever or whatever is nearest to a place, walking or not; 0 if nobody is within reach.
+  int nearest(const Eigen::Vector2d& place_m, double within_m) const;
+  /// Their track, or null if it has ended.
+  const Track* find(int id) const { return tracker_.findTrack(id); }
+
   /// Where they are now, with their speeds, in the world.
   const std::vector<MovingPerson>& people() const { return people_; }
 

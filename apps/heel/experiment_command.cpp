@@ -139,6 +139,7 @@ void addExperiment(CLI::App& app) {
       add("protocol", "The first person learned while alone, then followed", runProtocol);
   protocol->add_option("OTHER", options->other, "another recording of the same person");
   addAppearanceExperiment(*verb);
+  addFollowExperiment(*verb);
   addGateExperiment(*verb);
   addLocalizationExperiment(*verb);
   addPerceptionExperiment(*verb);

@@ -10,6 +10,7 @@
 namespace heel {
 
 void addAppearanceExperiment(CLI::App& verb);
+void addFollowExperiment(CLI::App& verb);
 void addGateExperiment(CLI::App& verb);
 void addLocalizationExperiment(CLI::App& verb);
 void addPerceptionExperiment(CLI::App& verb);

@@ -27,16 +27,20 @@ struct Options {
   std::filesystem::path out = "out/follow";
   ClosedLoopParams loop;
   bool random = false;
+  bool alone = false;
   bool no_film = false;
 };
 
 Scene sceneOf(const Options& options) {
-  return options.random ? randomEpisode(options.loop.seed, sceneFolder())
-                        : loadScene(sceneFile(options.scene).string());
+  Scene scene = options.random ? randomEpisode(options.loop.seed, sceneFolder())
+                               : loadScene(sceneFile(options.scene).string());
+  if (options.alone && !scene.people.empty()) scene.people.resize(1);
+  return scene;
 }
 
 std::string commandOf(const Options& options) {
-  const std::string what = options.random ? "--random" : options.scene;
+  const std::string what =
+      (options.random ? "--random" : options.scene) + std::string(options.alone ? " --alone" : "");
   return "heel follow " + what + " --plan " + options.plan + " --seed " +
          std::to_string(options.loop.seed);
 }
@@ -89,6 +93,7 @@ void addFollow(CLI::App& app) {
   verb->add_option("SCENE", options->scene, "a scene's name (home, ...) or its YAML file")
       ->capture_default_str();
   verb->add_flag("--random", options->random, "a home, people and ways drawn from the seed");
+  verb->add_flag("--alone", options->alone, "nobody is there but the person to follow");
   verb->add_option("--plan", options->plan,
                    "what to do when the person is lost: 'paper', 'search', or a PNML file")
       ->capture_default_str();

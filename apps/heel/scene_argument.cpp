@@ -32,6 +32,8 @@ fs::path mapSource(const std::string& map) {
   return is_path ? fs::path(map) : sceneFile(map);
 }
 
-fs::path planFile(const std::string& plan) { return find(plan, HEEL_PLANS, ".pnml", "plan"); }
+fs::path planFolder() { return HEEL_PLANS; }
+
+fs::path planFile(const std::string& plan) { return find(plan, planFolder(), ".pnml", "plan"); }
 
 }  // namespace heel

@@ -21,6 +21,9 @@ std::filesystem::path sceneFile(const std::string& scene);
 /// @throws std::runtime_error  if it is a name, and there is no such scene.
 std::filesystem::path mapSource(const std::string& map);
 
+/// The folder of the plans that come with Heel.
+std::filesystem::path planFolder();
+
 /// A plan's PNML file: the path itself, or the name of a plan that comes with Heel.
 /// @throws std::runtime_error  if there is neither.
 std::filesystem::path planFile(const std::string& plan);

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// The paper's Table 1, and many homes more.
+#pragma once
+
+#include "apps/experiment/closed_loop.hpp"
+#include "apps/report/follow_experiment_page.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace heel {
+
+struct FollowExperimentParams {
+  std::filesystem::path scenes;  ///< Folder of the scenes that come with Heel.
+  std::filesystem::path plans;   ///< Folder of the plans.
+  int episodes = 100;            ///< Random ones; with our plan.
+  std::uint64_t first_seed = 1;  ///< Of the random episodes.
+  double limit_s = 240.0;        ///< Of each run.
+  int jobs = 0;                  ///< Runs at a time; 0: as many as the machine has threads.
+};
+
+/// The three experiments in the scene `home`, each with the paper's plan and with ours, then the
+/// random episodes. In the first experiment the person is alone; in the others another walks about.
+/// @param done  Told of each run when it has ended, one at a time.
+/// @throws std::runtime_error  as loadScene() and loadPlan().
+FollowExperiment runFollowExperiment(const FollowExperimentParams& params,
+                                     const std::function<void(const FollowEpisode&)>& done = {});
+
+/// Why a run failed, in a few words; empty if it did not.
+std::string causeOfFailure(const FollowLog& log, const FollowSummary& summary);
+
+}  // namespace heel

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/experiment/follow_experiment.hpp"
+#include "apps/heel/experiment_commands.hpp"
+#include "apps/heel/scene_argument.hpp"
+#include "apps/report/progress_bar.hpp"
+#include "apps/report/result_files.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+namespace heel {
+namespace {
+
+struct Options {
+  std::filesystem::path out = "out/follow_experiment";
+  FollowExperimentParams params;
+};
+
+void printRow(const FollowEpisode& episode) {
+  const FollowSummary& s = episode.summary;
+  std::printf(
+      "%-14s %-7s %-8s %6.2f m %6.1f s  seek %4.0f %%  %.2f m/s  contacts %d  wrong %.1f s%s%s\n",
+      episode.name.c_str(), episode.plan.c_str(), s.outcome.c_str(), s.distance_m, s.elapsed_s,
+      100.0 * s.seekShare(), s.driving_speed_mps, s.contacts, s.wrong_person_s,
+      episode.cause.empty() ? "" : "  ", episode.cause.c_str());
+  std::fflush(stdout);
+}
+
+void run(Options& options) {
+  options.params.scenes = sceneFolder();
+  options.params.plans = planFolder();
+  makeResultFolder(options.out);
+  ProgressBar progress("runs", static_cast<std::size_t>(6 + options.params.episodes));
+  std::size_t count = 0;
+  FollowExperiment experiment =
+      runFollowExperiment(options.params, [&](const FollowEpisode&) { progress.show(++count); });
+  experiment.command = "heel experiment follow --episodes " +
+                       std::to_string(options.params.episodes) + " --seed " +
+                       std::to_string(options.params.first_seed);
+  for (const FollowEpisode& episode : experiment.table1) printRow(episode);
+  for (const FollowEpisode& episode : experiment.episodes) {
+    if (isFailure(episode)) printRow(episode);
+  }
+  const EpisodeCounts all = countEpisodes(experiment.episodes, experiment.plans.back());
+  std::printf(
+      "%d random episodes: %d reached, %d with a contact, wrong person %.2f %% of the time, "
+      "seeking %.0f %%\n",
+      all.episodes, all.reached, all.with_contact, 100.0 * all.wrongShare(),
+      all.elapsed_s > 0.0 ? 100.0 * all.seek_s / all.elapsed_s : 0.0);
+  writeEpisodesCsv(options.out / "episodes.csv", experiment);
+  writeFollowExperimentPage(options.out / "report.html", experiment);
+  std::printf("wrote %s: report.html, episodes.csv\n", options.out.string().c_str());
+}
+
+}  // namespace
+
+void addFollowExperiment(CLI::App& experiment) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = experiment.add_subcommand(
+      "follow", "The paper's three experiments with its plan and ours, and random homes");
+  verb->footer(
+      "Example:\n"
+      "  heel experiment follow --out out/follow_experiment\n"
+      "Every failure is listed with the command that shows it again.");
+  verb->add_option("--episodes", options->params.episodes, "random homes")->capture_default_str();
+  verb->add_option("--seed", options->params.first_seed, "of the first random home")
+      ->capture_default_str();
+  verb->add_option("--limit", options->params.limit_s, "a run ends after so long [s]")
+      ->capture_default_str();
+  verb->add_option("--jobs", options->params.jobs, "runs side by side; 0: one for each thread")
+      ->capture_default_str();
+  verb->add_option("--out", options->out, "folder for the results")->capture_default_str();
+  verb->callback([options] { run(*options); });
+}
+
+}  // namespace heel
