@@ -363,8 +363,15 @@ void Follower::search() {
   is_there_ = turn == 0.0;
 }
 
-// Stays where it is, turned to the person, unless it must make room.
+// Stays where it is, turned to the person, unless it must make room: nobody waits at a doorway
+// that the robot stands in.
 void Follower::face() {
+  const Vector2d& here = step_.robot.pose.position;
+  const GoalChooserParams& goal = goal_chooser_.params();
+  const bool blocks = std::any_of(doorways_.begin(), doorways_.end(), [&](const DoorwayOnMap& d) {
+    return inPassage(d, here, goal.doorway_depth_m, goal.radius_m) > 0.0;
+  });
+  if (blocks) return follow();
   plan_.path.clear();
   step_.velocity = localCommand();
 }

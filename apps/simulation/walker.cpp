@@ -18,6 +18,7 @@ constexpr double kArrived_m = 0.08;
 constexpr double kTurnRate_radps = 3.0;
 constexpr double kAcceleration_mps2 = 2.0;
 constexpr double kForesight_s = 2.0;
+constexpr double kReflex_s = 0.4;
 constexpr double kBodyToWall_m = 0.2;
 constexpr double kGivesUp_s = 10.0;  // Someone who can't get to a place goes to the next.
 
@@ -105,6 +106,7 @@ Vector2d Walker::chooseVelocity(const Vector2d& wanted, const FloorPlan& plan,
         const double touch = timeToTouch(other.position - pose_.position, other.velocity - velocity,
                                          other.radius_m + kRadius_m);
         if (touch < kForesight_s) cost += 3.0 * (1.0 - touch / kForesight_s) + 0.5;
+        if (touch < kReflex_s) cost += 10.0;  // Rather stand than bump into somebody.
       }
       if (cost >= least) continue;
       const bool straight = turn == 0.0;
