@@ -12,6 +12,11 @@ cmake --build --preset release --target heel_command
 heel=build/release/apps/heel/heel
 
 echo
+echo "== A simulated flat: a robot learns Lena and follows her through it"
+"$heel" follow home --out out/home
+echo "open out/home/report.html in a browser"
+
+echo
 echo "== A simulated room: who is Anna, and where does she go?"
 [ -f out/wardrobe/truth.csv ] || { rm -rf out/wardrobe; "$heel" simulate wardrobe --out out/wardrobe; }
 "$heel" learn out/wardrobe --out out/anna.yaml
