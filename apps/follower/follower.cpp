@@ -164,7 +164,11 @@ void Follower::lookAround(const RobotReadings& readings) {
   planner_.setObstacles({}, &layer_.window());
 
   people_.clear();
-  if (step_.target) people_.push_back({*step_.target, target_velocity_});
+  if (step_.target) {
+    people_.push_back({*step_.target, target_velocity_});
+  } else if (unseen_s_ < params_.beside_s) {  // may pass by where no sensor looks
+    people_.push_back({last_place_ + unseen_s_ * target_velocity_, target_velocity_});
+  }
   for (const MovingPerson& person : people_around_.people()) {
     const bool is_target =
         step_.target && (person.position - *step_.target).norm() < params_.target_radius_m;
@@ -198,7 +202,8 @@ void Follower::learn(const Frame& frame) {
     params.gate = wallGate(walls_, gate);
   }
   perception_.emplace(robot_.camera, learner_->learn(), params);
-  perception_->startAt(step_.robot.pose * learner_->result().last_place_m);
+  last_place_ = step_.robot.pose * learner_->result().last_place_m;
+  perception_->startAt(last_place_);
   learner_.reset();
   step_.is_learning = false;
 }

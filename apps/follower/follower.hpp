@@ -68,6 +68,7 @@ struct FollowerParams {
   double give_up_s = 4.0;          ///< Blocked for so long, it is as near as it can get.
   double legs_within_m = 0.4;      ///< Legs this near to the target are the target's.
   double legs_alone_s = 4.0;       ///< For so long the laser alone goes on with them.
+  double beside_s = 2.0;           ///< For so long a lost person is taken to walk on as they did.
   double target_radius_m = 0.45;   ///< Readings this near to the target are the target's own.
   double mapped_within_m = 0.15;   ///< Points this near to what the map shows are that.
   double obstacles_every_s = 0.2;  ///< How often the camera looks for obstacles.
