@@ -104,10 +104,10 @@ class SearchMap {
   double since_seen_s_ = 0.0;
   double carried_s_ = 0.0;  ///< Time that has gone by but is less than a step.
 
-  int reach_cells_ = 0;               ///< Half the edge of a window around a view.
-  std::vector<int> view_cells_;       ///< Places to look from.
-  std::vector<bool> is_visible_;      ///< Of the cells in the window around each view, row by row.
-  std::vector<float> way_m_;  ///< Of the robot; memory of nextView().
+  int reach_cells_ = 0;           ///< Half the edge of a window around a view.
+  std::vector<int> view_cells_;   ///< Places to look from.
+  std::vector<bool> is_visible_;  ///< Of the cells in the window around each view, row by row.
+  std::vector<float> way_m_;      ///< Of the robot; memory of nextView().
   CoarseFloor::Open way_open_;
 };
 
