@@ -19,8 +19,6 @@
 namespace heel {
 namespace {
 
-constexpr double kEnters_s = 1.2;  // So long people take into view.
-
 using Models = std::vector<std::optional<AppearanceModel>>;
 
 /// With what the map of the recording's room rules out.

@@ -14,27 +14,6 @@
 namespace heel {
 namespace {
 
-constexpr double kEnters_s = 1.2;  // So long people take into view.
-
-AppearanceModel learn(const ScenePerson& person, std::uint64_t seed,
-                      const GateExperimentParams& params) {
-  SimulatedFramesParams span;
-  span.seed = hashOf(seed, 31);
-  const WardrobeRooms rooms(params.scenes, seed);
-  const Scene scene = rooms.acquisition(person, params.empty_s, span.seed);
-  span.to_s = params.empty_s + kEnters_s + params.person_s;
-  SimulatedFrames recording = renderFrames(scene, span);
-  matchStereo(recording, params.perception.stereo);
-  const SimulatedLesson lesson =
-      takeLesson({&recording}, {{"", params.appearance}}, params.empty_s, params.person_s);
-  auto model = lesson.lessons.learn(0);
-  if (!model) {
-    throw std::runtime_error("wardrobe " + std::to_string(seed) +
-                             ": nothing of the person could be learned");
-  }
-  return std::move(*model);
-}
-
 /// The scene with this person in it, and all that hangs on its walls in the colour of their top.
 Scene postersOf(const ScenePerson& person, const GateExperimentParams& params) {
   Scene scene = loadScene((params.scenes / "poster.yaml").string());
@@ -82,7 +61,9 @@ GateOutcome follow(const SimulatedFrames& recording, const AppearanceModel& mode
 
 GateRun runGateExperiment(std::uint64_t seed, const GateExperimentParams& params) {
   const ScenePerson person = randomWardrobe(seed).people[2];
-  const AppearanceModel model = learn(person, seed, params);
+  const AppearanceModel model =
+      learnInWardrobe(WardrobeRooms(params.scenes, seed), person, params.appearance,
+                      params.perception.stereo, params.empty_s, params.person_s, hashOf(seed, 31));
   SimulatedFramesParams span;
   span.seed = hashOf(seed, 32);
   span.to_s = params.follow_s;

@@ -15,7 +15,6 @@ namespace heel {
 namespace {
 
 constexpr std::uint8_t kTarget = 1;  // Of the instance mask: the scene's first person.
-constexpr double kEnters_s = 1.2;    // So long people take into view.
 
 double shareOf(std::int64_t part, std::int64_t whole) {
   if (whole == 0) return std::numeric_limits<double>::quiet_NaN();
@@ -60,24 +59,6 @@ void count(const cv::Mat& passed, const SimulatedFrame& now, const TrueHeights& 
   }
 }
 
-AppearanceModel learn(const WardrobeRooms& rooms, const ScenePerson& person, std::uint64_t seed,
-                      const PerceptionTruthParams& params) {
-  SimulatedFramesParams span;
-  span.seed = hashOf(seed, 21);
-  const Scene scene = rooms.acquisition(person, params.empty_s, span.seed);
-  span.to_s = params.empty_s + kEnters_s + params.person_s;
-  SimulatedFrames recording = renderFrames(scene, span);
-  matchStereo(recording, params.perception.stereo);
-  const SimulatedLesson lesson =
-      takeLesson({&recording}, {{"", params.appearance}}, params.empty_s, params.person_s);
-  auto model = lesson.lessons.learn(0);
-  if (!model) {
-    throw std::runtime_error("wardrobe " + std::to_string(seed) +
-                             ": nothing of the person could be learned");
-  }
-  return std::move(*model);
-}
-
 }  // namespace
 
 double PixelCount::precision() const { return shareOf(on_target, passed); }
@@ -99,7 +80,9 @@ PerceptionTruthRun runPerceptionTruthExperiment(std::uint64_t seed,
   run.similar = seed % 5 == 0;
   const ScenePerson& target = wardrobe.people[run.similar ? 0 : 2];
   const ScenePerson& other = wardrobe.people[run.similar ? 1 : 3];
-  const AppearanceModel model = learn(rooms, target, seed, params);
+  const AppearanceModel model =
+      learnInWardrobe(rooms, target, params.appearance, params.perception.stereo, params.empty_s,
+                      params.person_s, hashOf(seed, 21));
 
   SimulatedFramesParams span;
   span.seed = hashOf(seed, 22);

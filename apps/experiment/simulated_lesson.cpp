@@ -4,6 +4,7 @@
 #include "apps/experiment/simulated_lesson.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -46,6 +47,21 @@ SimulatedLesson takeLesson(const std::vector<const SimulatedFrames*>& recordings
   }
   lesson.result = acquisition.result();
   return lesson;
+}
+
+AppearanceModel learnInWardrobe(const WardrobeRooms& rooms, const ScenePerson& person,
+                                const AppearanceParams& appearance,
+                                const StereoMatcherParams& stereo, double empty_s, double person_s,
+                                std::uint64_t seed) {
+  SimulatedFramesParams span;
+  span.seed = seed;
+  span.to_s = empty_s + kEnters_s + person_s;
+  SimulatedFrames recording = renderFrames(rooms.acquisition(person, empty_s, seed), span);
+  matchStereo(recording, stereo);
+  const SimulatedLesson lesson = takeLesson({&recording}, {{"", appearance}}, empty_s, person_s);
+  auto model = lesson.lessons.learn(0);
+  if (!model) throw std::runtime_error(person.name + ": nothing of the person could be learned");
+  return std::move(*model);
 }
 
 }  // namespace heel

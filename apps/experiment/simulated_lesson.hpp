@@ -6,9 +6,11 @@
 #pragma once
 
 #include "apps/experiment/model_lessons.hpp"
+#include "apps/experiment/random_wardrobe.hpp"
 #include "apps/experiment/simulated_frames.hpp"
 #include "apps/follower/acquisition.hpp"
 
+#include <cstdint>
 #include <vector>
 
 namespace heel {
@@ -22,5 +24,16 @@ struct SimulatedLesson {
 SimulatedLesson takeLesson(const std::vector<const SimulatedFrames*>& recordings,
                            const std::vector<OfferedModel>& models, double empty_s,
                            double person_s);
+
+/// So long people take into view.
+inline constexpr double kEnters_s = 1.2;
+
+/// Phase 1 in the wardrobe's learning room: the model of a person who comes in.
+/// @param seed  Of the recording's ways and noise.
+/// @throws std::runtime_error  if nothing of the person could be learned.
+AppearanceModel learnInWardrobe(const WardrobeRooms& rooms, const ScenePerson& person,
+                                const AppearanceParams& appearance,
+                                const StereoMatcherParams& stereo, double empty_s, double person_s,
+                                std::uint64_t seed);
 
 }  // namespace heel

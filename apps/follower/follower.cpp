@@ -174,7 +174,6 @@ void Follower::lookAround(const RobotReadings& readings) {
         step_.target && (person.position - *step_.target).norm() < params_.target_radius_m;
     if (!is_target) people_.push_back(person);
   }
-  step_.people = &people_;
 }
 
 void Follower::keepUnmapped(const std::vector<Eigen::Vector3f>& points) {
@@ -195,12 +194,10 @@ void Follower::learn(const Frame& frame) {
     throw NobodyLearned("nobody entered to be learned, or several did together");
   }
   PerceptionParams params = params_.perception;
-  if (params_.use_wall_gate) {
-    WallGateParams gate = params_.gate;
-    gate.eye_height_m = robot_.camera.T_base_camera.translation().z();
-    gate.depth_error_pm = depthErrorOf(robot_.camera.camera);
-    params.gate = wallGate(walls_, gate);
-  }
+  WallGateParams gate = params_.gate;
+  gate.eye_height_m = robot_.camera.T_base_camera.translation().z();
+  gate.depth_error_pm = depthErrorOf(robot_.camera.camera);
+  params.gate = wallGate(walls_, gate);
   perception_.emplace(robot_.camera, learner_->learn(), params);
   last_place_ = step_.robot.pose * learner_->result().last_place_m;
   perception_->startAt(last_place_);
@@ -315,7 +312,7 @@ void Follower::drive() {
       face();
       break;
     case FollowingAction::kGoToLastSeen:
-      goToLastSeen();
+      driveTo(last_place_);
       break;
     case FollowingAction::kSeek:
       seek();
@@ -338,8 +335,6 @@ void Follower::follow() {
   const auto place = goal_chooser_.choose(target, step_.robot.pose, clearance, sees, doorways_);
   driveTo(place ? place->pose.position : *step_.target);
 }
-
-void Follower::goToLastSeen() { driveTo(last_place_); }
 
 // A turn on the spot, towards the side where the person was last seen.
 void Follower::seek() {

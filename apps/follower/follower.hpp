@@ -56,7 +56,6 @@ struct FollowerParams {
 
   FollowerParams();  ///< With what suits following where a part's own default is for other uses.
 
-  bool use_wall_gate = true;
   double near_m = 1.0;             ///< The paper's metre: nearer than this the robot stops ...
   double far_m = 1.2;              ///< ... until the person is further than this.
   double lost_after_s = 0.5;       ///< Without the target's place for longer, it is lost.
@@ -94,12 +93,11 @@ struct FollowStep {
   std::string reason;  ///< Why it does what it does, in a few words.
 
   LocalizationEstimate robot;
-  const AcquisitionStep* acquisition = nullptr;       ///< Of this step's frame, in phase 1.
-  const PerceptionStep* perception = nullptr;         ///< Of this step's frame, in phase 2.
-  std::optional<Eigen::Vector2d> target;              ///< Where the person is, as far as is known.
-  std::optional<Eigen::Vector2d> goal;                ///< Where the robot wants to stand.
-  const FloorPath* path = nullptr;                    ///< The way there.
-  const std::vector<MovingPerson>* people = nullptr;  ///< Who is to be given way.
+  const AcquisitionStep* acquisition = nullptr;  ///< Of this step's frame, in phase 1.
+  const PerceptionStep* perception = nullptr;    ///< Of this step's frame, in phase 2.
+  std::optional<Eigen::Vector2d> target;         ///< Where the person is, as far as is known.
+  std::optional<Eigen::Vector2d> goal;           ///< Where the robot wants to stand.
+  const FloorPath* path = nullptr;               ///< The way there.
 
   /// The state in a word: "learn", or the plan's action.
   const char* state() const;
@@ -143,7 +141,6 @@ class Follower {
   VelocityCommand localCommand();
   void follow();
   void face();
-  void goToLastSeen();
   void seek();
   void search();
 

@@ -118,7 +118,6 @@ void FollowOutput::commit(FollowLog& log, const FollowSummary& summary) {
   if (film_) {
     film_->close();
     page.film = film_->path().filename().string();
-    if (film_->path().extension() != ".mp4") page.film_type = "video/x-msvideo";
     film_->commit();
   }
   writeFollowFiles(folder_, log, summary);

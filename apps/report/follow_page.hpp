@@ -14,8 +14,7 @@
 namespace heel {
 
 struct FollowPageParams {
-  std::string film;  ///< Name of the film's file beside the page; empty: none.
-  std::string film_type = "video/mp4";
+  std::string film;                 ///< Name of the film's file beside the page; empty: none.
   std::size_t most_moments = 1500;  ///< That can be pointed at; the run's others are passed over.
 };
 
