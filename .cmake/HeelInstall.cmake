@@ -9,6 +9,7 @@ if(PROJECT_IS_TOP_LEVEL AND BUILD_SHARED_LIBS AND NOT HEEL_SANITIZE)
 endif()
 
 set(HEEL_CONFIG_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/heel")
+set(HEEL_DATA_DIR "${CMAKE_INSTALL_DATADIR}/heel")
 
 # Under /usr the loader looks in the right place by itself; anywhere else, an installed tree can be
 # moved as a whole.
@@ -32,7 +33,7 @@ endfunction()
 function(heel_install_command)
   install(TARGETS heel_command RUNTIME COMPONENT runtime)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/apps/scenes" "${PROJECT_SOURCE_DIR}/apps/plans"
-    DESTINATION "${CMAKE_INSTALL_DATADIR}/heel" COMPONENT runtime)
+    DESTINATION "${HEEL_DATA_DIR}" COMPONENT runtime)
 endfunction()
 
 # Makes and installs heel(1) and a page for each verb.
@@ -59,11 +60,9 @@ endif()
 
 configure_package_config_file(
   "${CMAKE_CURRENT_LIST_DIR}/heel-config.cmake.in" "${PROJECT_BINARY_DIR}/heel-config.cmake"
-  INSTALL_DESTINATION "${HEEL_CONFIG_DIR}" NO_SET_AND_CHECK_MACRO)
+  INSTALL_DESTINATION "${HEEL_CONFIG_DIR}" PATH_VARS HEEL_DATA_DIR NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/heel-config-version.cmake"
   COMPATIBILITY SameMinorVersion)
 install(
   FILES "${PROJECT_BINARY_DIR}/heel-config.cmake" "${PROJECT_BINARY_DIR}/heel-config-version.cmake"
   DESTINATION "${HEEL_CONFIG_DIR}" COMPONENT development)
-
-include(HeelPackage)
