@@ -50,12 +50,9 @@ INSTANTIATE_TYPED_TEST_SUITE_P(AppearanceFilterOnAPointOfOnesOwn, PclFilterContr
 
 TEST(PlanViewOfAPointOfOnesOwn, IsAsThatOfPclsPoints) {
   const ColorTable red([](std::uint8_t, std::uint8_t, std::uint8_t r) { return r; });
+  const ColorCloud colors = *makeScene<pcl::PointXYZRGB>(3);
   pcl::PointCloud<PaintedPoint> cloud;
-  ColorCloud colors;
-  for (const auto& p : *makeScene<pcl::PointXYZRGB>(3)) {
-    cloud.push_back({p.x, p.y, p.z, p.r, p.g, p.b, 1});
-    colors.push_back(p);
-  }
+  for (const auto& p : colors) cloud.push_back({p.x, p.y, p.z, p.r, p.g, p.b, 1});
   PlanView view;
   PlanView expected;
   view.build(cloud, allIndices(cloud.size()), &red);
