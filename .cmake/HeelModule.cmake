@@ -24,17 +24,28 @@ if(HEEL_SANITIZE)
   target_link_options(heel_flags INTERFACE -fsanitize=${HEEL_SANITIZE})
 endif()
 
-# heel_module(NAME SOURCES ... HEADERS ... PUBLIC targets... PRIVATE targets...)
-# makes the library heel::NAME from the current folder.
+# heel_module(NAME SOURCES ... HEADERS ... PUBLIC targets... PRIVATE targets... [COMMAND_ONLY])
+# makes the library heel::NAME from the current folder. It is installed as the component NAME of the
+# package heel, unless it is COMMAND_ONLY: then it is a part of the heel command and nothing else.
 function(heel_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 M "" "" "SOURCES;HEADERS;PUBLIC;PRIVATE")
-  add_library(heel_${name} ${M_SOURCES})
+  cmake_parse_arguments(PARSE_ARGV 1 M "COMMAND_ONLY" "" "SOURCES;HEADERS;PUBLIC;PRIVATE")
+  set(kind "")
+  if(M_COMMAND_ONLY)
+    set(kind STATIC)
+  endif()
+  add_library(heel_${name} ${kind} ${M_SOURCES})
   add_library(heel::${name} ALIAS heel_${name})
   set_target_properties(heel_${name} PROPERTIES
-    EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON CXX_EXTENSIONS OFF)
+    EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON CXX_EXTENSIONS OFF
+    # Until 1.0 a minor version may change the binary interface.
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+    DEFINE_SYMBOL "")  # the same command line, and ccache entry, for a shared and a static library
   target_sources(heel_${name} PUBLIC
     FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${M_HEADERS})
   target_compile_features(heel_${name} PUBLIC cxx_std_17)
   target_link_libraries(heel_${name}
     PUBLIC ${M_PUBLIC} PRIVATE ${M_PRIVATE} $<BUILD_INTERFACE:heel_flags>)
+  if(HEEL_INSTALL AND NOT M_COMMAND_ONLY)
+    heel_install_module(${name})
+  endif()
 endfunction()

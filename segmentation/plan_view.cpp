@@ -3,14 +3,13 @@
 
 #include "segmentation/plan_view.hpp"
 
-#include <algorithm>
+#include "segmentation/plan_view_impl.hpp"
+
 #include <cmath>
 #include <stdexcept>
 
 namespace heel {
 namespace {
-
-constexpr float kHighest_m = 1000.0F;  // leaves out what is not finite
 
 int gridWidth(const PlanViewParams& params) {
   const bool positive = params.cell_size_m > 0.0 && params.max_range_m > 0.0;
@@ -42,27 +41,11 @@ PlanView::PlanView(const PlanViewParams& params, const PlanViewCamera& camera)
   occupied_.reserve(cells_.size() / 8);
 }
 
-void PlanView::build(const ColorCloud& cloud, const pcl::Indices& indices,
-                     const ColorTable* colors) {
-  for (const int cell : occupied_) cells_[static_cast<std::size_t>(cell)] = PlanCell{};
-  occupied_.clear();
-  points_ = 0;
-  for (const pcl::index_t i : indices) {
-    const pcl::PointXYZRGB& p = cloud[static_cast<std::size_t>(i)];
-    const int at = cellAt(p.x, p.y);
-    if (at < 0 || !(p.z >= 0.0F && p.z <= kHighest_m)) continue;
-    PlanCell& cell = cells_[static_cast<std::size_t>(at)];
-    if (cell.points++ == 0) occupied_.push_back(at);
-    cell.max_height_m = std::max(cell.max_height_m, p.z);
-    const float dx = p.x - camera_m_.x();
-    const float dy = p.y - camera_m_.y();
-    const float dz = p.z - camera_m_.z();
-    cell.area_m2 += (dx * dx + dy * dy + dz * dz) * area_per_square_m_;
-    if (colors != nullptr) {
-      cell.appearance += static_cast<float>((*colors)(p.b, p.g, p.r)) * (1.0F / 255.0F);
-    }
-    ++points_;
-  }
-}
-
 }  // namespace heel
+
+#ifndef PCL_NO_PRECOMPILE
+#include <pcl/impl/instantiate.hpp>
+#include <pcl/point_types.h>
+
+PCL_INSTANTIATE(PlanView, PCL_RGB_POINT_TYPES)
+#endif

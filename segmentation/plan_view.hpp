@@ -5,10 +5,11 @@
 /// The scene from above: candidate points on a grid over the floor (section 3.2).
 #pragma once
 
-#include "cloud/color_cloud.hpp"
 #include "segmentation/color_table.hpp"
 
 #include <Eigen/Core>
+#include <pcl/point_cloud.h>
+#include <pcl/types.h>
 
 #include <cstddef>
 #include <vector>
@@ -48,7 +49,10 @@ class PlanView {
   ///
   /// Points without position, below the floor or off the grid are left out. `colors`, if not null,
   /// scores each point's colour.
-  void build(const ColorCloud& cloud, const pcl::Indices& indices,
+  /// @tparam PointT  A PCL point with x, y, z, r, g, b. Instantiated for all of PCL's own; for
+  ///                 another, `#define PCL_NO_PRECOMPILE` before including this.
+  template <typename PointT>
+  void build(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices,
              const ColorTable* colors = nullptr);
 
   double cellSize() const { return cell_size_m_; }
@@ -89,3 +93,7 @@ class PlanView {
 };
 
 }  // namespace heel
+
+#ifdef PCL_NO_PRECOMPILE  // users with a point type of their own get the body
+#include "segmentation/plan_view_impl.hpp"
+#endif

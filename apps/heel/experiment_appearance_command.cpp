@@ -4,6 +4,7 @@
 #include "apps/experiment/appearance_report.hpp"
 #include "apps/experiment/people_matrix_experiment.hpp"
 #include "apps/heel/experiment_commands.hpp"
+#include "apps/heel/scene_argument.hpp"
 #include "apps/report/progress_bar.hpp"
 
 #include <CLI/CLI.hpp>
@@ -131,7 +132,7 @@ void run(Options& options) {
 
 void addAppearanceExperiment(CLI::App& verb) {
   auto options = std::make_shared<Options>();
-  options->params.scenes = HEEL_SCENES;
+  options->params.scenes = sceneFolder();
   CLI::App* experiment = verb.add_subcommand(
       "appearance", "Who is detected with whose model: the paper's section 4.1, in simulation");
   experiment->footer("Example:\n  heel experiment appearance --out out/appearance");

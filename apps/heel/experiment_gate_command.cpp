@@ -3,6 +3,7 @@
 
 #include "apps/experiment/gate_experiment.hpp"
 #include "apps/heel/experiment_commands.hpp"
+#include "apps/heel/scene_argument.hpp"
 #include "apps/report/csv_file.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "apps/report/result_files.hpp"
@@ -97,7 +98,7 @@ void run(Options& options) {
 
 void addGateExperiment(CLI::App& verb) {
   auto options = std::make_shared<Options>();
-  options->params.scenes = HEEL_SCENES;
+  options->params.scenes = sceneFolder();
   CLI::App* experiment = verb.add_subcommand(
       "gate", "What the map's walls are good for: a target among posters of the same colour");
   experiment->footer("Example:\n  heel experiment gate --out out/gate");

@@ -3,6 +3,7 @@
 
 #include "apps/experiment/localization_experiment.hpp"
 #include "apps/heel/experiment_commands.hpp"
+#include "apps/heel/scene_argument.hpp"
 #include "apps/report/csv_file.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "apps/report/result_files.hpp"
@@ -24,7 +25,7 @@ namespace {
 constexpr double kDegrees = 57.29577951308232;
 
 struct Options {
-  std::string scene = std::string(HEEL_SCENES) + "/home.yaml";
+  std::string scene = sceneFolder() / "home.yaml";
   std::size_t tracking = 10, global = 100, kidnapped = 50;
   std::uint64_t seed = 1;
   std::filesystem::path out;

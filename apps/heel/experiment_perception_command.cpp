@@ -3,6 +3,7 @@
 
 #include "apps/experiment/perception_truth_experiment.hpp"
 #include "apps/heel/experiment_commands.hpp"
+#include "apps/heel/scene_argument.hpp"
 #include "apps/report/csv_file.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "apps/report/result_files.hpp"
@@ -115,7 +116,7 @@ void run(Options& options) {
 
 void addPerceptionExperiment(CLI::App& verb) {
   auto options = std::make_shared<Options>();
-  options->params.scenes = HEEL_SCENES;
+  options->params.scenes = sceneFolder();
   CLI::App* experiment = verb.add_subcommand(
       "perception", "The perception against exact truth, on simulated recordings");
   experiment->footer("Example:\n  heel experiment perception --out out/perception");

@@ -19,9 +19,15 @@ fs::path find(const std::string& name, const fs::path& folder, const std::string
                            folder.string());
 }
 
+/// What comes with Heel lies at the same place seen from the command, wherever that is.
+fs::path shippedFolder(const std::string& name) {
+  const fs::path command = fs::read_symlink("/proc/self/exe");
+  return fs::weakly_canonical(command.parent_path() / HEEL_DATA_FOLDER / name);
+}
+
 }  // namespace
 
-fs::path sceneFolder() { return HEEL_SCENES; }
+fs::path sceneFolder() { return shippedFolder("scenes"); }
 
 fs::path sceneFile(const std::string& scene) {
   return find(scene, sceneFolder(), ".yaml", "scene");
@@ -32,7 +38,7 @@ fs::path mapSource(const std::string& map) {
   return is_path ? fs::path(map) : sceneFile(map);
 }
 
-fs::path planFolder() { return HEEL_PLANS; }
+fs::path planFolder() { return shippedFolder("plans"); }
 
 fs::path planFile(const std::string& plan) { return find(plan, planFolder(), ".pnml", "plan"); }
 

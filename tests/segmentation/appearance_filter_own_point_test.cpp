@@ -5,7 +5,9 @@
 /// The filter on a point type that is not PCL's, with the bodies included as PCL's users do.
 #define PCL_NO_PRECOMPILE
 
+#include "cloud/color_cloud.hpp"
 #include "segmentation/appearance_filter.hpp"
+#include "segmentation/plan_view.hpp"
 #include "tests/support/pcl_filter_contract.hpp"
 
 #include <pcl/register_point_struct.h>
@@ -45,6 +47,25 @@ struct OwnPointCase {
 };
 
 INSTANTIATE_TYPED_TEST_SUITE_P(AppearanceFilterOnAPointOfOnesOwn, PclFilterContract, OwnPointCase);
+
+TEST(PlanViewOfAPointOfOnesOwn, IsAsThatOfPclsPoints) {
+  const ColorTable red([](std::uint8_t, std::uint8_t, std::uint8_t r) { return r; });
+  const ColorCloud colors = *makeScene<pcl::PointXYZRGB>(3);
+  pcl::PointCloud<PaintedPoint> cloud;
+  for (const auto& p : colors) cloud.push_back({p.x, p.y, p.z, p.r, p.g, p.b, 1});
+  PlanView view;
+  PlanView expected;
+  view.build(cloud, allIndices(cloud.size()), &red);
+  expected.build(colors, allIndices(colors.size()), &red);
+  EXPECT_GT(view.points(), 20);
+  ASSERT_EQ(view.occupied(), expected.occupied());
+  for (const int cell : view.occupied()) {
+    EXPECT_EQ(view[cell].points, expected[cell].points);
+    EXPECT_EQ(view[cell].max_height_m, expected[cell].max_height_m);
+    EXPECT_EQ(view[cell].area_m2, expected[cell].area_m2);
+    EXPECT_EQ(view[cell].appearance, expected[cell].appearance);
+  }
+}
 
 }  // namespace
 }  // namespace heel::test
