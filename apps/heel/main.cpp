@@ -92,6 +92,7 @@ int main(int argc, char** argv) {
   heel::addLocalize(app);
   heel::addMap(app);
   heel::addPlan(app);
+  heel::addPlanView(app);
   heel::addSimulate(app);
   heel::addEvaluate(app);
   heel::addExperiment(app);
