@@ -106,16 +106,17 @@ void drawBlobs(const CloudPlan& plan, const FloorScale& floor, cv::Mat& panel) {
   for (std::size_t i = plan.blobs.size(); i-- > 0;) {  // the highest score on top
     const WorldBlob& blob = plan.blobs[i];
     const cv::Point2d at = floor(blob.position_m);
-    const double radius = std::max(6.0, floor.pixels(blob.extent_m / 2.0));
     const bool is_person = plan.is_person[i];
+    const double radius =
+        std::max(floor.pixels(blob.extent_m / 2.0), is_person ? floor.pixels(0.3) : 6.0);
     const cv::Scalar& color = is_person ? palette::kGood : palette::kInkSoft;
-    drawCircle(panel, at, is_person ? std::max(radius, floor.pixels(0.3)) : radius, color,
-               is_person ? 3 : 1);
+    drawCircle(panel, at, radius, color, is_person ? 3 : 1);
     if (i >= kMostLabels) continue;
     const std::string label =
         std::to_string(i + 1) + (is_person ? ": " + fixedText(blob.max_height_m, 2) + " m" : "");
     if (is_person) {
-      drawLabel(panel, label, at, palette::kGood, palette::kPaper, kTextSizeSmall, Align::kCenter);
+      drawLabel(panel, label, at + cv::Point2d(0.0, radius + 14.0), palette::kGood, palette::kPaper,
+                kTextSizeSmall, Align::kCenter);
     } else {
       drawText(panel, label, at, palette::kInk, kTextSizeSmall, Align::kCenter);
     }

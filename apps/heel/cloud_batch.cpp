@@ -39,6 +39,11 @@ std::vector<fs::path> resultNames(const std::vector<fs::path>& clouds, const fs:
   return results;
 }
 
+void removeFormer(const fs::path& result) {
+  std::error_code ignored;
+  if (!fs::is_directory(result, ignored)) fs::remove(result, ignored);
+}
+
 void tellFailures(const std::vector<std::string>& reasons, std::size_t clouds) {
   if (reasons.empty()) return;
   for (const std::string& reason : reasons) std::fprintf(stderr, "heel: %s\n", reason.c_str());

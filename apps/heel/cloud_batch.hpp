@@ -40,6 +40,9 @@ std::vector<std::filesystem::path> resultNames(const std::vector<std::filesystem
 /// @throws std::runtime_error  that counts them.
 void tellFailures(const std::vector<std::string>& reasons, std::size_t clouds);
 
+/// Removes the result that a former run left, where there is no new one.
+void removeFormer(const std::filesystem::path& result);
+
 /// Calls `work(file index, fate)` for each cloud and takes an error for its fate; adds each result
 /// to the summary, in order, by `add(index, fate, result)`.
 /// @tparam Work  Returns a result that can be default-constructed: that of a cloud that failed.

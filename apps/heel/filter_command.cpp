@@ -85,6 +85,7 @@ void filterMany(const Options& options) {
         return filterCloud(clouds[i], results[i], table, options, fate);
       },
       [&](std::size_t i, const CloudFate& fate, std::size_t kept) {
+        if (kept == 0) removeFormer(results[i]);
         points_in += fate.hasFailed() ? 0 : fate.facts.points();
         points_out += kept;
         summary.add(clouds[i], fate, [&](CsvWriter& row) {

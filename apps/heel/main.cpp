@@ -94,6 +94,7 @@ int main(int argc, char** argv) {
   heel::addPlan(app);
   heel::addPlanView(app);
   heel::addSimulate(app);
+  heel::addView(app);
   heel::addEvaluate(app);
   heel::addExperiment(app);
   try {

@@ -120,6 +120,7 @@ void run(const Options& options) {
         return planOne(clouds[i], pictures[i], chosen, params, options, fate);
       },
       [&](std::size_t i, const CloudFate& fate, const Planned& planned) {
+        if (fate.hasFailed() || options.no_pictures) removeFormer(pictures[i]);
         blob_count += planned.blobs.size();
         people += planned.people;
         summary.add(clouds[i], fate, [&](CsvWriter& row) { addFields(planned, row); });
