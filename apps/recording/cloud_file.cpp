@@ -4,6 +4,7 @@
 #include "apps/recording/cloud_file.hpp"
 
 #include "apps/recording/ply_header.hpp"
+#include "apps/recording/ply_writer.hpp"
 #include "apps/recording/quiet_pcl.hpp"
 
 #include <pcl/common/io.h>
@@ -16,6 +17,7 @@
 #include <array>
 #include <cctype>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -63,6 +65,27 @@ void takeLayout(const fs::path& file, const pcl::PCLPointCloud2& layout, CloudFa
   if (facts.points() == 0) fail(file, "the cloud is empty (0 points)");
 }
 
+/// PCL allocates what a header promises as it reads it: no more than the file can hold.
+void checkPromise(const fs::path& file, std::istream& in) {
+  constexpr std::size_t kMostOfAByte = 128;  // points, compressed
+  std::size_t points = 0;
+  std::string encoding;
+  for (std::string line; encoding.empty() && std::getline(in, line);) {
+    std::istringstream words(line);
+    std::string keyword;
+    words >> keyword;
+    if (keyword == "POINTS") words >> points;
+    if (keyword == "DATA") words >> encoding;
+  }
+  in.clear();
+  in.seekg(0);
+  const std::size_t bytes = fs::file_size(file);
+  if (points > bytes * (encoding == "binary_compressed" ? kMostOfAByte : 1)) {
+    fail(file, "the cloud is truncated (its " + std::to_string(bytes) + " bytes have no room for " +
+                   std::to_string(points) + " points)");
+  }
+}
+
 /// Reads the header, and says what the cloud lacks.
 PcdHeader readPcdHeader(const fs::path& file, CloudFacts& facts) {
   if (!fs::exists(file)) fail(file, "the cloud is missing");
@@ -73,6 +96,7 @@ PcdHeader readPcdHeader(const fs::path& file, CloudFacts& facts) {
   bool parsed = false;
   std::ifstream in(file, std::ios::binary);
   if (!in || fs::is_directory(file)) fail(file, "the cloud cannot be read");
+  checkPromise(file, in);
   try {
     pcl::PCDReader reader;
     parsed = reader.readHeader(in, header.layout, origin, orientation, version, header.data_type,
@@ -126,30 +150,41 @@ void checkPcdSize(const fs::path& file, const PcdHeader& header) {
   }
 }
 
-/// How many lines of data an ascii file has.
-std::size_t linesFrom(const fs::path& file, std::size_t data_start) {
+/// Looks for lines of ascii data with too few values: PCL would make up the missing.
+void checkAsciiData(const fs::path& file, const CloudFacts& facts, std::size_t data_start,
+                    std::size_t values) {
   std::ifstream in(file, std::ios::binary);
   in.seekg(static_cast<std::streamoff>(data_start));
-  std::size_t lines = 0;
-  for (std::string line; std::getline(in, line);) lines += line.empty() ? 0 : 1;
-  return lines;
-}
-
-[[noreturn]] void failAsDamaged(const fs::path& file, const CloudFacts& facts,
-                                std::size_t data_start) {
-  if (facts.encoding == CloudEncoding::kAscii) {
-    const std::size_t lines = linesFrom(file, data_start);
-    if (lines < facts.points()) {
-      fail(file, "the cloud is truncated (" + std::to_string(lines) + " of " +
-                     std::to_string(facts.points()) + " points)");
+  std::size_t points = 0;
+  for (std::string line; points < facts.points() && std::getline(in, line);) {
+    std::size_t found = 0;
+    bool in_value = false;
+    for (const char c : line) {
+      const bool is_blank = c == ' ' || c == '\t' || c == '\r';
+      if (!is_blank && !in_value) ++found;
+      in_value = !is_blank;
     }
+    if (found == 0) continue;
+    if (found < values && !in.eof()) {
+      fail(file, "point " + std::to_string(points + 1) + " of the cloud has " +
+                     std::to_string(found) + " values for " + std::to_string(values) + " fields");
+    }
+    if (found >= values) ++points;
   }
-  fail(file, "the cloud is damaged");
+  if (points < facts.points()) {
+    fail(file, "the cloud is truncated (" + std::to_string(points) + " of " +
+                   std::to_string(facts.points()) + " points)");
+  }
 }
 
 void readPcdData(const fs::path& file, CloudFile& cloud) {
   const PcdHeader header = readPcdHeader(file, cloud.facts);
   checkPcdSize(file, header);
+  if (header.data_type == 0) {
+    std::size_t values = 0;
+    for (const auto& field : header.layout.fields) values += field.count;
+    checkAsciiData(file, cloud.facts, header.data_start, values);
+  }
   int version = 0;
   bool whole = false;
   try {
@@ -158,7 +193,7 @@ void readPcdData(const fs::path& file, CloudFile& cloud) {
   } catch (const std::exception&) {
     // The sentence below.
   }
-  if (!whole) failAsDamaged(file, cloud.facts, header.data_start);
+  if (!whole) fail(file, "the cloud is damaged");
 }
 
 void readPlyData(const fs::path& file, CloudFile& cloud) {
@@ -169,6 +204,9 @@ void readPlyData(const fs::path& file, CloudFile& cloud) {
   cloud.facts.height = 1;
   if (header.vertices == 0) fail(file, "the cloud is empty (0 points)");
   checkPlySize(file, header);
+  if (!header.is_binary && header.vertices_first) {
+    checkAsciiData(file, cloud.facts, header.bytes, header.columns.size());
+  }
   int version = 0;
   bool whole = false;
   try {
@@ -179,7 +217,7 @@ void readPlyData(const fs::path& file, CloudFile& cloud) {
   }
   const std::size_t points = std::size_t{cloud.blob.width} * cloud.blob.height;
   if (!whole || cloud.blob.data.size() < points * cloud.blob.point_step) {
-    failAsDamaged(file, cloud.facts, header.bytes);
+    fail(file, "the cloud is damaged");
   }
   takeLayout(file, cloud.blob, cloud.facts);
 }
@@ -229,23 +267,17 @@ CloudFacts checkPcdFile(const fs::path& file) {
 }
 
 void writeCloud(const fs::path& file, const CloudFile& cloud) {
+  if (endsIn(file, ".ply")) return writePly(file, cloud.blob);
   const QuietPcl quiet;
   int result = -1;
   try {
-    result = endsIn(file, ".ply")
-                 ? pcl::PLYWriter().writeBinary(file.string(), cloud.blob, cloud.origin,
-                                                cloud.orientation, cloud.blob.height == 1)
-                 : pcl::PCDWriter().writeBinaryCompressed(file.string(), cloud.blob, cloud.origin,
-                                                          cloud.orientation);
+    result = pcl::PCDWriter().writeBinaryCompressed(file.string(), cloud.blob, cloud.origin,
+                                                    cloud.orientation);
   } catch (const std::exception&) {
     // The sentence below.
   }
   if (result != 0) fail(file, "the cloud cannot be written");
-  if (endsIn(file, ".ply")) {  // a full disk leaves a short file
-    checkPlySize(file, readPlyHeader(file));
-  } else {
-    checkPcdFile(file);
-  }
+  checkPcdFile(file);  // a full disk leaves a short file
 }
 
 }  // namespace heel

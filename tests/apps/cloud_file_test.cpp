@@ -68,7 +68,7 @@ TEST_P(CloudFormat, IsToldApartFromAllOthers) {
   EXPECT_EQ(cloud.facts.color_field.empty(), !has_color);
   EXPECT_EQ(cloud.facts.points(), 48U);
   EXPECT_EQ(cloud.facts.finite_points, 47U);
-  if (ending == ".pcd") EXPECT_EQ(cloud.facts.isOrganized(), is_organized);
+  EXPECT_EQ(cloud.facts.isOrganized(), is_organized);
   EXPECT_FLOAT_EQ(cloud.cloud[47].z, 48.0F);
   EXPECT_EQ(cloud.cloud[7].g, has_color ? 107 : 0);
 }
@@ -96,6 +96,29 @@ TEST(CloudFile, WrittenAsPlyIsReadBackWithItsFields) {
   EXPECT_GE(pcl::getFieldIndex(back.blob, "label"), 0);
   EXPECT_EQ(back.cloud[5].b, 205);
   EXPECT_FLOAT_EQ(back.cloud[5].y, -1.0F);
+}
+
+TEST(CloudFile, WrittenAsPlyKeepsItsShapeAndItsColoursWhateverTheirType) {
+  const TempFolder folder;
+  writeAsciiPcd(folder / "in.pcd",
+                {pcdPoint(1, 2, 3, 10, 20, 30), "nan nan nan 0", pcdPoint(4, 5, 6, 40, 50, 60),
+                 pcdPoint(7, 8, 9, 70, 80, 90)},
+                true, 2);  // rgb is an unsigned number here
+  writeCloud(folder / "out.ply", readCloud(folder / "in.pcd"));
+  const CloudFile back = readCloud(folder / "out.ply");
+  EXPECT_EQ(back.facts.width, 2U);
+  EXPECT_EQ(back.facts.height, 2U);
+  EXPECT_EQ(back.facts.finite_points, 3U);
+  EXPECT_EQ(back.cloud[2].r, 40);
+  EXPECT_EQ(back.cloud[3].b, 90);
+  EXPECT_EQ(back.cloud[3].z, 9.0F);
+}
+
+TEST(CloudFile, WithTooFewValuesInALineNamesThePoint) {
+  const TempFolder folder;
+  writeAsciiPcd(folder / "a.pcd", {"1.00 2.00 3.00", "4.00 5.00", "6.00 7.00 8.00"}, false);
+  EXPECT_THAT(messageOf([&] { readCloud(folder / "a.pcd"); }),
+              HasSubstr("point 2 of the cloud has 2 values for 3 fields"));
 }
 
 std::string messageFor(const std::filesystem::path& file) {
@@ -141,7 +164,7 @@ TEST(CloudFile, ThatPromisesMorePointsThanItsBytesHoldIsRefusedBeforeTheyAreAllo
   writeAsciiPcd(folder / "a.pcd", {"1 2 3"}, false);
   std::string pcd = readText(folder / "a.pcd");
   for (const std::string key : {"WIDTH ", "POINTS "}) {
-    pcd.replace(pcd.find(key) + key.size(), 1, "3000000000");
+    pcd.replace(pcd.find(key) + key.size(), 1, "2000000000");
   }
   writeText(folder / "a.pcd", pcd);
   EXPECT_THAT(messageFor(folder / "a.pcd"), HasSubstr("truncated"));

@@ -20,8 +20,8 @@ CloudFile standingBox(const Eigen::Matrix3d& R_optical_cloud, double height_m) {
   CloudFile file;
   for (double z = 0.0; z <= 1.7; z += 0.02) {
     for (double side = -0.2; side <= 0.2; side += 0.02) {
-      for (const Eigen::Vector2d& at :
-           {Eigen::Vector2d(2.8, 1.0 + side), Eigen::Vector2d(3.2, 1.0 + side)}) {
+      for (double x = 2.8; x <= 3.2; x += 0.04) {
+        const Eigen::Vector2d at(x, 1.0 + side);
         const Eigen::Vector3d optical =
             T_base_optical.inverse() * Eigen::Vector3d(at.x(), at.y(), z);
         pcl::PointXYZRGB point;

@@ -6,6 +6,7 @@
 #include "apps/report/drawing.hpp"
 
 #include <gmock/gmock.h>
+#include <opencv2/core.hpp>
 
 namespace heel {
 namespace {

@@ -36,7 +36,9 @@ class BadCloud : public testing::Test {
                                 folder_ / "out.pcd"}),
                           parts));
     const HeelRun inspected = heel({"inspect", folder_ / "in.pcd", "--out", folder_ / "in.png"});
-    if (inspect_too) EXPECT_TRUE(failsWith(inspected, parts));
+    if (inspect_too) {
+      EXPECT_TRUE(failsWith(inspected, parts));
+    }
     EXPECT_TRUE(failsWith(heel({"track", folder_ / "in.pcd", "--model", folder_ / "person.yaml",
                                 "--out", folder_ / "out"}),
                           parts));
