@@ -61,7 +61,8 @@ std::vector<fs::path> findClouds(const std::vector<std::string>& names) {
   std::set<fs::path> known;
   for (const std::string& name : names) {
     for (fs::path& file : cloudsOf(name)) {
-      if (known.insert(fs::weakly_canonical(file)).second) clouds.push_back(std::move(file));
+      if (known.insert(fs::absolute(file).lexically_normal()).second)
+        clouds.push_back(std::move(file));
     }
   }
   return clouds;

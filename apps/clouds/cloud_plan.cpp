@@ -17,6 +17,9 @@ namespace heel {
 
 namespace {
 
+/// Of a person, where the surface that a point stands for is not known.
+constexpr double kLeastFootprint_m2 = 0.06;
+
 /// Finds T_base_optical, and says where from.
 void placeOnFloor(const std::filesystem::path& file, const ColorCloud& optical,
                   const CloudPlanParams& params, CloudPlan& plan) {
@@ -145,7 +148,11 @@ CloudPlan planCloud(const std::filesystem::path& file, const CloudFile& cloud,
   finder.find(*plan.view, plan.blobs);
   PersonShape shape = model == nullptr ? PersonShape::inUnknownScene() : PersonShape();
   if (!plan.has_camera) shape.min_area_m2 = 0.0;
-  for (const WorldBlob& blob : plan.blobs) plan.is_person.push_back(hasPersonShape(blob, shape));
+  const double cell_m2 = plan.view->cellSize() * plan.view->cellSize();
+  for (const WorldBlob& blob : plan.blobs) {
+    const bool is_large = plan.has_camera || blob.cells * cell_m2 >= kLeastFootprint_m2;
+    plan.is_person.push_back(is_large && hasPersonShape(blob, shape));
+  }
   for (const int cell : plan.view->occupied()) plan.blob_of_cell.push_back(finder.blobOf(cell));
   return plan;
 }

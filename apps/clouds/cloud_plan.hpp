@@ -50,8 +50,8 @@ struct CloudPlan {
   std::size_t color_points = 0;     ///< Points of the model's colours; all, without a model.
   std::size_t standing_points = 0;  ///< Of them, those at the right heights.
   std::optional<PlanView> view;
-  std::vector<WorldBlob> blobs;   ///< Highest score first.
-  std::vector<bool> is_person;    ///< Per blob: hasPersonShape().
+  std::vector<WorldBlob> blobs;  ///< Highest score first.
+  std::vector<bool> is_person;  ///< Per blob: hasPersonShape(); without a camera, by its footprint.
   std::vector<int> blob_of_cell;  ///< Per occupied cell of the view; -1: of none.
   std::size_t people() const;     ///< How many blobs have a person's shape.
 };

@@ -48,6 +48,11 @@ class Scenes {
 
   OccupancyGrid& walls() { return scene_.walls; }
 
+  /// Follows the person through a frame that is not shown.
+  void pass(const Frame& frame) {
+    if (perception_) drawn_.of(frame, *perception_, perception_->step(frame));
+  }
+
   const ViewScene& of(const Frame& frame) {
     scene_.marked.clear();
     if (perception_) {
@@ -92,21 +97,26 @@ class Scenes {
   ViewScene scene_;
 };
 
-/// Gives each frame's scene to `show`, until it says that that is enough.
-void eachScene(const Options& options, Scenes& scenes,
-               const std::function<bool(const ViewScene&, double)>& show) {
+/// Gives the scene of every so many frames to `show`, until it says that that is enough.
+/// @return how many frames there were.
+std::size_t eachScene(const Options& options, Scenes& scenes, std::size_t step,
+                      const std::function<bool(const ViewScene&, double)>& show) {
   const auto recording = openRecording(options.recording);
   Frame frame;
   double last_s = std::numeric_limits<double>::quiet_NaN();
-  bool has_any = false;
+  std::size_t seen = 0;
   while (recording->next(frame)) {
     const double since_s = frame.stamp_s - last_s;
     last_s = frame.stamp_s;
-    has_any = true;
-    if (!show(scenes.of(frame), since_s)) return;
+    if (seen++ % step > 0) {
+      scenes.pass(frame);
+    } else if (!show(scenes.of(frame), since_s)) {
+      return seen;
+    }
   }
   for (const SkippedFrame& skipped : recording->skipped()) warn(skipped.reason);
-  if (!has_any) throw std::runtime_error(nothingReadMessage(*recording));
+  if (seen == 0) throw std::runtime_error(nothingReadMessage(*recording));
+  return seen;
 }
 
 void showInWindow(const Options& options, Scenes& scenes, SceneWindow& window) {
@@ -115,7 +125,7 @@ void showInWindow(const Options& options, Scenes& scenes, SceneWindow& window) {
   std::fflush(stdout);
   ViewScene last;
   bool is_open = true;
-  eachScene(options, scenes, [&](const ViewScene& scene, double since_s) {
+  eachScene(options, scenes, 1, [&](const ViewScene& scene, double since_s) {
     last = scene;
     is_open = window.show(scene, since_s > 0.0 ? std::min(since_s, kLongest_s) : 0.0);
     return is_open;
@@ -139,15 +149,13 @@ void writePictures(const Options& options, Scenes& scenes, std::size_t frames) {
   const std::size_t step = options.pictures == 0 ? 1 : (frames - 1) / options.pictures + 1;
   ProgressBar progress("viewing", frames);
   cv::Mat picture;
-  std::size_t seen = 0, written = 0;
-  eachScene(options, scenes, [&](const ViewScene& scene, double) {
-    if (seen++ % step == 0) {
-      drawScene(scene, behindCamera(scene.drawn.T_floor_camera), {}, picture);
-      char name[32];
-      std::snprintf(name, sizeof name, "view_%06zu.png", scene.drawn.frame);
-      writePicture(options.out / name, picture);
-      ++written;
-    }
+  std::size_t written = 0;
+  const std::size_t seen = eachScene(options, scenes, step, [&](const ViewScene& scene, double) {
+    drawScene(scene, behindCamera(scene.drawn.T_floor_camera), {}, picture);
+    char name[32];
+    std::snprintf(name, sizeof name, "view_%06zu.png", scene.drawn.frame);
+    writePicture(options.out / name, picture);
+    ++written;
     progress.show(scene.drawn.frame);
     return true;
   });

@@ -42,6 +42,7 @@ class PclWindow final : public SceneWindow {
   bool show(const ViewScene& scene, double seconds) override {
     if (!has_view_) look(scene);
     showPoints(scene);
+    viewer_.setCameraClipDistances(0.05, 100.0);  // PCL's are those of the first cloud
     viewer_.removeAllShapes();
     for (const DrawnBlob& blob : scene.drawn.blobs) addBlob(blob);
     for (const DrawnTrack& track : scene.drawn.tracks) addTrack(track);

@@ -40,7 +40,7 @@ ColorCloud::Ptr tintedCloud(const ViewScene& scene) {
 }
 
 ColorCloud::Ptr wallPoints(const OccupancyGrid& walls) {
-  constexpr int kLayers = 12;
+  constexpr int kLayers = 4;  // low, so that they hide little
   constexpr float kApart_m = 0.1F;
   const auto points = pcl::make_shared<ColorCloud>();
   for (int y = 0; y < walls.height(); ++y) {

@@ -33,7 +33,7 @@ ViewPoint behindCamera(const Eigen::Isometry3d& T_floor_camera);
 /// The scene's points with their colours, the marked ones tinted; those without a place are black.
 ColorCloud::Ptr tintedCloud(const ViewScene& scene);
 
-/// The walls as columns of points.
+/// The walls as low columns of points.
 ColorCloud::Ptr wallPoints(const OccupancyGrid& walls);
 
 }  // namespace heel
