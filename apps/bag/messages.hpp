@@ -239,6 +239,7 @@ struct PoseMsg {
 
 struct PoseStampedMsg {
   static constexpr const char* kType = "geometry_msgs/PoseStamped";
+  static constexpr const char* kMd5 = "d3812c3cbc69362b77dc0b19b345f8f5";
   HeaderMsg header;
   PoseMsg pose;
 
