@@ -28,6 +28,8 @@ SqliteFile::SqliteFile(const std::filesystem::path& file, Use use) : name_(file.
   if (!open(name_, SQLITE_OPEN_READONLY)) fail();
   // A file with a journal can't be read where nothing may be written, unless it is told to be
   // final.
+  // A file that was cut off is refused as a whole, unless the schema is "writable".
+  run("PRAGMA writable_schema = ON");
   if (query("PRAGMA schema_version").step() == SqliteQuery::Row::kThere) return;
   std::string escaped;
   for (const char c : std::filesystem::absolute(file).string()) {
@@ -38,6 +40,7 @@ SqliteFile::SqliteFile(const std::filesystem::path& file, Use use) : name_(file.
     }
   }
   if (!open("file:" + escaped + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI)) fail();
+  run("PRAGMA writable_schema = ON");
 }
 
 std::string SqliteFile::problem() const {

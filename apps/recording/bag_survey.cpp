@@ -91,11 +91,11 @@ class Surveyor {
     BagTopicSummary summary;
     summary.topic = reader_.topics()[survey_.topics.size()];
     const BagTopic& t = summary.topic;
-    summary.is_known = t.holds<ImageMsg>() || t.holds<CompressedImageMsg>() ||
-                       t.holds<CameraInfoMsg>() || t.holds<PointCloud2Msg>() ||
-                       t.holds<LaserScanMsg>() || t.holds<OdometryMsg>() || t.holds<PathMsg>() ||
-                       t.holds<OccupancyGridMsg>() || t.holds<PoseArrayMsg>() ||
-                       t.holds<TFMessageMsg>() || t.holds<MarkerArrayMsg>();
+    summary.is_known =
+        t.holds<ImageMsg>() || t.holds<CompressedImageMsg>() || t.holds<CameraInfoMsg>() ||
+        t.holds<PointCloud2Msg>() || t.holds<LaserScanMsg>() || t.holds<OdometryMsg>() ||
+        t.holds<PathMsg>() || t.holds<OccupancyGridMsg>() || t.holds<PoseArrayMsg>() ||
+        t.holds<PoseStampedMsg>() || t.holds<TFMessageMsg>() || t.holds<MarkerArrayMsg>();
     survey_.topics.push_back(summary);
     recorded_.emplace_back();
     stamped_.emplace_back();
