@@ -83,10 +83,9 @@ void Ros2BagReader::openFile() {
   file_.emplace(path, SqliteFile::Use::kRead);
   try {
     readTopics();
-    last_id_ = most_id_ = 0;
-    SqliteQuery most = file_->query("SELECT max(id) FROM messages");
-    if (most.step() == SqliteQuery::Row::kThere) most_id_ = most.integer(0);
-    resume();
+    last_id_ = 0;
+    messages_.emplace(
+        file_->query("SELECT id, topic_id, timestamp, data FROM messages ORDER BY id"));
   } catch (const std::runtime_error&) {
     throw std::runtime_error(path.string() +
                              ": this is no ROS 2 bag, or its beginning is damaged (" +
@@ -111,15 +110,9 @@ void Ros2BagReader::readTopics() {
   }
 }
 
-/// Reads on behind last_id_.
-void Ros2BagReader::resume() {
-  messages_.emplace(
-      file_->query("SELECT id, topic_id, timestamp, data FROM messages WHERE id > ? ORDER BY id"));
-  messages_->bind(1, last_id_);
-}
-
 bool Ros2BagReader::next(BagMessage& message) {
   while (true) {
+    if (scan_ && nextInScan(message)) return true;
     if (!messages_) {
       if (next_file_ == files_.size()) return false;
       try {
@@ -133,7 +126,6 @@ bool Ros2BagReader::next(BagMessage& message) {
     const auto row = messages_->step();
     if (row == SqliteQuery::Row::kThere) {
       last_id_ = messages_->integer(0);
-      leap_ = 1;
       const auto topic = topic_of_id_.find(messages_->integer(1));
       if (topic == topic_of_id_.end()) continue;
       message.topic = topic->second;
@@ -146,16 +138,23 @@ bool Ros2BagReader::next(BagMessage& message) {
       messages_.reset();
       continue;
     }
-    // Damaged here: leap over it, further each time, to where it can be read again.
-    if (leap_ == 1) {
-      lose(files_[next_file_ - 1].filename().string() + " is damaged or cut off behind message " +
-           std::to_string(last_id_));
-    }
-    last_id_ += leap_;
-    leap_ *= 2;
+    lose(files_[next_file_ - 1].filename().string() + " is damaged or cut off");
     messages_.reset();
-    if (last_id_ < most_id_) resume();
+    scan_.emplace(files_[next_file_ - 1]);
   }
+}
+
+/// Goes on in a damaged file; what came before must not come again.
+bool Ros2BagReader::nextInScan(BagMessage& message) {
+  while (const auto row = scan_->next()) {
+    const auto topic = topic_of_id_.find(row->topic_id);
+    if (row->id <= last_id_ || topic == topic_of_id_.end()) continue;
+    last_id_ = row->id;
+    message = {topic->second, row->stamp_ns, row->data, row->size};
+    return true;
+  }
+  scan_.reset();
+  return false;
 }
 
 }  // namespace heel

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "apps/bag/bag.hpp"
+#include "apps/bag/ros2_page_scan.hpp"
 #include "apps/bag/sqlite_file.hpp"
 
 #include <cstdint>
@@ -27,7 +28,7 @@ class Ros2BagReader final : public BagReader {
  private:
   void openFile();
   void readTopics();
-  void resume();
+  bool nextInScan(BagMessage& message);
   void lose(const std::string& what);
 
   std::string name_;
@@ -35,10 +36,9 @@ class Ros2BagReader final : public BagReader {
   std::size_t next_file_ = 0;
   std::optional<SqliteFile> file_;
   std::optional<SqliteQuery> messages_;
+  std::optional<Ros2PageScan> scan_;  // goes on where SQLite can't
   std::map<std::int64_t, std::size_t> topic_of_id_;
   std::int64_t last_id_ = 0;
-  std::int64_t most_id_ = 0;  // in the file; 0 if that can't be read
-  std::int64_t leap_ = 1;
   std::size_t damages_ = 0;
 };
 

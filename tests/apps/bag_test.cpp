@@ -20,7 +20,8 @@ using test::writeText;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr int kScans = 300;
+/// Enough for SQLite to move the root of its tree behind what it finds.
+constexpr int kScans = 2000;
 
 LaserScanMsg scanOf(int number) {
   LaserScanMsg scan;
@@ -109,8 +110,8 @@ TEST_P(Bag, ThatWasCutOffGivesItsBeginning) {
   truncateBy(file(), std::filesystem::file_size(file()) / 2);
   std::string lost;
   const auto numbers = readScans(path(), &lost);
-  ASSERT_GT(numbers.size(), 100U);
-  ASSERT_LT(numbers.size(), 200U);
+  ASSERT_GT(numbers.size(), 900U);
+  ASSERT_LT(numbers.size(), 1100U);
   for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_EQ(numbers[i], static_cast<int>(i + 1));
   EXPECT_THAT(lost, HasSubstr(path().string()));
   EXPECT_THAT(lost, HasSubstr("cut off"));
@@ -125,7 +126,7 @@ TEST_P(Bag, ThatIsDamagedInItsMiddleGivesWhatIsBeforeAndBehind) {
   std::vector<std::int64_t> stamps;
   BagMessage raw;
   while (bag->next(raw)) stamps.push_back(raw.stamp_ns);
-  EXPECT_GT(stamps.size(), 150U);
+  EXPECT_GT(stamps.size(), 1800U);
   EXPECT_EQ(stamps.front(), 100000000);
   EXPECT_EQ(stamps.back(), kScans * 100000000LL);
 }
