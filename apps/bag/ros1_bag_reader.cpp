@@ -152,10 +152,10 @@ void Ros1BagReader::openChunk() {
   if (*compression != "none" && *compression != "bz2" && *compression != "lz4") {
     return lose("a chunk is packed by '" + std::string(*compression) + "', which is unknown");
   }
-  if (!unpackChunk(*compression, data_, *size, chunk_)) {
-    lose("the chunk that ends at byte " + at + " of " + std::to_string(file_size_) +
-         " is damaged or cut off");
-  }
+  if (unpackChunk(*compression, data_, *size, chunk_)) return;
+  const bool is_last = static_cast<std::uint64_t>(in_.tellg()) >= file_size_;
+  lose(is_last ? "the bag is cut off at byte " + at
+               : "the chunk that ends at byte " + at + " is damaged");
 }
 
 bool Ros1BagReader::nextInChunk(BagMessage& message) {

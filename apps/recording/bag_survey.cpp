@@ -229,9 +229,9 @@ BagSurvey surveyBag(const std::filesystem::path& path) {
   surveyor.finish();
   survey.lost = reader->lost();
   if (survey.messages == 0) {
-    throw std::runtime_error(survey.lost.empty()
-                                 ? path.string() + ": there is no message in the bag"
-                                 : survey.lost + ", which is nothing");
+    const std::string damage = survey.lost.substr(0, survey.lost.find(';'));
+    throw std::runtime_error(damage.empty() ? path.string() + ": there is no message in the bag"
+                                            : damage + "; no message in it can be read");
   }
   return survey;
 }
