@@ -6,6 +6,7 @@
 
 #include "apps/bag/bag.hpp"
 
+#include "apps/recording/sensor_bag.hpp"
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_model.hpp"
 #include "tests/support/data.hpp"
@@ -138,6 +139,34 @@ TEST_F(Bags, OfFollowingHoldTheMapAndTheRobot) {
   EXPECT_EQ(counts.at("/map"), 1U);
   EXPECT_GE(counts.at("/tf"), 5U);
   EXPECT_GE(counts.at("/heel/image/compressed"), 4U);
+}
+
+TEST_F(Bags, DoNotCostMemoryByTheirLength) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer keeps freed memory";
+#endif
+  for (const char* name : {"long.bag", "long.db3"}) {
+    const auto peakOf_kB = [&](int frames) {
+      RecordingInfo info;
+      info.camera.left = {320, 240, 260.0, 260.0, 159.5, 119.5};
+      Frame frame;
+      frame.image_bgr = cv::Mat(240, 320, CV_8UC3, cv::Scalar(90, 115, 125));
+      frame.depth_m = cv::Mat(240, 320, CV_32FC1, cv::Scalar(2.0));
+      info.T_base_camera = Eigen::Isometry3d::Identity();
+      SensorBag bag(folder_ / name, info);
+      for (int i = 1; i <= frames; ++i) {
+        frame.stamp_s = 0.1 * i;
+        bag.add(frame);
+      }
+      bag.commit();
+      const HeelRun run = track(name, "out");
+      EXPECT_TRUE(succeeds(run));
+      return run.peak_kB;
+    };
+    const long short_kB = peakOf_kB(40);
+    // 360 frames more are 110 MB of depth alone.
+    EXPECT_LT(peakOf_kB(400), short_kB + 12'000) << name << ", " << short_kB << " kB for 40 frames";
+  }
 }
 
 TEST_F(Bags, WithoutATopicThatIsNamedAreAnError) {
