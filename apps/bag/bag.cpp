@@ -30,6 +30,13 @@ bool holdsDatabase(const fs::path& folder) {
 
 }  // namespace
 
+std::string printable(std::string_view name) {
+  std::string text(name);
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text;
+}
+
 bool isBag(const fs::path& path) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) {

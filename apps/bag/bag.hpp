@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace heel {
@@ -69,6 +70,9 @@ class BagReader {
   std::vector<BagTopic> topics_;
   std::string lost_;
 };
+
+/// A name of a bag that may be damaged: '?' for whatever is no printable ASCII.
+std::string printable(std::string_view name);
 
 /// Whether `path` is named like a bag: X.bag (ROS 1), X.db3, or a folder with a metadata.yaml or a
 /// .db3 in it (ROS 2).

@@ -119,13 +119,14 @@ void Ros1BagReader::addConnection(const Ros1Fields& fields, const std::uint8_t* 
   Ros1Fields about;
   if (!number || !topic || !about.parse(data, size)) return;
   if (topic_of_connection_.count(*number) > 0) return;
-  const std::string type(about.text("type").value_or("")), md5(about.text("md5sum").value_or(""));
+  const std::string name = printable(*topic), type = printable(about.text("type").value_or(""));
+  const std::string md5(about.text("md5sum").value_or(""));
   // Every publisher of a topic has a connection of its own.
   const auto same = std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& known) {
-    return known.name == *topic && known.type == type && known.md5 == md5;
+    return known.name == name && known.type == type && known.md5 == md5;
   });
   topic_of_connection_[*number] = static_cast<std::size_t>(same - topics_.begin());
-  if (same == topics_.end()) topics_.push_back({std::string(*topic), type, md5});
+  if (same == topics_.end()) topics_.push_back({name, type, md5});
 }
 
 /// Takes a connection or a message; true if it is a message.
@@ -146,6 +147,7 @@ void Ros1BagReader::openChunk() {
   const auto size = fields_.number("size");
   const auto compression = fields_.text("compression");
   chunk_at_ = 0;
+  chunk_is_damaged_ = false;
   chunk_.clear();
   const auto at = std::to_string(static_cast<std::uint64_t>(in_.tellg()));
   if (!size || !compression) return lose("a chunk that ends at byte " + at + " has no size");
@@ -153,25 +155,36 @@ void Ros1BagReader::openChunk() {
     return lose("a chunk is packed by '" + std::string(*compression) + "', which is unknown");
   }
   if (unpackChunk(*compression, data_, *size, chunk_)) return;
+  chunk_is_damaged_ = true;
   const bool is_last = static_cast<std::uint64_t>(in_.tellg()) >= file_size_;
   lose(is_last ? "the bag is cut off at byte " + at
                : "the chunk that ends at byte " + at + " is damaged");
 }
 
+/// The size of the record that begins at chunk_at_, whose fields are then in inner_; 0 if there is
+/// none.
+std::size_t Ros1BagReader::recordInChunk() {
+  const std::uint8_t* at = chunk_.data() + chunk_at_;
+  const std::size_t left = chunk_.size() - chunk_at_;
+  if (left < 8 || numberAt(at) > left - 8) return 0;
+  const std::size_t header = numberAt(at), data = numberAt(at + 4 + header);
+  if (data > left - 8 - header || !inner_.parse(at + 4, header) || !inner_.kind()) return 0;
+  return 8 + header + data;
+}
+
 bool Ros1BagReader::nextInChunk(BagMessage& message) {
   while (chunk_at_ < chunk_.size()) {
-    const std::uint8_t* at = chunk_.data() + chunk_at_;
-    const std::size_t left = chunk_.size() - chunk_at_;
-    const std::size_t header = left < 8 ? left : numberAt(at);
-    const std::size_t data =
-        left < 8 || header > left - 8 ? left : std::size_t{numberAt(at + 4 + header)};
-    if (left < 8 || header > left - 8 || data > left - 8 - header ||
-        !inner_.parse(at + 4, header)) {
-      if (lost_.empty()) lose("a chunk of the bag is damaged");
-      break;
+    const std::size_t size = recordInChunk();
+    if (size == 0) {
+      if (!chunk_is_damaged_) lose("a chunk of the bag is damaged");
+      chunk_is_damaged_ = true;
+      ++chunk_at_;  // to where a record begins again
+      continue;
     }
-    chunk_at_ += 8 + header + data;
-    if (take(inner_, at + 8 + header, data, message)) return true;
+    const std::uint8_t* at = chunk_.data() + chunk_at_;
+    const std::size_t header = numberAt(at);
+    chunk_at_ += size;
+    if (take(inner_, at + 8 + header, size - 8 - header, message)) return true;
   }
   chunk_.clear();
   return false;

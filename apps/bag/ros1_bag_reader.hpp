@@ -28,6 +28,7 @@ class Ros1BagReader final : public BagReader {
   bool readBytes(Ros1Bytes& bytes, std::size_t count);
   bool seekNextChunk(std::uint64_t from);
   void openChunk();
+  std::size_t recordInChunk();
   bool nextInChunk(BagMessage& message);
   bool take(const Ros1Fields& fields, const std::uint8_t* data, std::size_t size,
             BagMessage& message);
@@ -42,6 +43,7 @@ class Ros1BagReader final : public BagReader {
   Ros1Fields fields_, inner_;
   Ros1Bytes header_, data_, chunk_;
   std::size_t chunk_at_ = 0;
+  bool chunk_is_damaged_ = false;  // and it has been told
   std::map<std::uint32_t, std::size_t> topic_of_connection_;
 };
 

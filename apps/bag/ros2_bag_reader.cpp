@@ -101,7 +101,7 @@ void Ros2BagReader::readTopics() {
     if (row == SqliteQuery::Row::kBroken) file_->fail();
     if (row == SqliteQuery::Row::kEnd) return;
     if (list.text(3) != "cdr") continue;
-    const BagTopic topic{list.text(1), withoutMsg(list.text(2)), ""};
+    const BagTopic topic{printable(list.text(1)), withoutMsg(printable(list.text(2))), ""};
     const auto known = std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& other) {
       return other.name == topic.name && other.type == topic.type;
     });

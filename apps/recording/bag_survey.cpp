@@ -111,7 +111,7 @@ class Surveyor {
       reader_.read(raw, image);
       topic.width = image.width;
       topic.height = image.height;
-      topic.encoding = image.encoding;
+      topic.encoding = printable(image.encoding);
     } else if (first && topic.topic.holds<CompressedImageMsg>()) {
       lookAtCompressed(raw, topic);
     } else if (first && topic.topic.holds<PointCloud2Msg>()) {
@@ -120,7 +120,7 @@ class Surveyor {
       topic.width = cloud.width;
       topic.height = cloud.height;
       for (const auto& field : cloud.points_fields) {
-        topic.encoding += (topic.encoding.empty() ? "" : " ") + field.name;
+        topic.encoding += (topic.encoding.empty() ? "" : " ") + printable(field.name);
       }
     } else if (first && topic.topic.holds<CameraInfoMsg>()) {
       reader_.read(raw, survey_.camera_infos[topic.topic.name]);
@@ -136,7 +136,7 @@ class Surveyor {
   void lookAtCompressed(const BagMessage& raw, BagTopicSummary& topic) {
     CompressedImageMsg image;
     reader_.read(raw, image);
-    topic.encoding = image.format;
+    topic.encoding = printable(image.format);
     cv::Mat pixels;
     BagImageReader decoder;
     if (isDepthEncoding(image.format)) {
@@ -177,7 +177,8 @@ class Surveyor {
 }  // namespace
 
 std::string frameName(const std::string& frame_id) {
-  return !frame_id.empty() && frame_id.front() == '/' ? frame_id.substr(1) : frame_id;
+  const bool has_slash = !frame_id.empty() && frame_id.front() == '/';
+  return printable(has_slash ? frame_id.substr(1) : frame_id);
 }
 
 double BagTopicSummary::duration_s() const { return secondsOf(last_ns - first_ns); }

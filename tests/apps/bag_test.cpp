@@ -163,6 +163,21 @@ TEST(Ros1Bag, OfAnotherVersionOfAMessageIsNotTakenForOurs) {
   EXPECT_TRUE((BagTopic{"/tf", "tf/tfMessage", TFMessageMsg::kMd5}.holds<TFMessageMsg>()));
 }
 
+TEST(Ros1Bag, WhoseChunkIsDamagedInsideLosesTheMessagesThereOnly) {
+  const TempFolder folder;
+  const auto path = folder / "a.bag";
+  writeScans(path);
+  std::string bytes = readText(path);
+  std::memset(&bytes[bytes.size() / 2], 0xA5, 20000);  // two scans and a half
+  writeText(path, bytes);
+  const auto bag = openBag(path);
+  BagMessage raw;
+  int count = 0;
+  while (bag->next(raw)) ++count;
+  EXPECT_GE(count, kScans - 4);
+  EXPECT_THAT(bag->lost(), HasSubstr("damaged"));
+}
+
 TEST(Ros1Bag, OfTheOldFormatSaysHowToConvertIt) {
   const TempFolder folder;
   const auto path = folder.write("a.bag", "#ROSBAG V1.2\nand so on");
