@@ -139,6 +139,12 @@ PcdFile readPcd(const fs::path& file) {
   return pcd;
 }
 
+void colorsOf(const ColorCloud& cloud, cv::Mat& image_bgr) {
+  image_bgr.create(static_cast<int>(cloud.height), static_cast<int>(cloud.width), CV_8UC3);
+  std::transform(cloud.begin(), cloud.end(), image_bgr.begin<cv::Vec3b>(),
+                 [](const auto& p) { return cv::Vec3b(p.b, p.g, p.r); });
+}
+
 void writePcd(const fs::path& file, const PcdFile& pcd) {
   const QuietPcl quiet;
   int result = -1;

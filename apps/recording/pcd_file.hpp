@@ -8,6 +8,7 @@
 #include "cloud/color_cloud.hpp"
 
 #include <Eigen/Geometry>
+#include <opencv2/core/mat.hpp>
 #include <pcl/PCLPointCloud2.h>
 
 #include <filesystem>
@@ -31,6 +32,9 @@ PcdFile readPcd(const std::filesystem::path& file);
 /// Looks at the header and the size of a PCD file only.
 /// @throws std::runtime_error  as readPcd.
 void checkPcd(const std::filesystem::path& file);
+
+/// The colours of an organized cloud as an image (CV_8UC3, BGR).
+void colorsOf(const ColorCloud& cloud, cv::Mat& image_bgr);
 
 /// Writes `pcd.blob`, compressed.
 /// @throws std::runtime_error  with one sentence, for instance when the disk is full.
