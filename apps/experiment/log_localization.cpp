@@ -13,8 +13,8 @@
 namespace heel {
 namespace {
 
-std::size_t countScans(const std::filesystem::path& path) {
-  const auto log = openLaserLog(path);
+std::size_t countScans(const std::filesystem::path& path, const BagTopics& topics) {
+  const auto log = openLaserLog(path, topics);
   LaserReading reading;
   std::size_t count = 0;
   while (log->next(reading)) ++count;
@@ -62,9 +62,9 @@ class Errors {
 }  // namespace
 
 OccupancyGrid mapFromLog(const std::filesystem::path& path, MapScans which, double cell_size_m,
-                         const FloorPose& T_base_scanner) {
-  const std::size_t count = countScans(path);
-  const auto log = openLaserLog(path);
+                         const FloorPose& T_base_scanner, const BagTopics& topics) {
+  const std::size_t count = countScans(path, topics);
+  const auto log = openLaserLog(path, topics);
   ScanMapParams params;
   params.cell_size_m = cell_size_m;
   ScanMap map(params);
@@ -85,8 +85,8 @@ LogLocalizationResult localizeLog(const std::filesystem::path& path, const Occup
                                   const std::function<void(const LogLocalizationStep&)>& each,
                                   const std::function<void(const std::function<void()>&)>& work) {
   const bool fair = params.left_out && *params.left_out != MapScans::kAll;
-  const std::size_t count = fair ? countScans(path) : 0;
-  const auto log = openLaserLog(path);
+  const std::size_t count = fair ? countScans(path, params.topics) : 0;
+  const auto log = openLaserLog(path, params.topics);
   Localization localization(map, params.T_base_scanner, params.localization);
   LogLocalizationResult result;
   Errors errors;

@@ -24,7 +24,7 @@ enum class MapScans {
 /// The map that a log's own reference poses give.
 /// @throws std::runtime_error  if a scan has no reference; and as openLaserLog().
 OccupancyGrid mapFromLog(const std::filesystem::path& log, MapScans which, double cell_size_m,
-                         const FloorPose& T_base_scanner);
+                         const FloorPose& T_base_scanner, const BagTopics& topics = {});
 
 /// How a log is localized.
 struct LogLocalizationParams {
@@ -33,6 +33,7 @@ struct LogLocalizationParams {
   std::optional<MapScans> left_out;  ///< The scans that made the map; nothing = none.
   bool global = false;               ///< Starts anywhere ...
   std::optional<FloorPose> start;    ///< ... or here, else at the first reference.
+  BagTopics topics;                  ///< Of a log that is a bag.
 };
 
 /// One localized scan.

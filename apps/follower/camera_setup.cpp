@@ -70,6 +70,7 @@ CameraSetup findCameraSetup(Recording& recording, const CameraSetupParams& param
   if (!first_s) throw std::runtime_error(nothingReadMessage(recording));
   setup.report = check.report();
   setup.warnings = setup.report.warnings;
+  if (!recording.info().lost.empty()) setup.warnings.push_back(recording.info().lost);
   if (setup.report.swapped) {
     throw std::runtime_error(recording.info().name +
                              ": left and right images are swapped: all disparities are negative");

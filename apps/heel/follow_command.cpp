@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "apps/experiment/random_episode.hpp"
+#include "apps/heel/bag_options.hpp"
 #include "apps/heel/commands.hpp"
 #include "apps/heel/follow_output.hpp"
 #include "apps/heel/lap_clock.hpp"
@@ -25,6 +26,7 @@ struct Options {
   std::string scene = "home";
   std::string plan = "search";
   std::filesystem::path out = "out/follow";
+  std::filesystem::path bag;
   ClosedLoopParams loop;
   bool random = false;
   bool alone = false;
@@ -58,7 +60,7 @@ void run(Options& options) {
   if (!(options.loop.limit_s > 0.0)) throw std::invalid_argument("--limit must be positive");
   const Scene scene = sceneOf(options);
   const PetriPlan plan = loadPlan(planFile(options.plan), followingVocabulary());
-  FollowOutput output(options.out, !options.no_film);
+  FollowOutput output(options.out, !options.no_film, options.bag);
   ProgressBar progress("following", static_cast<std::size_t>(options.loop.limit_s));
   LapClock clock;
   FollowLog log = runClosedLoop(
@@ -102,6 +104,7 @@ void addFollow(CLI::App& app) {
   verb->add_option("--limit", options->loop.limit_s, "the run ends after so long [s]")
       ->capture_default_str();
   verb->add_flag("--no-film", options->no_film, "write no film");
+  addResultBag(*verb, options->bag);
   verb->callback([options] { run(*options); });
 }
 

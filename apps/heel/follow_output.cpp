@@ -34,9 +34,11 @@ Tone toneOf(const FollowStep& step) {
 
 }  // namespace
 
-FollowOutput::FollowOutput(const std::filesystem::path& folder, bool film)
+FollowOutput::FollowOutput(const std::filesystem::path& folder, bool film,
+                           const std::filesystem::path& bag)
     : folder_(folder), film_wanted_(film) {
   makeResultFolder(folder);
+  if (!bag.empty()) bag_.emplace(bag);
 }
 
 void FollowOutput::addTime(FollowStage stage, double ms) {
@@ -45,13 +47,26 @@ void FollowOutput::addTime(FollowStage stage, double ms) {
 
 void FollowOutput::add(const Readings& readings, const FollowStep& step, const Follower& follower,
                        const FollowSample& sample) {
+  if (bag_) addToBag(readings, step, follower);
   if (readings.stereo == nullptr) return;
   const bool snapshot = isWorthAPicture(sample);
   last_state_ = sample.state;
-  if (!film_wanted_ && !snapshot) return;
+  if (!film_wanted_ && !snapshot && !bag_) return;
   draw(readings, step, follower, sample);
+  if (bag_) bag_->addImage(readings.stamp_s, picture_);
   if (film_wanted_) film_->write(picture_);
   if (snapshot) keepSnapshot(sample);
+}
+
+void FollowOutput::addToBag(const Readings& readings, const FollowStep& step,
+                            const Follower& follower) {
+  if (!has_map_) bag_->addMap(readings.stamp_s, follower.floor());
+  has_map_ = true;
+  bag_->addRobot(readings.stamp_s, step.robot.pose);
+  if (step.perception != nullptr) {
+    bag_->addTracks(readings.stamp_s, follower.perception()->tracks(), follower.target());
+  }
+  if (step.path != nullptr) bag_->addPath(readings.stamp_s, *step.path);
 }
 
 bool FollowOutput::isWorthAPicture(const FollowSample& sample) const {
@@ -114,6 +129,7 @@ void FollowOutput::commit(FollowLog& log, const FollowSummary& summary) {
   }
   const std::size_t step = 1 + snapshots_.size() / (kMostSnapshots + 1);
   for (std::size_t i = 0; i < snapshots_.size(); i += step) log.snapshots.push_back(snapshots_[i]);
+  if (bag_) bag_->commit();
   FollowPageParams page;
   if (film_) {
     film_->close();
@@ -127,6 +143,7 @@ void FollowOutput::commit(FollowLog& log, const FollowSummary& summary) {
 std::string FollowOutput::fileNames() const {
   std::string names = "report.html, summary.json, follow.csv, timing.csv";
   if (film_) names += ", " + film_->path().filename().string();
+  if (bag_) names += "; and " + bag_->path().string();
   return names;
 }
 

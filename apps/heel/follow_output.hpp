@@ -7,6 +7,7 @@
 
 #include "apps/experiment/closed_loop.hpp"
 #include "apps/heel/drawn_perception.hpp"
+#include "apps/heel/result_bag.hpp"
 #include "apps/report/follow_page.hpp"
 #include "apps/report/follow_video.hpp"
 #include "apps/report/video_writer.hpp"
@@ -23,8 +24,9 @@ namespace heel {
 class FollowOutput {
  public:
   /// @param film  Also draw the film.
-  /// @throws std::runtime_error  if the folder can't be made.
-  FollowOutput(const std::filesystem::path& folder, bool film);
+  /// @param bag   Also write this bag; empty: none.
+  /// @throws std::runtime_error  if the folder or the bag can't be made.
+  FollowOutput(const std::filesystem::path& folder, bool film, const std::filesystem::path& bag);
 
   void addTime(FollowStage stage, double ms);
   void add(const Readings& readings, const FollowStep& step, const Follower& follower,
@@ -39,6 +41,7 @@ class FollowOutput {
  private:
   void draw(const Readings& readings, const FollowStep& step, const Follower& follower,
             const FollowSample& sample);
+  void addToBag(const Readings& readings, const FollowStep& step, const Follower& follower);
   void keepSnapshot(const FollowSample& sample);
   bool isWorthAPicture(const FollowSample& sample) const;
 
@@ -46,10 +49,12 @@ class FollowOutput {
   bool film_wanted_;
   std::optional<FollowVideo> video_;
   std::optional<FilmWriter> film_;
+  std::optional<ResultBag> bag_;
   std::optional<DrawnPerception> drawn_;
   FollowVideoFrame frame_;
   cv::Mat picture_;
   std::vector<FollowSnapshot> snapshots_;
+  bool has_map_ = false;  // in the bag
   std::string last_state_;
   double last_snapshot_s_ = 0.0;
   std::array<std::vector<double>, kFollowStages> times_ms_;

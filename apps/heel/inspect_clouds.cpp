@@ -6,6 +6,7 @@
 #include "apps/clouds/cloud_inputs.hpp"
 #include "apps/follower/depth_images.hpp"
 #include "apps/heel/cloud_batch.hpp"
+#include "apps/recording/pcd_file.hpp"
 #include "cloud/ground_plane.hpp"
 #include "cloud/pinhole_fit.hpp"
 
@@ -13,7 +14,6 @@
 #include <pcl/common/common.h>
 #include <pcl/common/point_tests.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <tuple>
@@ -84,9 +84,8 @@ cv::Mat inspectCloud(const fs::path& file) {
   depthOf(cloud.cloud, depth_m);
   cv::Mat picture = paintDepth(depth_m);
   if (cloud.facts.color_field.empty()) return picture;
-  cv::Mat colors(picture.size(), CV_8UC3);
-  std::transform(cloud.cloud.begin(), cloud.cloud.end(), colors.begin<cv::Vec3b>(),
-                 [](const auto& p) { return cv::Vec3b(p.b, p.g, p.r); });
+  cv::Mat colors;
+  colorsOf(cloud.cloud, colors);
   cv::hconcat(colors, picture, picture);
   return picture;
 }

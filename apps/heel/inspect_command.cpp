@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "apps/bag/bag.hpp"
 #include "apps/clouds/cloud_inputs.hpp"
 #include "apps/follower/camera_setup.hpp"
 #include "apps/follower/depth_images.hpp"
+#include "apps/heel/bag_options.hpp"
 #include "apps/heel/commands.hpp"
+#include "apps/heel/inspect_bag.hpp"
 #include "apps/heel/inspect_clouds.hpp"
 #include "apps/heel/inspect_plan.hpp"
 #include "apps/mapper/map_picture.hpp"
@@ -34,6 +37,7 @@ namespace fs = std::filesystem;
 struct Options {
   fs::path what;
   fs::path out = "inspect.png";
+  RecordingParams opening;
 };
 
 constexpr double kDegrees = 180.0 / 3.14159265358979323846;
@@ -94,11 +98,11 @@ bool isCloudFolder(const fs::path& path) {
   return fs::is_directory(path) && !filesIn(path, isCloudName).empty();
 }
 
-cv::Mat inspectRecording(const fs::path& path) {
-  const auto recording = openRecording(path);
+cv::Mat inspectRecording(const fs::path& path, const RecordingParams& opening) {
+  const auto recording = openRecording(path, opening);
   Frame frame;
   if (!recording->next(frame)) throw std::runtime_error(nothingReadMessage(*recording));
-  const CameraSetup setup = findCameraSetup(*openRecording(path));
+  const CameraSetup setup = findCameraSetup(*openRecording(path, opening));
   const RecordingInfo& info = recording->info();
   std::printf("%s: %s, %zu frame%s", info.name.c_str(), info.layout.c_str(), info.frame_count,
               info.frame_count == 1 ? "" : "s");
@@ -124,9 +128,9 @@ cv::Mat inspectRecording(const fs::path& path) {
 }
 
 /// Clouds in a folder need not be a recording, and that is no error.
-cv::Mat inspectMaybeRecording(const fs::path& path) {
+cv::Mat inspectMaybeRecording(const fs::path& path, const RecordingParams& opening) {
   try {
-    return inspectRecording(path);
+    return inspectRecording(path, opening);
   } catch (const std::runtime_error& error) {
     std::printf("no recording to track in: %s\n", error.what());
     return {};
@@ -148,20 +152,22 @@ cv::Mat inspectFloorPlan(const fs::path& file) {
   return drawMap(floor, file.filename().string());
 }
 
-cv::Mat inspect(const fs::path& what) {
+cv::Mat inspect(const Options& options) {
+  const fs::path& what = options.what;
   if (isPattern(what)) {
     inspectClouds(what);
     return {};
   }
+  if (isBag(what) && !inspectBag(what, options.opening.topics)) return {};
   if (isCloudName(what) && !fs::is_directory(what)) return inspectCloud(what);
   if (isCloudFolder(what)) {
     inspectClouds(what);
-    return inspectMaybeRecording(what);
+    return inspectMaybeRecording(what, options.opening);
   }
   const fs::path extension = what.extension();
   if (extension == ".bt") return inspectWallMap(what);
   if (extension == ".pnml") return inspectPlan(what);
-  if (extension != ".yaml" && extension != ".yml") return inspectRecording(what);
+  if (extension != ".yaml" && extension != ".yml") return inspectRecording(what, options.opening);
   return isMapServerFile(what) ? inspectFloorPlan(what) : inspectModel(what);
 }
 
@@ -169,7 +175,7 @@ void run(const Options& options) {
   if (!fs::exists(options.what) && !isPattern(options.what)) {
     throw std::runtime_error(options.what.string() + ": there is no such file or folder");
   }
-  const cv::Mat picture = inspect(options.what);
+  const cv::Mat picture = inspect(options);
   if (picture.empty()) return;
   writePicture(options.out, picture);
   std::printf("wrote %s\n", options.out.string().c_str());
@@ -187,13 +193,15 @@ void addInspect(CLI::App& app) {
       "  heel inspect maps/home/walls.bt\n"
       "  heel inspect plan.pnml --out plan.png\n"
       "  heel inspect recordings/kitchen\n"
+      "  heel inspect robot.bag\n"
       "  heel inspect scene.pcd --out scene.png\n"
       "  heel inspect 'clouds/*.ply'");
   verb->add_option("WHAT", options->what,
                    "model or map_server map (.yaml), wall map (.bt), plan (.pnml), recording "
-                   "(folder), or PCD and PLY files (one, or a pattern in quotes)")
+                   "(folder), bag, or PCD and PLY files (one, or a pattern in quotes)")
       ->required();
   verb->add_option("--out", options->out, "where to write the picture")->capture_default_str();
+  addCameraTopics(*verb, options->opening.topics);
   verb->callback([options] { run(*options); });
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "apps/follower/learn_person.hpp"
+#include "apps/heel/bag_options.hpp"
 #include "apps/heel/commands.hpp"
 #include "apps/report/annotate.hpp"
 #include "apps/report/atomic_file.hpp"
@@ -25,6 +26,7 @@ namespace {
 struct Options {
   std::filesystem::path recording;
   std::filesystem::path out = "person.yaml";
+  RecordingParams opening;
   LearnPersonParams params;
 };
 
@@ -93,9 +95,9 @@ void run(const Options& options) {
   if (ending != ".yaml" && ending != ".yml") {
     throw std::runtime_error(options.out.string() + ": the name of a model ends in .yaml");
   }
-  const CameraSetup setup = findCameraSetup(*openRecording(options.recording));
+  const CameraSetup setup = findCameraSetup(*openRecording(options.recording, options.opening));
   for (const std::string& warning : setup.warnings) warn(warning);
-  const auto recording = openRecording(options.recording);
+  const auto recording = openRecording(options.recording, options.opening);
   BestView best_view(setup);
   ProgressBar progress("learning", recording->info().frame_count);
   const LearnedPerson learned =
@@ -134,7 +136,7 @@ void addLearn(CLI::App& app) {
       "up,\n"
       "the person leaves, or a second person comes into view.\n"
       "Writes the model, a picture of it, and a picture of who was learned.");
-  verb->add_option("RECORDING", options->recording, "folder of a recording")->required();
+  verb->add_option("RECORDING", options->recording, "folder of a recording, or a bag")->required();
   verb->add_option("--out", options->out, "where to write the model")->capture_default_str();
   verb->add_option("--background", options->params.acquisition.background_s,
                    "how long the room is empty at the beginning [s]")
@@ -159,6 +161,7 @@ void addLearn(CLI::App& app) {
   verb->add_flag_callback(
       "--legs", [options] { options->params.appearance.bands = wholeBody(); },
       "also learn from below 1 m: trousers tell people in similar jumpers apart");
+  addCameraTopics(*verb, options->opening.topics);
   verb->callback([options] { run(*options); });
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "apps/experiment/log_localization.hpp"
+#include "apps/heel/bag_options.hpp"
 #include "apps/heel/commands.hpp"
 #include "apps/heel/localize_output.hpp"
 #include "apps/heel/scene_argument.hpp"
@@ -15,6 +16,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -37,17 +39,22 @@ struct Options {
 
 OccupancyGrid readMap(Options& options) {
   LogLocalizationParams& params = options.params;
+  const auto log = openLaserLog(options.log, params.topics);
+  if (!log->lost().empty()) warn(log->lost());
+  const std::optional<FloorPose> scanner_on_robot = log->T_base_scanner();
+  if (scanner_on_robot) params.T_base_scanner = *scanner_on_robot;
   if (!options.scanner.empty()) {
     params.T_base_scanner = {{options.scanner[0], options.scanner[1]}, options.scanner[2]};
   }
   if (options.map.empty()) {
     params.left_out = options.map_scans;
-    return mapFromLog(options.log, options.map_scans, options.cell_size_m, params.T_base_scanner);
+    return mapFromLog(options.log, options.map_scans, options.cell_size_m, params.T_base_scanner,
+                      params.topics);
   }
   const fs::path file = mapSource(options.map);
   if (isMapServerFile(file)) return loadMapServer(file);
   const Scene scene = loadScene(file.string());
-  if (options.scanner.empty()) {
+  if (options.scanner.empty() && !scanner_on_robot) {
     params.T_base_scanner = {scene.robot.laser.at.head<2>(), 0.0};
   }
   return laserGrid(scene, options.cell_size_m);
@@ -93,7 +100,8 @@ void addLocalize(CLI::App& app) {
       "Without --map, the log's own reference poses make the map from a part of the scans, and "
       "the\n"
       "others are localized on it.");
-  verb->add_option("LOG", options->log, "a folder made by 'heel simulate', or a CARMEN log (.gz)")
+  verb->add_option("LOG", options->log,
+                   "a folder made by 'heel simulate', a CARMEN log (.gz), or a bag")
       ->required();
   verb->add_option("--map", options->map,
                    "a scene's name, or the YAML file of a scene or of a ROS map");
@@ -112,12 +120,15 @@ void addLocalize(CLI::App& app) {
       ->delimiter(',')
       ->expected(3)
       ->excludes(global);
-  verb->add_option("--scanner", options->scanner,
-                   "its place on the robot: X,Y,YAW [m, m, rad]; else the scene's, or 0,0,0")
+  verb->add_option(
+          "--scanner", options->scanner,
+          "its place on the robot: X,Y,YAW [m, m, rad]; else the bag's (tf), the scene's, or "
+          "0,0,0")
       ->delimiter(',')
       ->expected(3);
   verb->add_option("--seed", options->params.localization.seed, "of the particles")
       ->capture_default_str();
+  addLaserTopics(*verb, options->params.topics);
   verb->callback([options] { run(*options); });
 }
 

@@ -73,7 +73,8 @@ int main(int argc, char** argv) {
       "\n"
       "Phase 1, learn, finds out who to follow; phase 2, track, where they are.\n"
       "A RECORDING is a folder: stereo images with a calibration, RGB-D images in the TUM layout\n"
-      "with a camera.yaml, or PCD files. 'heel VERB --help' tells more.\n",
+      "with a camera.yaml, PCD files, or a bag of ROS 1\n"
+      "or ROS 2. 'heel VERB --help' tells more.\n",
       "heel"};
   app.set_version_flag("--version", std::string("heel ") + HEEL_VERSION);
   app.footer(

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "apps/heel/bag_options.hpp"
 #include "apps/heel/commands.hpp"
 #include "apps/heel/scene_argument.hpp"
 #include "apps/mapper/map_picture.hpp"
@@ -70,7 +71,7 @@ void addMap(CLI::App& app) {
   verb->add_option(
           "SOURCE", options->source,
           "a scene's name or YAML file, a map_server YAML, a picture, a wall map (.bt), or "
-          "a recording with robot.csv")
+          "a recording with robot.csv, or a bag with odometry")
       ->required();
   verb->add_option("--out", options->out, "folder for the map")->required();
   verb->add_option("--resolution", options->params.cell_size_m,
@@ -82,6 +83,8 @@ void addMap(CLI::App& app) {
   verb->add_option("--low", options->band.low_m, "map.yaml shows what stands from here [m]")
       ->capture_default_str();
   verb->add_option("--high", options->band.high_m, "up to here [m]")->capture_default_str();
+  addCameraTopics(*verb, options->params.topics);
+  addPoseTopics(*verb, options->params.topics);
   verb->callback([options] { run(*options); });
 }
 

@@ -27,8 +27,10 @@ void run(Options& options) {
     progress.show(static_cast<std::size_t>(100.0 * share));
   };
   const SimulateResult result = simulate(scene, options.simulate);
+  std::string written = options.simulate.out.string();
+  if (!options.simulate.bag.empty()) written += ", " + options.simulate.bag.string();
   std::printf("%zu frames over %.1f s; wrote %s\n", result.frames, result.duration_s,
-              options.simulate.out.string().c_str());
+              written.c_str());
 }
 
 }  // namespace
@@ -40,12 +42,15 @@ void addSimulate(CLI::App& app) {
       "Example:\n"
       "  heel simulate wardrobe --out recordings/wardrobe\n"
       "  heel learn recordings/wardrobe --out person.yaml\n"
+      "  heel simulate home --out recordings/home --bag home.bag\n"
       "Writes what 'heel learn' and 'heel track' read, and truth.csv: where everyone really was.");
   verb->add_option("SCENE", options->scene,
                    "a scene's name (wardrobe, pair, home, corridor, crowd) or its YAML file")
       ->required();
   verb->add_option("--out", options->simulate.out, "folder for the recording; must be empty")
       ->required();
+  verb->add_option("--bag", options->simulate.bag,
+                   "also write a bag: NAME.bag for ROS 1; NAME.db3, or a folder, for ROS 2");
   verb->add_option("--duration", options->simulate.duration_s, "instead of the scene's own [s]");
   verb->add_option("--seed", options->simulate.seed, "of noise and of people's ways")
       ->capture_default_str();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "apps/follower/perception.hpp"
+#include "apps/heel/bag_options.hpp"
 #include "apps/heel/commands.hpp"
 #include "apps/heel/lap_clock.hpp"
 #include "apps/heel/track_output.hpp"
@@ -24,6 +25,8 @@ struct Options {
   std::filesystem::path recording;
   std::filesystem::path model;
   std::filesystem::path out = "out";
+  std::filesystem::path bag;
+  RecordingParams opening;
   std::vector<double> start_m;
   std::vector<double> bounds_m;
   bool no_film = false;
@@ -42,12 +45,13 @@ void print(const TrackOutput& output, const Options& options, std::size_t skippe
 
 void run(const Options& options) {
   const AppearanceModel model = loadAppearance(options.model);
-  const CameraSetup setup = findCameraSetup(*openRecording(options.recording));
+  const CameraSetup setup = findCameraSetup(*openRecording(options.recording, options.opening));
   for (const std::string& warning : setup.warnings) warn(warning);
 
   PerceptionParams params;
   TrackOutputParams output_params;
   output_params.film = !options.no_film;
+  output_params.bag = options.bag;
   if (!options.bounds_m.empty()) {
     const Eigen::Vector2d lowest(options.bounds_m[0], options.bounds_m[1]);
     const Eigen::Vector2d highest(options.bounds_m[2], options.bounds_m[3]);
@@ -57,7 +61,7 @@ void run(const Options& options) {
   Perception perception(setup, model, params);
   if (!options.start_m.empty()) perception.startAt({options.start_m[0], options.start_m[1]});
 
-  const auto recording = openRecording(options.recording);
+  const auto recording = openRecording(options.recording, options.opening);
   TrackOutput output(options.out, recording->info(), setup, output_params);
   ProgressBar progress("tracking", recording->info().frame_count);
   std::vector<std::string> warnings = setup.warnings;
@@ -93,7 +97,7 @@ void addTrack(CLI::App& app) {
       "  heel track recordings/kitchen --model person.yaml --out out/kitchen\n"
       "Writes tracks.csv (who is where), frames.csv (what every stage left of each frame, and why\n"
       "there is no target), timing.csv, summary.json, and the film tracks.mp4 with stills.");
-  verb->add_option("RECORDING", options->recording, "folder of a recording")->required();
+  verb->add_option("RECORDING", options->recording, "folder of a recording, or a bag")->required();
   verb->add_option("--model", options->model, "the person, as 'heel learn' wrote it")->required();
   verb->add_option("--out", options->out, "folder for the results")->capture_default_str();
   verb->add_option("--start", options->start_m,
@@ -105,6 +109,8 @@ void addTrack(CLI::App& app) {
       ->expected(4)
       ->type_name("X0 Y0 X1 Y1");
   verb->add_flag("--no-film", options->no_film, "write the tables only");
+  addResultBag(*verb, options->bag);
+  addCameraTopics(*verb, options->opening.topics);
   verb->callback([options] { run(*options); });
 }
 

@@ -55,6 +55,7 @@ TrackOutput::TrackOutput(const std::filesystem::path& folder, const RecordingInf
       files_((makeResultFolder(folder), folder), stageNames()),
       drawn_(setup) {
   if (params.film) film_.emplace(folder / "tracks.mp4", rateOf(info), pictureSize());
+  if (!params.bag.empty()) bag_.emplace(params.bag);
 }
 
 void TrackOutput::add(const Frame& frame, const Perception& perception, const PerceptionStep& step,
@@ -65,10 +66,17 @@ void TrackOutput::add(const Frame& frame, const Perception& perception, const Pe
   if (!step.reason.empty()) ++reasons_[step.reason];
   addRows(frame, perception, step);
   files_.addTiming(frame.number, {times_ms.begin(), times_ms.end()});
-  if (film_) {
+  if (film_ || bag_) {
     DrawnFrame& drawing = drawn_.of(frame, perception, step);
     drawing.bounds_m = params_.bounds_m;
     annotate(drawing, {}, picture_);
+  }
+  if (bag_) {
+    bag_->addRobot(frame.stamp_s, {});
+    bag_->addTracks(frame.stamp_s, perception.tracks(), step.target);
+    bag_->addImage(frame.stamp_s, picture_);
+  }
+  if (film_) {
     film_->write(picture_);
     if (step.target.status == TargetStatus::kFollowed) keepStill();
   }
@@ -149,6 +157,7 @@ void TrackOutput::commit(const std::vector<SkippedFrame>& skipped,
   removeFormerPictures(folder_);
   files_.commit();
   if (film_) film_->commit();
+  if (bag_) bag_->commit();
   for (AtomicFile& still : stills) still.commit();
   summary_file.commit();
 }
@@ -157,6 +166,7 @@ std::string TrackOutput::fileNames() const {
   std::string names = "tracks.csv frames.csv timing.csv summary.json";
   if (film_) names += " " + film_->path().filename().string();
   if (!stills_.empty()) names += " frame_*.png";
+  if (bag_) names += "; and " + bag_->path().string();
   return names;
 }
 

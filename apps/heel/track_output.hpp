@@ -7,6 +7,7 @@
 
 #include "apps/follower/perception.hpp"
 #include "apps/heel/drawn_perception.hpp"
+#include "apps/heel/result_bag.hpp"
 #include "apps/report/result_files.hpp"
 #include "apps/report/video_writer.hpp"
 
@@ -24,6 +25,7 @@ namespace heel {
 
 struct TrackOutputParams {
   bool film = true;                             ///< Also draw the film and the stills.
+  std::filesystem::path bag;                    ///< Also write this bag; empty: none.
   std::size_t stills = 6;                       ///< Spread over the frames that have a target.
   std::optional<Eigen::AlignedBox2d> bounds_m;  ///< To draw.
 };
@@ -61,6 +63,7 @@ class TrackOutput {
   TrackOutputParams params_;
   ResultFiles files_;
   std::optional<FilmWriter> film_;
+  std::optional<ResultBag> bag_;
   cv::Mat picture_;
   DrawnPerception drawn_;
   struct Still {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "apps/follower/depth_images.hpp"
+#include "apps/heel/bag_options.hpp"
 #include "apps/heel/commands.hpp"
 #include "apps/heel/drawn_perception.hpp"
 #include "apps/heel/scene_argument.hpp"
@@ -33,6 +34,7 @@ struct Options {
   fs::path model;
   std::string map;
   fs::path out;
+  RecordingParams opening;
   std::size_t pictures = 12;
 };
 
@@ -101,7 +103,7 @@ class Scenes {
 /// @return how many frames there were.
 std::size_t eachScene(const Options& options, Scenes& scenes, std::size_t step,
                       const std::function<bool(const ViewScene&, double)>& show) {
-  const auto recording = openRecording(options.recording);
+  const auto recording = openRecording(options.recording, options.opening);
   Frame frame;
   double last_s = std::numeric_limits<double>::quiet_NaN();
   std::size_t seen = 0;
@@ -166,7 +168,7 @@ void writePictures(const Options& options, Scenes& scenes, std::size_t frames) {
 void run(Options& options) {
   std::optional<AppearanceModel> model;
   if (!options.model.empty()) model = loadAppearance(options.model);
-  const CameraSetup setup = findCameraSetup(*openRecording(options.recording));
+  const CameraSetup setup = findCameraSetup(*openRecording(options.recording, options.opening));
   for (const std::string& warning : setup.warnings) warn(warning);
   Scenes scenes(setup, model);
   if (!options.map.empty()) scenes.walls() = openMap(mapSource(options.map)).map.floorGrid();
@@ -176,7 +178,8 @@ void run(Options& options) {
     options.out = "view";
     std::printf("%s: pictures of the same go to %s\n", why.c_str(), options.out.c_str());
   }
-  writePictures(options, scenes, openRecording(options.recording)->info().frame_count);
+  writePictures(options, scenes,
+                openRecording(options.recording, options.opening)->info().frame_count);
 }
 
 }  // namespace
@@ -192,7 +195,7 @@ void addView(CLI::App& app) {
       "Shows the cloud of each frame; with a model, also the points of the person's colours, the\n"
       "blobs on the floor, and the tracks as poles (the target's is orange). Opens a window; with\n"
       "no display, or with --out, it writes pictures of the same.");
-  verb->add_option("RECORDING", options->recording, "folder of a recording, or a PCD file")
+  verb->add_option("RECORDING", options->recording, "folder of a recording, a bag, or a PCD file")
       ->required();
   verb->add_option("--model", options->model, "the person, as 'heel learn' wrote it");
   verb->add_option("--map", options->map,
@@ -200,6 +203,7 @@ void addView(CLI::App& app) {
   verb->add_option("--out", options->out, "write pictures to this folder, and open no window");
   verb->add_option("--pictures", options->pictures, "how many at the most; 0: one of each frame")
       ->capture_default_str();
+  addCameraTopics(*verb, options->opening.topics);
   verb->callback([options] { run(*options); });
 }
 

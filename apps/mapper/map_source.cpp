@@ -3,6 +3,7 @@
 
 #include "apps/mapper/map_source.hpp"
 
+#include "apps/bag/bag.hpp"
 #include "apps/mapper/recorded_map.hpp"
 #include "apps/recording/image_file.hpp"
 #include "apps/simulation/scene_map.hpp"
@@ -32,9 +33,10 @@ SourcedMap openMap(const fs::path& path, const MapSourceParams& params) {
   if (!fs::exists(path)) {
     throw std::runtime_error(path.string() + ": there is no such file or folder");
   }
-  if (fs::is_directory(path)) {
+  if (fs::is_directory(path) || isBag(path)) {
     RecordedMapParams recorded;
     recorded.cell_size_m = cell_m;
+    recorded.topics = params.topics;
     recorded.progress = params.progress;
     return {mapOfRecording(path, recorded), "recording"};
   }

@@ -5,6 +5,7 @@
 /// Whatever a map can be made of, as a wall map.
 #pragma once
 
+#include "apps/recording/bag_topics.hpp"
 #include "mapping/wall_map.hpp"
 
 #include <filesystem>
@@ -19,6 +20,7 @@ struct MapSourceParams {
   /// 0.05 m.
   std::optional<double> cell_size_m;
   double wall_height_m = 2.0;            ///< To which a floor plan is extruded.
+  BagTopics topics;                      ///< Of a bag.
   std::function<void(double)> progress;  ///< Called with the share that is done; may be empty.
 };
 
@@ -29,7 +31,7 @@ struct SourcedMap {
 };
 
 /// Reads a wall map (.bt), a map_server pair (its YAML), a plain picture of a floor plan, a scene
-/// (YAML), or a recording (a folder).
+/// (YAML), or a recording (a folder or a bag).
 /// @throws std::runtime_error  one sentence that names the file and the reason.
 SourcedMap openMap(const std::filesystem::path& path, const MapSourceParams& params = {});
 

@@ -5,6 +5,7 @@
 
 #include "apps/follower/camera_setup.hpp"
 #include "apps/follower/depth_images.hpp"
+#include "apps/recording/bag_odometry.hpp"
 #include "apps/report/csv_file.hpp"
 #include "mapping/floor_pose.hpp"
 #include "mapping/wall_map_builder.hpp"
@@ -17,12 +18,7 @@
 namespace heel {
 namespace {
 
-struct StampedPose {
-  double stamp_s = 0.0;
-  FloorPose pose;
-};
-
-std::vector<StampedPose> readPoses(const std::filesystem::path& file) {
+std::vector<StampedPose> posesOfTable(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) {
     throw std::runtime_error(file.string() +
                              " is missing: a map needs to know where the robot was");
@@ -32,6 +28,12 @@ std::vector<StampedPose> readPoses(const std::filesystem::path& file) {
   while (csv.next()) {
     poses.push_back({csv.number(0), {{csv.number(1), csv.number(2)}, csv.number(3)}});
   }
+  return poses;
+}
+
+/// In the order of time.
+std::vector<StampedPose> readPoses(const std::filesystem::path& path, const BagTopics& topics) {
+  auto poses = isBag(path) ? readBagPoses(path, topics) : posesOfTable(path / "robot.csv");
   std::sort(poses.begin(), poses.end(),
             [](const StampedPose& a, const StampedPose& b) { return a.stamp_s < b.stamp_s; });
   return poses;
@@ -69,9 +71,11 @@ void pointsOf(const cv::Mat& depth_m, const PinholeCamera& camera, int step,
 }  // namespace
 
 WallMap mapOfRecording(const std::filesystem::path& path, const RecordedMapParams& params) {
-  const std::vector<StampedPose> poses = readPoses(path / "robot.csv");
-  const CameraSetup setup = findCameraSetup(*openRecording(path));
-  const auto recording = openRecording(path);
+  const std::vector<StampedPose> poses = readPoses(path, params.topics);
+  RecordingParams opening;
+  opening.topics = params.topics;
+  const CameraSetup setup = findCameraSetup(*openRecording(path, opening));
+  const auto recording = openRecording(path, opening);
   DepthImages depths(setup.sensor, setup.camera);
   WallMapBuilder builder(params.cell_size_m);
   std::vector<Eigen::Vector3f> points;
@@ -89,7 +93,7 @@ WallMap mapOfRecording(const std::filesystem::path& path, const RecordedMapParam
     }
   }
   if (used == 0) {
-    throw std::runtime_error((path / "robot.csv").string() +
+    throw std::runtime_error((isBag(path) ? path : path / "robot.csv").string() +
                              ": it has no pose at the time of any frame");
   }
   return builder.build();

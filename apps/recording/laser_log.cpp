@@ -3,6 +3,7 @@
 
 #include "apps/recording/laser_log.hpp"
 
+#include "apps/recording/bag_laser_log.hpp"
 #include "apps/recording/carmen_log.hpp"
 #include "apps/recording/simulated_laser_log.hpp"
 
@@ -10,8 +11,9 @@
 
 namespace heel {
 
-std::unique_ptr<LaserLog> openLaserLog(const std::filesystem::path& path) {
+std::unique_ptr<LaserLog> openLaserLog(const std::filesystem::path& path, const BagTopics& topics) {
   if (!std::filesystem::exists(path)) throw std::runtime_error(path.string() + ": does not exist");
+  if (isBag(path)) return std::make_unique<BagLaserLog>(path, topics);
   if (!std::filesystem::is_directory(path)) return std::make_unique<CarmenLog>(path);
   if (!std::filesystem::exists(path / "scan.csv")) {
     throw std::runtime_error(path.string() + ": has no laser scans (scan.csv)");

@@ -5,12 +5,14 @@
 /// Scans and odometry of a robot that has driven, one after the other.
 #pragma once
 
+#include "apps/recording/bag_topics.hpp"
 #include "mapping/floor_pose.hpp"
 #include "mapping/laser_scan.hpp"
 
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace heel {
 
@@ -32,10 +34,17 @@ class LaserLog {
 
   /// Reads the next scan, into memory that is reused; false at the end.
   virtual bool next(LaserReading& reading) = 0;
+
+  /// Where the scanner is on the robot, if the log knows.
+  virtual std::optional<FloorPose> T_base_scanner() const { return std::nullopt; }
+
+  /// What of a damaged log can't be read, in a sentence; empty: nothing.
+  virtual std::string lost() const { return {}; }
 };
 
-/// Opens a folder that was recorded in simulation (see SimulatedLaserLog) or a CARMEN log.
-/// @throws std::runtime_error  one sentence, if it is neither.
-std::unique_ptr<LaserLog> openLaserLog(const std::filesystem::path& path);
+/// Opens a folder that was recorded in simulation (see SimulatedLaserLog), a CARMEN log or a bag.
+/// @throws std::runtime_error  one sentence, if it is none of them.
+std::unique_ptr<LaserLog> openLaserLog(const std::filesystem::path& path,
+                                       const BagTopics& topics = {});
 
 }  // namespace heel

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "apps/recording/bag_recording.hpp"
 #include "apps/recording/pcd_recording.hpp"
 #include "apps/recording/recording.hpp"
 #include "apps/recording/rgbd_recording.hpp"
@@ -16,9 +17,11 @@ namespace {
 
 std::unique_ptr<Recording> openKnownLayout(const fs::path& path, const RecordingParams& params) {
   if (!fs::exists(path)) throw std::runtime_error(path.string() + " does not exist");
+  if (isBag(path)) return BagRecording::open(path, params);
   if (!fs::is_directory(path)) {
     if (PcdRecording::fits(path)) return PcdRecording::open(path, params);
-    throw std::runtime_error(path.string() + " is neither a folder nor a PCD file (.pcd)");
+    throw std::runtime_error(path.string() +
+                             " is neither a folder, nor a PCD file (.pcd), nor a bag (.bag, .db3)");
   }
   if (RgbdRecording::fits(path)) return RgbdRecording::open(path, params);
   if (StereoRecording::fits(path)) return StereoRecording::open(path, params);
@@ -28,7 +31,7 @@ std::unique_ptr<Recording> openKnownLayout(const fs::path& path, const Recording
       " holds no recording of a known layout, which are: an RGB-D folder in the TUM layout "
       "(rgb.txt, depth.txt, camera.yaml), stereo images (left/ and right/, image_0/ and image_1/, "
       "cam0/ and cam1/, left*.png and right*.png, or im0.png and im1.png; with calib.yaml, "
-      "left.yaml and right.yaml, or calib.txt), and PCD files (*.pcd)");
+      "left.yaml and right.yaml, or calib.txt), PCD files (*.pcd), and ROS 2 bags (*.db3)");
 }
 
 }  // namespace

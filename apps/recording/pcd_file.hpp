@@ -7,6 +7,8 @@
 
 #include "apps/recording/cloud_file.hpp"
 
+#include <opencv2/core/mat.hpp>
+
 #include <filesystem>
 
 namespace heel {
@@ -21,6 +23,9 @@ PcdFile readPcd(const std::filesystem::path& file);
 /// Looks at the header and the size of a PCD file only.
 /// @throws std::runtime_error  as readPcd.
 void checkPcd(const std::filesystem::path& file);
+
+/// The colours of an organized cloud as an image (CV_8UC3, BGR).
+void colorsOf(const ColorCloud& cloud, cv::Mat& image_bgr);
 
 /// Writes `pcd.blob`, compressed.
 /// @throws std::runtime_error  with one sentence, for instance when the disk is full.

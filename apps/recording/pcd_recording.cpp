@@ -20,13 +20,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The organized cloud's colours as an image.
-void toImage(const ColorCloud& cloud, cv::Mat& image_bgr) {
-  image_bgr.create(static_cast<int>(cloud.height), static_cast<int>(cloud.width), CV_8UC3);
-  std::transform(cloud.begin(), cloud.end(), image_bgr.begin<cv::Vec3b>(),
-                 [](const auto& p) { return cv::Vec3b(p.b, p.g, p.r); });
-}
-
 bool isPcdName(const fs::path& file) { return file.extension() == ".pcd"; }
 
 }  // namespace
@@ -70,7 +63,7 @@ void PcdRecording::read(std::size_t index, Frame& frame) {
   frame.cloud.reset();
   const auto cloud = pcl::make_shared<ColorCloud>(readPcd(files_[index]).cloud);
   if (cloud->isOrganized()) {
-    toImage(*cloud, frame.image_bgr);
+    colorsOf(*cloud, frame.image_bgr);
   } else {
     frame.image_bgr.release();
   }

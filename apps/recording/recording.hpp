@@ -5,6 +5,7 @@
 /// Recordings of a robot's camera, read as a stream.
 #pragma once
 
+#include "apps/recording/bag_topics.hpp"
 #include "apps/recording/frame.hpp"
 #include "cloud/pinhole_camera.hpp"
 
@@ -32,6 +33,7 @@ struct RecordingInfo {
   bool nominal_stamps = false;  ///< No times are stored: they are made from the assumed rate.
   /// Where the camera is mounted: maps its optical frame to the base frame. Absent if not known.
   std::optional<Eigen::Isometry3d> T_base_camera;
+  std::string lost;  ///< What of a damaged bag can't be read, in a sentence; empty: nothing.
 };
 
 /// A frame that could not be read, and why.
@@ -44,6 +46,7 @@ struct SkippedFrame {
 struct RecordingParams {
   double max_stamp_difference_s = 0.02;  ///< Images of one frame are not further apart than this.
   double nominal_rate_hz = 10.0;  ///< Frames per second, where the recording stores no times.
+  BagTopics topics;               ///< Of bags.
 };
 
 /// A recording, read one frame at a time; holds one frame's data at the most, and the list of its
@@ -68,7 +71,7 @@ class Recording {
 };
 
 /// Opens whatever recording `path` holds: a folder of stereo images, an RGB-D folder in the TUM
-/// layout, or a folder of PCD files (or one file).
+/// layout, a folder of PCD files (or one file), or a bag of ROS 1 or ROS 2.
 /// @throws std::runtime_error     with one sentence that names the file and the reason.
 /// @throws std::invalid_argument  if a parameter is not positive.
 std::unique_ptr<Recording> openRecording(const std::filesystem::path& path,

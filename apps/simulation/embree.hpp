@@ -13,18 +13,18 @@
 
 namespace heel {
 
-/// Finds the nearest hits of up to 8 rays that start near each other.
-inline void intersect8(const int* valid, RTCScene scene, RTCRayHit8& rays) {
+/// Finds the nearest hits of up to 16 rays that start near each other.
+inline void intersect16(const int* valid, RTCScene scene, RTCRayHit16& rays) {
 #if RTC_VERSION_MAJOR >= 4
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
   arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
-  rtcIntersect8(valid, scene, &rays, &arguments);
+  rtcIntersect16(valid, scene, &rays, &arguments);
 #else
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect8(valid, scene, &context, &rays);
+  rtcIntersect16(valid, scene, &context, &rays);
 #endif
 }
 

@@ -20,37 +20,38 @@ using Eigen::Vector3f;
 constexpr float kPi = 3.14159265F;
 constexpr float kDirectCell_m = 0.08F;  // Sharp enough for the shadow of a table's leg.
 constexpr float kBounceCell_m = 0.3F;
-constexpr float kNearCell_m = 1.0F;
+constexpr float kNearCell_m = 0.5F;
 constexpr float kProbeStep_m = 0.5F;
 constexpr float kProbeHeight_m = 1.1F;
 constexpr float kOffSurface_m = 0.002F;
 constexpr float kNegligible = 2e-3F;
 
-int cells(float length_m, float cell_m) {
-  return std::clamp(static_cast<int>(std::ceil(length_m / cell_m)), 1, 400);
+int probesAlong(float length_m) {
+  return std::clamp(static_cast<int>(std::ceil(length_m / kProbeStep_m)), 1, 400) + 1;
 }
 
-template <typename T>
-FaceGrid<T> gridOver(const Face& face, float cell_m, const T& value) {
-  FaceGrid<T> grid;
-  grid.columns = cells(face.edge_u.norm(), cell_m);
-  grid.rows = cells(face.edge_v.norm(), cell_m);
-  grid.values.assign(static_cast<std::size_t>(grid.columns * grid.rows), value);
-  return grid;
+/// A place on a face, a little off it.
+Vector3f pointOn(const Face& face, float a, float b) {
+  return face.origin + a * face.edge_u + b * face.edge_v + kOffSurface_m * face.normal;
 }
 
-/// Calls `visit(point, value)` with the middle of each cell, a little off the face.
-template <typename T, typename Visit>
-void forEachCell(const Face& face, FaceGrid<T>& grid, const Visit& visit) {
-  auto value = grid.values.begin();
-  for (int j = 0; j < grid.rows; ++j) {
-    for (int i = 0; i < grid.columns; ++i) {
-      const float a = (static_cast<float>(i) + 0.5F) / static_cast<float>(grid.columns);
-      const float b = (static_cast<float>(j) + 0.5F) / static_cast<float>(grid.rows);
-      visit(Vector3f(face.origin + a * face.edge_u + b * face.edge_v + kOffSurface_m * face.normal),
-            *value++);
-    }
+/// What falls from a source on a place, past all that stands still.
+float arriving(const LightSource& source, const RayWorld& world, const Vector3f& p,
+               const Vector3f& normal) {
+  std::array<Vector3f, RayWorld::kShadowPacket> points;
+  std::array<float, RayWorld::kShadowPacket> falls;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < source.points().size(); ++i) {
+    falls[count] = source.irradiance(i, p, normal);
+    if (falls[count] * static_cast<float>(source.points().size()) < kNegligible) continue;
+    points[count++] = source.points()[i];
   }
+  if (count == 0) return 0.0F;
+  const unsigned hidden =
+      world.blocked(p, points.data(), static_cast<int>(count), RayTarget::kStill);
+  float sum = 0.0F;
+  for (std::size_t i = 0; i < count; ++i) sum += (hidden >> i & 1U) == 0U ? falls[i] : 0.0F;
+  return sum;
 }
 
 /// The i-th of n directions around `normal`, spread with the cosine's density.
@@ -68,11 +69,9 @@ Vector3f cosineDirection(const Vector3f& normal, int i, int n, float turn) {
 
 LightMap::LightMap(const Scene& scene, const Geometry& geometry, const RayWorld& world)
     : sources_(makeLightSources(scene)), direct_(geometry.faces.size()) {
-  for (const Face& face : geometry.faces) {
-    bounced_.push_back(gridOver<Rgb>(face, kBounceCell_m, Rgb::Zero()));
-  }
   bakeDirect(geometry, world);
   noteSources(geometry);
+  sumUp(geometry, {});
   bakeBounce(geometry, world);
   bakeBounce(geometry, world);
   bakeProbes(geometry, world, FloorPlan(scene), floorBounds(scene));
@@ -85,12 +84,9 @@ void LightMap::bakeDirect(const Geometry& geometry, const RayWorld& world) {
       const LightSource& source = sources_[s];
       SourceOnFace light{static_cast<int>(s), gridOver(face, kDirectCell_m, 0.0F)};
       float greatest = 0.0F;
-      forEachCell(face, light.white, [&](const Vector3f& p, float& value) {
-        for (std::size_t k = 0; k < source.points().size(); ++k) {
-          const float falls = source.irradiance(k, p, face.normal);
-          if (falls * static_cast<float>(source.points().size()) < kNegligible) continue;
-          if (!world.blocked(p, source.points()[k], RayTarget::kStill)) value += falls;
-        }
+      forEachCell(light.white, [&](float a, float b, float& value) {
+        const Vector3f p = pointOn(face, a, b);
+        value = arriving(source, world, p, face.normal);
         greatest = std::max(greatest, value);
       });
       if (greatest > kNegligible && direct_[f].size() < 64) direct_[f].push_back(std::move(light));
@@ -121,32 +117,41 @@ void LightMap::noteSources(const Geometry& geometry) {
   }
 }
 
-std::uint64_t LightMap::sourcesAt(int face, float a, float b) const {
-  const FaceGrid<std::uint64_t>& near = near_[static_cast<std::size_t>(face)];
-  const int column =
-      std::clamp(static_cast<int>(a * static_cast<float>(near.columns)), 0, near.columns - 1);
-  const int row = std::clamp(static_cast<int>(b * static_cast<float>(near.rows)), 0, near.rows - 1);
-  return near.values[static_cast<std::size_t>(row * near.columns + column)];
-}
-
 void LightMap::bakeBounce(const Geometry& geometry, const RayWorld& world) {
-  std::vector<FaceGrid<Rgb>> next = bounced_;
+  std::vector<FaceGrid<Rgb>> bounced(geometry.faces.size());
   tbb::parallel_for(std::size_t{0}, geometry.faces.size(), [&](std::size_t f) {
     const Face& face = geometry.faces[f];
+    bounced[f] = gridOver<Rgb>(face, kBounceCell_m, Rgb::Zero());
     std::uint64_t cell = hashOf(7, f);
-    forEachCell(face, next[f], [&](const Vector3f& p, Rgb& value) {
-      value = gather(geometry, world, p, face.normal, 64, cell++);
+    forEachCell(bounced[f], [&](float a, float b, Rgb& value) {
+      value = gather(geometry, world, pointOn(face, a, b), face.normal, 64, cell++);
     });
   });
-  bounced_ = std::move(next);
+  sumUp(geometry, bounced);
+}
+
+void LightMap::sumUp(const Geometry& geometry, const std::vector<FaceGrid<Rgb>>& bounced) {
+  still_.resize(geometry.faces.size());
+  tbb::parallel_for(std::size_t{0}, geometry.faces.size(), [&](std::size_t f) {
+    still_[f] = gridOver<Eigen::Array4f>(geometry.faces[f], kDirectCell_m, Eigen::Array4f::Zero());
+    std::size_t cell = 0;
+    forEachCell(still_[f], [&](float a, float b, Eigen::Array4f& value) {
+      if (!bounced.empty()) value.head<3>() = bounced[f].at(a, b);
+      for (const SourceOnFace& light : direct_[f]) {
+        const LightSource& source = sources_[static_cast<std::size_t>(light.source)];
+        value.head<3>() += light.white.values[cell] * source.color();
+      }
+      ++cell;
+    });
+  });
 }
 
 void LightMap::bakeProbes(const Geometry& geometry, const RayWorld& world, const FloorPlan& plan,
                           const FloorBounds& flat) {
   probe_low_ = flat.low.cast<float>();
   const Vector2f size = (flat.high - flat.low).cast<float>();
-  probe_columns_ = cells(size.x(), kProbeStep_m) + 1;
-  probe_rows_ = cells(size.y(), kProbeStep_m) + 1;
+  probe_columns_ = probesAlong(size.x());
+  probe_rows_ = probesAlong(size.y());
   probes_.resize(static_cast<std::size_t>(probe_columns_ * probe_rows_));
   tbb::parallel_for(std::size_t{0}, probes_.size(), [&](std::size_t i) {
     const int n = static_cast<int>(i);
@@ -198,17 +203,9 @@ Rgb LightMap::radianceFrom(const Geometry& geometry, const RayHit& hit,
   const Vector3f from = point - face.origin;
   const float a = from.dot(face.edge_u) / face.edge_u.squaredNorm();
   const float b = from.dot(face.edge_v) / face.edge_v.squaredNorm();
-  Rgb light = bounced(hit.index, a, b);
-  std::uint64_t lit = sourcesAt(hit.index, a, b);
-  for (const SourceOnFace& s : sourcesOn(hit.index)) {
-    const bool reaches = (lit & 1U) != 0U;
-    lit >>= 1U;
-    if (!reaches) continue;
-    light += s.white.at(a, b) * sources_[static_cast<std::size_t>(s.source)].color();
-  }
   // Windows and lamps shine through `sources_`; their own glow would count twice.
   if (material.glow > 0.0F) return Rgb::Zero();
-  return light * face.tint * material.texture.mean() / kPi;
+  return still(hit.index, a, b) * face.tint * material.texture.mean() / kPi;
 }
 
 RoomLight LightMap::inRoom(const Vector3f& p) const {

@@ -56,6 +56,12 @@ float LightSource::irradiance(std::size_t i, const Vector3f& p, const Vector3f& 
   return power_ * share * cosine / (distance * square);
 }
 
+float LightSource::irradianceOnBody(const Vector3f& p, const Vector3f& normal) const {
+  float sum = 0.0F;
+  for (std::size_t i = 0; i < pointsForBodies(); ++i) sum += irradiance(i, p, normal);
+  return sum * static_cast<float>(points_.size()) / static_cast<float>(pointsForBodies());
+}
+
 std::vector<LightSource> makeLightSources(const Scene& scene) {
   std::vector<LightSource> sources;
   for (const Light& light : scene.lights) {

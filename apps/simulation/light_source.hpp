@@ -33,6 +33,9 @@ class LightSource {
   /// white light, the share of all points.
   float irradiance(std::size_t i, const Eigen::Vector3f& p, const Eigen::Vector3f& normal) const;
 
+  /// What falls from all points, by those for bodies.
+  float irradianceOnBody(const Eigen::Vector3f& p, const Eigen::Vector3f& normal) const;
+
  private:
   std::vector<Eigen::Vector3f> points_;
   Eigen::Vector3f center_;

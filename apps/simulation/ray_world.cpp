@@ -103,19 +103,32 @@ std::vector<PersonBounds> surround(const std::vector<BodyPart>& parts) {
   return out;
 }
 
-/// Whether rays from `origin`, seen from above between `first` and `last`, may meet a person.
-bool mayMeet(const std::vector<PersonBounds>& people, const Vector3f& origin, const Vector3f& first,
-             const Vector3f& last) {
-  const Eigen::Vector2f a = first.head<2>(), b = last.head<2>();
-  if (a.squaredNorm() < 0.01F * first.squaredNorm()) return true;  // Nearly straight up or down.
-  const Eigen::Vector2f middle = (a.normalized() + b.normalized()).normalized();
-  const float half = (a.normalized() - middle).norm() * 1.1F;
-  if (half > 0.5F) return true;
+float cross(const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Whether rays from `origin` may meet a person, as seen from above; quick, and never false where
+/// one does.
+bool mayMeet(const std::vector<PersonBounds>& people, const Vector3f& origin,
+             const Vector3f* directions, int count) {
+  if (people.empty()) return false;
+  const Eigen::Vector2f first = directions[0].head<2>();
+  Eigen::Vector2f left = first, right = first;
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector2f flat = directions[i].head<2>();
+    if (flat.dot(first) <= 0.0F) return true;  // All around, or straight up: no sides to speak of.
+    if (cross(left, flat) > 0.0F) left = flat;
+    if (cross(right, flat) < 0.0F) right = flat;
+  }
+  left.normalize();
+  right.normalize();
+  const Eigen::Vector2f middle = (left + right).normalized();
+  const float half = (left - middle).norm() * 1.1F;
+  if (!(half < 0.5F)) return true;
   for (const PersonBounds& person : people) {
     const Eigen::Vector2f to = person.center - origin.head<2>();
     const float reach = person.radius_m + half * to.norm();
-    const float ahead = to.dot(middle), beside = middle.x() * to.y() - middle.y() * to.x();
-    if (ahead > -reach && std::abs(beside) < reach) return true;
+    if (to.dot(middle) > -reach && std::abs(cross(middle, to)) < reach) return true;
   }
   return false;
 }
@@ -189,8 +202,8 @@ RayHit RayWorld::trace(const Vector3f& origin, const Vector3f& direction, float 
 
 void RayWorld::trace(const Vector3f& origin, const Vector3f* directions, int count,
                      std::array<RayHit, kPacket>& hits) const {
-  RTCRayHit8 rays{};
-  alignas(32) int valid[kPacket];
+  RTCRayHit16 rays;
+  alignas(64) int valid[kPacket];
   for (int i = 0; i < kPacket; ++i) {
     valid[i] = i < count ? -1 : 0;
     const Vector3f& direction = directions[i < count ? i : 0];
@@ -200,13 +213,15 @@ void RayWorld::trace(const Vector3f& origin, const Vector3f* directions, int cou
     rays.ray.dir_x[i] = direction.x();
     rays.ray.dir_y[i] = direction.y();
     rays.ray.dir_z[i] = direction.z();
+    rays.ray.tnear[i] = rays.ray.time[i] = 0.0F;
     rays.ray.tfar[i] = 1e9F;
     rays.ray.mask[i] = ~0U;
-    rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    rays.ray.id[i] = rays.ray.flags[i] = 0U;
+    rays.hit.geomID[i] = rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
-  intersect8(valid, scenes_->still, rays);
-  if (mayMeet(scenes_->around, origin, directions[0], directions[count - 1])) {
-    intersect8(valid, scenes_->people, rays);
+  intersect16(valid, scenes_->still, rays);
+  if (mayMeet(scenes_->around, origin, directions, count)) {
+    intersect16(valid, scenes_->people, rays);
   }
   for (int i = 0; i < count; ++i) {
     hits[static_cast<std::size_t>(i)] =
@@ -235,10 +250,8 @@ bool RayWorld::blocked(const Vector3f& from, const Vector3f& to, RayTarget targe
 unsigned RayWorld::blocked(const Vector3f& from, const Vector3f* to, int count,
                            RayTarget target) const {
   RTCRay8 rays;
-  alignas(32) int valid[kPacket];
-  alignas(32) int near_people[kPacket];
-  bool any_near = false;
-  for (int i = 0; i < kPacket; ++i) {
+  alignas(32) int valid[kShadowPacket];
+  for (int i = 0; i < kShadowPacket; ++i) {
     valid[i] = i < count ? -1 : 0;
     const Vector3f direction = to[i < count ? i : 0] - from;
     rays.org_x[i] = from.x();
@@ -251,11 +264,10 @@ unsigned RayWorld::blocked(const Vector3f& from, const Vector3f* to, int count,
     rays.tfar[i] = 1.0F;
     rays.mask[i] = ~0U;
     rays.id[i] = rays.flags[i] = 0U;
-    const bool near = target != RayTarget::kStill && i < count && peopleNear(from, to[i], 0.0F);
-    near_people[i] = near ? -1 : 0;
-    any_near = any_near || near;
   }
-  if (any_near) occluded8(near_people, scenes_->people, rays);
+  if (target != RayTarget::kStill && !scenes_->parts.empty()) {
+    occluded8(valid, scenes_->people, rays);
+  }
   if (target != RayTarget::kPeople) {
     for (int i = 0; i < count; ++i) valid[i] = rays.tfar[i] < 0.0F ? 0 : -1;
     occluded8(valid, scenes_->still, rays);

@@ -37,7 +37,8 @@ struct PersonBounds {
 /// Ray queries by Embree. `const` members can be called from several threads at a time.
 class RayWorld {
  public:
-  static constexpr int kPacket = 8;
+  static constexpr int kPacket = 16;       ///< Rays that are traced at once.
+  static constexpr int kShadowPacket = 8;  ///< Questions of blocked() at once.
 
   /// @param geometry  Must outlive this.
   explicit RayWorld(const Geometry& geometry);
@@ -52,14 +53,15 @@ class RayWorld {
   RayHit trace(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction,
                float max_distance = 1e9F, RayTarget target = RayTarget::kAll) const;
 
-  /// Traces up to 8 rays from one point, neighbours in order from one side to the other.
+  /// Traces up to kPacket rays from one point; quickest where they are neighbours.
   void trace(const Eigen::Vector3f& origin, const Eigen::Vector3f* directions, int count,
              std::array<RayHit, kPacket>& hits) const;
 
   /// Whether anything is between two points. Give points a little off their surfaces.
   bool blocked(const Eigen::Vector3f& from, const Eigen::Vector3f& to, RayTarget target) const;
 
-  /// Up to 8 such questions at once: bit i of the answer tells whether `to[i]` is hidden.
+  /// Up to kShadowPacket such questions at once: bit i of the answer tells whether `to[i]` is
+  /// hidden.
   unsigned blocked(const Eigen::Vector3f& from, const Eigen::Vector3f* to, int count,
                    RayTarget target) const;
 

@@ -3,6 +3,8 @@
 
 #include "apps/simulation/recording_writer.hpp"
 
+#include "apps/recording/sensor_bag.hpp"
+
 #include <opencv2/core.hpp>
 #include <opencv2/core/persistence.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -58,7 +60,7 @@ RecordingWriter::RecordingWriter(const fs::path& folder, const Simulator& simula
       partial_(folder.string() + ".partial"),
       pixel_truth_(pixel_truth),
       camera_(simulator.camera()),
-      T_base_camera_(simulator.T_base_camera()) {
+      T_base_camera_(asInBags(simulator.T_base_camera())) {
   std::error_code problem;
   if (fs::exists(folder_, problem) && !fs::is_empty(folder_, problem)) {
     throw std::runtime_error(folder_.string() + ": holds something already");
@@ -102,7 +104,7 @@ void RecordingWriter::writeCameraFiles(const Simulator& simulator) {
                    simulator.scene().robot.camera.rate_hz)
          << format("baseline_m: %.9g\n", camera_.baseline_m) << "T_ground_camera: [";
   for (int i = 0; i < 16; ++i) {
-    camera << format("%s%.9g", i == 0 ? "" : ", ", T_base_camera_.matrix()(i / 4, i % 4));
+    camera << format("%s%.17g", i == 0 ? "" : ", ", T_base_camera_.matrix()(i / 4, i % 4));
   }
   camera << "]\n";
   if (!camera) throw std::runtime_error((partial_ / "camera.yaml").string() + ": can't be written");

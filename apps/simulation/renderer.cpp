@@ -17,6 +17,9 @@ namespace {
 using Eigen::Matrix3f;
 using Eigen::Vector3f;
 
+constexpr int kTile = 4;  // Pixels along an edge of what is traced at once.
+static_assert(kTile * kTile == RayWorld::kPacket);
+
 /// The rays of a camera.
 struct Lens {
   Vector3f origin;
@@ -39,38 +42,41 @@ int surfaceKey(const RayWorld& world, const RayHit& hit) {
   return (static_cast<int>(hit.kind) << 24) | detail;
 }
 
+/// 0, or 1 + the number of the person that was hit.
+std::uint8_t personNumber(const RayWorld& world, const RayHit& hit) {
+  if (hit.kind != RayHit::Kind::kBody) return 0;
+  return static_cast<std::uint8_t>(1 +
+                                   world.bodyParts()[static_cast<std::size_t>(hit.index)].person);
+}
+
 cv::Vec3f toBgr(const Rgb& rgb) { return {rgb[2], rgb[1], rgb[0]}; }
 
-/// @param shadows  One for each two columns; the second of two rows shares those of the first.
-void renderRow(const RayWorld& world, const Shader& shader, const Lens& lens, int v,
-               std::vector<NearbyShadow>& shadows, RenderedView& view) {
-  auto* radiance = view.radiance.ptr<cv::Vec3f>(v);
-  auto* depth = view.depth_m.ptr<float>(v);
-  auto* people = view.people.ptr<std::uint8_t>(v);
-  auto* surface = view.surface.ptr<int>(v);
+/// Renders a square of 4 x 4 pixels: so many rays are traced at once. Each 2 x 2 of them share the
+/// shadows of people.
+void renderTile(const RayWorld& world, const Shader& shader, const Lens& lens, int left, int top,
+                RenderedView& view) {
+  std::array<cv::Point, RayWorld::kPacket> pixels;
   std::array<Vector3f, RayWorld::kPacket> directions;
   std::array<RayHit, RayWorld::kPacket> hits;
-  for (int u = 0; u < view.depth_m.cols; u += RayWorld::kPacket) {
-    const int count = std::min(RayWorld::kPacket, view.depth_m.cols - u);
-    for (int i = 0; i < count; ++i) {
-      directions[static_cast<std::size_t>(i)] =
-          lens.direction(static_cast<float>(u + i), static_cast<float>(v));
-    }
-    world.trace(lens.origin, directions.data(), count, hits);
-    for (int i = 0; i < count; ++i) {
-      const RayHit& hit = hits[static_cast<std::size_t>(i)];
-      NearbyShadow& shadow = shadows[static_cast<std::size_t>((u + i) / 2)];
-      const bool share_shadow = v % 2 != 0 || i % 2 != 0;
-      radiance[u + i] = toBgr(shader.radiance(lens.ray(directions[static_cast<std::size_t>(i)]),
-                                              hit, shadow, share_shadow));
-      depth[u + i] = hit.kind == RayHit::Kind::kNothing ? std::numeric_limits<float>::quiet_NaN()
-                                                        : hit.distance;
-      people[u + i] = hit.kind != RayHit::Kind::kBody
-                          ? std::uint8_t{0}
-                          : static_cast<std::uint8_t>(
-                                1 + world.bodyParts()[static_cast<std::size_t>(hit.index)].person);
-      surface[u + i] = surfaceKey(world, hit);
-    }
+  std::size_t count = 0;
+  for (int i = 0; i < RayWorld::kPacket; ++i) {  // 2 x 2 after 2 x 2.
+    const cv::Point pixel(left + i / 4 % 2 * 2 + i % 2, top + i / 8 * 2 + i / 2 % 2);
+    if (pixel.x >= view.depth_m.cols || pixel.y >= view.depth_m.rows) continue;
+    pixels[count] = pixel;
+    directions[count++] = lens.direction(static_cast<float>(pixel.x), static_cast<float>(pixel.y));
+  }
+  world.trace(lens.origin, directions.data(), static_cast<int>(count), hits);
+  NearbyLight nearby;
+  for (std::size_t i = 0; i < count; ++i) {
+    const cv::Point& pixel = pixels[i];
+    const RayHit& hit = hits[i];
+    if (pixel.x % 2 == 0 && pixel.y % 2 == 0) nearby.kind = RayHit::Kind::kNothing;
+    view.radiance.at<cv::Vec3f>(pixel) =
+        toBgr(shader.radiance(lens.ray(directions[i]), hit, nearby));
+    view.depth_m.at<float>(pixel) =
+        hit.kind == RayHit::Kind::kNothing ? std::numeric_limits<float>::quiet_NaN() : hit.distance;
+    view.people.at<std::uint8_t>(pixel) = personNumber(world, hit);
+    view.surface.at<int>(pixel) = surfaceKey(world, hit);
   }
 }
 
@@ -85,49 +91,54 @@ bool isEdge(int key, int other_key, const cv::Vec3f& light, const cv::Vec3f& oth
   return difference > 0.12F * sum;
 }
 
-/// Marks the pixels of a row at which surfaces meet.
-void findEdges(const RenderedView& view, int v, std::vector<int>& edges) {
+/// Lists the pixels of four rows at which surfaces meet, column by column, so that those which
+/// follow each other are near each other.
+void findEdges(const RenderedView& view, int top, std::vector<cv::Point>& edges) {
   const int last_u = view.depth_m.cols - 1, last_v = view.depth_m.rows - 1;
-  const int rows[3] = {std::max(v - 1, 0), v, std::min(v + 1, last_v)};
-  const int* keys[3];
-  const cv::Vec3f* light[3];
-  for (int i = 0; i < 3; ++i) {
-    keys[i] = view.surface.ptr<int>(rows[i]);
-    light[i] = view.radiance.ptr<cv::Vec3f>(rows[i]);
+  std::array<const int*, kTile + 2> keys;
+  std::array<const cv::Vec3f*, kTile + 2> light;
+  for (int i = 0; i < kTile + 2; ++i) {
+    const int v = std::clamp(top + i - 1, 0, last_v);
+    keys[static_cast<std::size_t>(i)] = view.surface.ptr<int>(v);
+    light[static_cast<std::size_t>(i)] = view.radiance.ptr<cv::Vec3f>(v);
   }
   edges.clear();
   for (int u = 0; u <= last_u; ++u) {
     const int before = std::max(u - 1, 0), after = std::min(u + 1, last_u);
-    const int key = keys[1][u];
-    const cv::Vec3f& here = light[1][u];
-    if (isEdge(key, keys[1][before], here, light[1][before]) ||
-        isEdge(key, keys[1][after], here, light[1][after]) ||
-        isEdge(key, keys[0][u], here, light[0][u]) || isEdge(key, keys[2][u], here, light[2][u])) {
-      edges.push_back(u);
+    for (int v = top; v < std::min(top + kTile, last_v + 1); ++v) {
+      const auto row = static_cast<std::size_t>(v - top + 1);
+      const auto differs = [&](int other_u, std::size_t other_row) {
+        return isEdge(keys[row][u], keys[other_row][other_u], light[row][u],
+                      light[other_row][other_u]);
+      };
+      if (differs(before, row) || differs(after, row) || differs(u, row - 1) ||
+          differs(u, row + 1)) {
+        edges.emplace_back(u, v);
+      }
     }
   }
 }
 
 /// Where surfaces meet, a pixel is the average of its centre and two more rays.
-void smoothRow(const RayWorld& world, const Shader& shader, const Lens& lens, int v,
-               const std::vector<int>& edges, RenderedView& view) {
+void smooth(const RayWorld& world, const Shader& shader, const Lens& lens,
+            const std::vector<cv::Point>& edges, RenderedView& view) {
   static constexpr float kOffsets[2][2] = {{-0.34F, -0.17F}, {0.34F, 0.17F}};
   constexpr std::size_t kPixels = RayWorld::kPacket / 2;
-  auto* radiance = view.radiance.ptr<cv::Vec3f>(v);
   std::array<Vector3f, RayWorld::kPacket> directions;
   std::array<RayHit, RayWorld::kPacket> hits;
-  NearbyShadow shadow;
   for (std::size_t first = 0; first < edges.size(); first += kPixels) {
     const std::size_t pixels = std::min(kPixels, edges.size() - first);
     for (std::size_t i = 0; i < 2 * pixels; ++i) {
-      directions[i] = lens.direction(static_cast<float>(edges[first + i / 2]) + kOffsets[i % 2][0],
-                                     static_cast<float>(v) + kOffsets[i % 2][1]);
+      const cv::Point& pixel = edges[first + i / 2];
+      directions[i] = lens.direction(static_cast<float>(pixel.x) + kOffsets[i % 2][0],
+                                     static_cast<float>(pixel.y) + kOffsets[i % 2][1]);
     }
     world.trace(lens.origin, directions.data(), static_cast<int>(2 * pixels), hits);
     for (std::size_t i = 0; i < 2 * pixels; i += 2) {
-      const Rgb sum = shader.radiance(lens.ray(directions[i]), hits[i], shadow, false) +
-                      shader.radiance(lens.ray(directions[i + 1]), hits[i + 1], shadow, true);
-      cv::Vec3f& pixel = radiance[edges[first + i / 2]];
+      NearbyLight nearby;
+      Rgb sum = shader.radiance(lens.ray(directions[i]), hits[i], nearby);
+      sum += shader.radiance(lens.ray(directions[i + 1]), hits[i + 1], nearby);
+      auto& pixel = view.radiance.at<cv::Vec3f>(edges[first + i / 2]);
       pixel = (pixel + toBgr(sum)) / 3.0F;
     }
   }
@@ -147,18 +158,19 @@ void renderView(const RayWorld& world, const Shader& shader, const PinholeCamera
                   static_cast<float>(camera.fy),
                   static_cast<float>(camera.cx),
                   static_cast<float>(camera.cy)};
-  tbb::parallel_for(0, (camera.height + 1) / 2, [&](int pair) {
-    std::vector<NearbyShadow> shadows(static_cast<std::size_t>(camera.width + 1) / 2);
-    for (int v = 2 * pair; v < std::min(2 * pair + 2, camera.height); ++v) {
-      renderRow(world, shader, lens, v, shadows, view);
+  const int bands = (camera.height + kTile - 1) / kTile;
+  tbb::parallel_for(0, bands, [&](int band) {
+    for (int left = 0; left < camera.width; left += kTile) {
+      renderTile(world, shader, lens, left, kTile * band, view);
     }
   });
-  // First all edges, then their smoothing: rows must not see neighbours that are smoothed already.
-  std::vector<std::vector<int>> edges(static_cast<std::size_t>(camera.height));
-  tbb::parallel_for(0, camera.height,
-                    [&](int v) { findEdges(view, v, edges[static_cast<std::size_t>(v)]); });
-  tbb::parallel_for(0, camera.height, [&](int v) {
-    smoothRow(world, shader, lens, v, edges[static_cast<std::size_t>(v)], view);
+  // First all edges, then their smoothing: what is looked at must not be smoothed already.
+  std::vector<std::vector<cv::Point>> edges(static_cast<std::size_t>(bands));
+  tbb::parallel_for(0, bands, [&](int band) {
+    findEdges(view, kTile * band, edges[static_cast<std::size_t>(band)]);
+  });
+  tbb::parallel_for(0, bands, [&](int band) {
+    smooth(world, shader, lens, edges[static_cast<std::size_t>(band)], view);
   });
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <tuple>
 
 namespace heel {
 namespace {
@@ -54,6 +55,7 @@ Shader::Shader(const Scene& scene, const Geometry& geometry, const RayWorld& wor
       geometry_(geometry),
       world_(world),
       lights_(lights),
+      shadows_(geometry, world, lights),
       weave_(256,
              [](float u, float v) {
                return Rgb::Constant(0.86F + 0.16F * tileNoise(u, v, 96, 201) +
@@ -63,23 +65,30 @@ Shader::Shader(const Scene& scene, const Geometry& geometry, const RayWorld& wor
         return Rgb::Constant(0.7F + 0.6F * tileFractal(u, v, 5, 3, 203));
       }) {
   for (const Face& face : geometry.faces) {
-    frames_.push_back({face.edge_u / face.edge_u.squaredNorm(),
-                       face.edge_v / face.edge_v.squaredNorm(), face.edge_u.norm(),
-                       face.edge_v.norm()});
+    const Material& material = geometry.materials[face.material];
+    const float width_m = face.edge_u.norm(), height_m = face.edge_v.norm();
+    frames_.push_back({face.edge_u / (width_m * width_m), face.edge_v / (height_m * height_m),
+                       material.fit_width ? 0.0F : face.texture_u_m / material.tile_m,
+                       material.fit_width ? 1.0F : width_m / material.tile_m,
+                       material.fit_height ? 1.0F : height_m / material.tile_m,
+                       material.fit_height ? height_m : material.tile_m});
   }
-  peopleHaveMoved();
 }
 
-Rgb Shader::radiance(const ShadedRay& ray, const RayHit& hit, NearbyShadow& shadow,
-                     bool share_shadow) const {
+Rgb Shader::radiance(const ShadedRay& ray, const RayHit& hit, NearbyLight& nearby) const {
+  if (nearby.kind != hit.kind || nearby.index != hit.index) {
+    nearby.kind = hit.kind;
+    nearby.index = hit.index;
+    nearby.known = 0;
+  }
   const Vector3f p = ray.origin + hit.distance * ray.direction;
   switch (hit.kind) {
     case RayHit::Kind::kFace:
-      return faceRadiance(ray, hit, p, shadow, share_shadow);
+      return faceRadiance(ray, hit, p, nearby);
     case RayHit::Kind::kPillar:
-      return pillarRadiance(ray, hit, p);
+      return pillarRadiance(ray, hit, p, nearby);
     case RayHit::Kind::kBody:
-      return bodyRadiance(ray, hit, p);
+      return bodyRadiance(ray, hit, p, nearby);
     case RayHit::Kind::kNothing:
       break;
   }
@@ -87,51 +96,56 @@ Rgb Shader::radiance(const ShadedRay& ray, const RayHit& hit, NearbyShadow& shad
 }
 
 Rgb Shader::faceRadiance(const ShadedRay& ray, const RayHit& hit, const Vector3f& p,
-                         NearbyShadow& shadow, bool share_shadow) const {
+                         NearbyLight& nearby) const {
   const Face& face = geometry_.faces[static_cast<std::size_t>(hit.index)];
   const FaceFrame& frame = frames_[static_cast<std::size_t>(hit.index)];
   const Material& material = geometry_.materials[face.material];
   const Vector3f from = p - face.origin;
   const float a = from.dot(frame.per_u), b = from.dot(frame.per_v);
-  const float u =
-      material.fit_width ? a : (face.texture_u_m + a * frame.length_u) / material.tile_m;
-  const float v = material.fit_height ? b : b * frame.length_v / material.tile_m;
-  const float tile_m = material.fit_height ? frame.length_v : material.tile_m;
-  const Rgb albedo = face.tint * material.texture.sample(u, v, footprintOf(ray, hit) / tile_m);
+  const Rgb albedo =
+      face.tint * material.texture.sample(frame.texture_u + a * frame.tiles_u, b * frame.tiles_v,
+                                          footprintOf(ray, hit) / frame.tile_m);
   if (material.glow > 0.0F) return material.glow * albedo;
-  const std::vector<SourceOnFace>& sources = lights_.sourcesOn(hit.index);
-  const std::uint64_t lit = lights_.sourcesAt(hit.index, a, b);
-  std::array<float, 64> white;
-  Rgb light = lights_.bounced(hit.index, a, b);
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    white[i] = (lit >> i & 1U) != 0U ? sources[i].white.at(a, b) : 0.0F;
-    if (white[i] > kNegligible)
-      light += white[i] * lights_.sources()[static_cast<std::size_t>(sources[i].source)].color();
-  }
+  Rgb light = lights_.still(hit.index, a, b), shine = Rgb::Zero();
+  const bool is_glossy = material.gloss > 0.0F;
+  const std::uint64_t shaded = shadows_.possible(hit.index, a, b);
+  std::uint64_t wanted = is_glossy ? lights_.sourcesNear(hit.index).nearest(a, b) : shaded;
+  if (wanted == 0) return albedo * light * kPerPi;
+
   // Only a source that matters here is asked whether people stand before it.
   const float matters = std::max(kNegligible, kFaintShadow * light.maxCoeff());
-  const bool share = share_shadow && shadow.face == hit.index;
-  shadow.face = hit.index;
-  Rgb shine = Rgb::Zero();
   const Vector3f mirrored =
-      (ray.direction - 2.0F * ray.direction.dot(face.normal) * face.normal).normalized();
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    float& seen = shadow.seen[i];
-    if (!share) seen = 1.0F;
-    if (white[i] < matters) continue;
+      is_glossy ? Vector3f(ray.direction - 2.0F * ray.direction.dot(face.normal) * face.normal)
+                      .normalized()
+                : Vector3f::Zero();
+  const std::vector<SourceOnFace>& sources = lights_.sourcesOn(hit.index);
+  for (std::size_t i = 0; wanted != 0; ++i, wanted >>= 1U) {
+    if ((wanted & 1U) == 0U) continue;
     const auto s = static_cast<std::size_t>(sources[i].source);
     const LightSource& source = lights_.sources()[s];
-    if (!share) seen = notShaded(s, p + kOffSurface_m * face.normal);
-    if (seen < 1.0F) light -= (1.0F - seen) * white[i] * source.color();
-    if (material.gloss > 0.0F && seen > 0.0F) {
-      shine += seen * white[i] * source.color() *
-               highlight(mirrored, source.points()[0] - p, 0.25F * material.gloss_power);
+    const std::uint64_t bit = std::uint64_t{1} << i;
+    const float glint =
+        is_glossy ? highlight(mirrored, source.points()[0] - p, 0.25F * material.gloss_power)
+                  : 0.0F;
+    if (glint == 0.0F && (shaded & bit) == 0) continue;
+    const float white = sources[i].white.at(a, b);
+    if (white < matters) continue;
+    float seen = 1.0F;
+    if ((shaded & bit) != 0) {
+      if ((nearby.known & bit) == 0) {
+        nearby.seen[i] = shadows_.seen(s, p + kOffSurface_m * face.normal);
+        nearby.known |= bit;
+      }
+      seen = nearby.seen[i];
     }
+    light -= (1.0F - seen) * white * source.color();
+    shine += seen * white * glint * source.color();
   }
   return albedo * light * kPerPi + material.gloss * shine;
 }
 
-Rgb Shader::pillarRadiance(const ShadedRay& ray, const RayHit& hit, const Vector3f& p) const {
+Rgb Shader::pillarRadiance(const ShadedRay& ray, const RayHit& hit, const Vector3f& p,
+                           NearbyLight& nearby) const {
   const Pillar& pillar = geometry_.pillars[static_cast<std::size_t>(hit.index)];
   const Material& material = geometry_.materials[pillar.material];
   const Vector3f q = p - pillar.base;
@@ -141,13 +155,14 @@ Rgb Shader::pillarRadiance(const ShadedRay& ray, const RayHit& hit, const Vector
   const Rgb albedo = pillar.tint * material.texture.sample(u / material.tile_m, v / material.tile_m,
                                                            footprintOf(ray, hit) / material.tile_m);
   if (material.glow > 0.0F) return material.glow * albedo;
-  return albedo * lightInRoom(p + kOffSurface_m * hit.normal, hit.normal) * kPerPi;
+  return albedo * lightInRoom(p + kOffSurface_m * hit.normal, hit.normal, nearby) * kPerPi;
 }
 
-Rgb Shader::bodyRadiance(const ShadedRay& ray, const RayHit& hit, const Vector3f& p) const {
+Rgb Shader::bodyRadiance(const ShadedRay& ray, const RayHit& hit, const Vector3f& p,
+                         NearbyLight& nearby) const {
   const BodyPart& part = world_.bodyParts()[static_cast<std::size_t>(hit.index)];
   const Rgb albedo = bodyColor(part, p, footprintOf(ray, hit));
-  return albedo * lightInRoom(p + 2.0F * kOffSurface_m * hit.normal, hit.normal) * kPerPi;
+  return albedo * lightInRoom(p + 2.0F * kOffSurface_m * hit.normal, hit.normal, nearby) * kPerPi;
 }
 
 Rgb Shader::bodyColor(const BodyPart& part, const Vector3f& p, float footprint_m) const {
@@ -185,70 +200,25 @@ Rgb Shader::clothColor(const Cloth& cloth, float u, float v, float footprint_m) 
   return cloth.color + 0.5F * (across + along) * (cloth.second - cloth.color);
 }
 
-Rgb Shader::lightInRoom(const Vector3f& p, const Vector3f& normal) const {
-  const RoomLight room = lights_.inRoom(p);
-  Rgb light = room.bouncedOn(normal);
-  std::array<Vector3f, RayWorld::kPacket> points;
-  std::array<Rgb, RayWorld::kPacket> falling;
-  int count = 0;
-  const auto add_what_arrives = [&] {
-    const unsigned hidden = world_.blocked(p, points.data(), count, RayTarget::kPeople);
-    for (int i = 0; i < count; ++i) {
-      const bool seen = (hidden >> static_cast<unsigned>(i) & 1U) == 0U;
-      if (seen) light += falling[static_cast<std::size_t>(i)];
-    }
-    count = 0;
-  };
+Rgb Shader::lightInRoom(const Vector3f& p, const Vector3f& normal, NearbyLight& nearby) const {
+  if (nearby.known == 0) nearby.room = lights_.inRoom(p);  // It changes slowly.
+  Rgb light = nearby.room.bouncedOn(normal);
   const std::vector<LightSource>& sources = lights_.sources();
-  for (std::size_t s = 0; s < std::min(sources.size(), room.open.size()); ++s) {
-    // A few of a source's points are enough for the rounded shapes of bodies.
-    const std::size_t some = sources[s].pointsForBodies();
-    const float share =
-        room.open[s] * static_cast<float>(sources[s].points().size()) / static_cast<float>(some);
-    for (std::size_t i = 0; i < some; ++i) {
-      const float white = share * sources[s].irradiance(i, p, normal);
-      if (white < 3.0F * kNegligible) continue;
-      points[static_cast<std::size_t>(count)] = sources[s].points()[i];
-      falling[static_cast<std::size_t>(count++)] = white * sources[s].color();
-      if (count == RayWorld::kPacket) add_what_arrives();
-    }
+  const std::size_t count = std::min(sources.size(), nearby.room.open.size());
+  std::array<float, std::tuple_size_v<decltype(RoomLight::open)>> white;
+  std::uint64_t wanted = 0;
+  for (std::size_t s = 0; s < count; ++s) {
+    white[s] = nearby.room.open[s] > 0.0F
+                   ? nearby.room.open[s] * sources[s].irradianceOnBody(p, normal)
+                   : 0.0F;
+    if (white[s] >= 3.0F * kNegligible) wanted |= std::uint64_t{1} << s;
   }
-  if (count > 0) add_what_arrives();
+  shadows_.lookFromBody(p, wanted & ~nearby.known, nearby.seen);
+  nearby.known |= wanted;
+  for (std::size_t s = 0; s < count; ++s) {
+    if ((wanted >> s & 1U) != 0U) light += nearby.seen[s] * white[s] * sources[s].color();
+  }
   return light;
-}
-
-void Shader::peopleHaveMoved() {
-  lit_people_.assign(lights_.sources().size(), 0);
-  const std::vector<PersonBounds>& people = world_.people();
-  for (std::size_t i = 0; i < people.size(); ++i) {
-    // Whom no light of a lamp reaches throws no shadow of it. Beyond 63 people all share one bit.
-    const std::uint64_t bit = std::uint64_t{1} << std::min(i, std::size_t{63});
-    const RoomLight room = lights_.inRoom({people[i].center.x(), people[i].center.y(), 1.0F});
-    for (std::size_t s = 0; s < lit_people_.size(); ++s) {
-      if (s >= room.open.size() || room.open[s] > 0.0F) lit_people_[s] |= bit;
-    }
-  }
-}
-
-float Shader::notShaded(std::size_t source_index, const Vector3f& p) const {
-  const std::uint64_t who = lit_people_[source_index];
-  const LightSource& source = lights_.sources()[source_index];
-  if (who == 0 || !world_.peopleNear(p, source.center(), source.reach_m(), who)) return 1.0F;
-  // Some of the points first; the others only where those do not agree (at a shadow's soft edge).
-  const std::vector<Vector3f>& points = source.points();
-  const int all = static_cast<int>(points.size()), some = source.firstPoints();
-  int seen = countSeen(p, points.data(), some);
-  if (seen == 0) return 0.0F;
-  if (seen == some) return 1.0F;
-  seen += countSeen(p, points.data() + some, all - some);
-  return static_cast<float>(seen) / static_cast<float>(all);
-}
-
-int Shader::countSeen(const Vector3f& p, const Vector3f* points, int count) const {
-  unsigned hidden = world_.blocked(p, points, count, RayTarget::kPeople);
-  int seen = count;
-  for (; hidden != 0U; hidden &= hidden - 1U) --seen;
-  return seen;
 }
 
 }  // namespace heel

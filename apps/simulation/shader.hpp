@@ -5,7 +5,7 @@
 /// The light that comes back along a ray: materials, clothes, shadows and highlights.
 #pragma once
 
-#include "apps/simulation/light_map.hpp"
+#include "apps/simulation/people_shadows.hpp"
 
 #include <array>
 #include <cstdint>
@@ -20,10 +20,13 @@ struct ShadedRay {
   float pixel_rad = 0.0F;     ///< Angle of a pixel: how much of a surface it averages.
 };
 
-/// People's shadows at the ray before, for a neighbour on the same face to share.
-struct NearbyShadow {
-  int face = -1;
-  std::array<float, 64> seen;  ///< The share of each of the face's sources.
+/// What rays that hit the same face, pillar or body part close to each other share.
+struct NearbyLight {
+  RayHit::Kind kind = RayHit::Kind::kNothing;
+  int index = -1;
+  std::uint64_t known = 0;     ///< The sources that people were looked for before, one bit each.
+  std::array<float, 64> seen;  ///< The share of each of those that they leave.
+  RoomLight room;              ///< About a pillar or a body.
 };
 
 /// Colours hits. Reads the ray world's people of the moment; `const` members are thread-safe.
@@ -34,42 +37,43 @@ class Shader {
          const LightMap& lights);
 
   /// To be called when the world's people have changed.
-  void peopleHaveMoved();
+  void peopleHaveMoved() { shadows_.update(); }
 
   /// Radiance that comes back from `hit`; black where there is nothing.
   ///
-  /// @param shadow  In and out. Where `share_shadow` is set and the face is the same as before,
-  ///                people's shadows are those of the ray before.
-  Rgb radiance(const ShadedRay& ray, const RayHit& hit, NearbyShadow& shadow,
-               bool share_shadow) const;
+  /// @param nearby  In and out: where the same thing is hit as before, people's shadows are those
+  /// of
+  ///                the rays before.
+  Rgb radiance(const ShadedRay& ray, const RayHit& hit, NearbyLight& nearby) const;
 
  private:
   struct FaceFrame {
     Eigen::Vector3f per_u;  // Dot with (point - origin) gives [0, 1] along the edge.
     Eigen::Vector3f per_v;
-    float length_u;
-    float length_v;
+    float texture_u;  // Where the texture starts, in tiles.
+    float tiles_u;    // How often it repeats along the edges.
+    float tiles_v;
+    float tile_m;
   };
 
   Rgb faceRadiance(const ShadedRay& ray, const RayHit& hit, const Eigen::Vector3f& p,
-                   NearbyShadow& shadow, bool share_shadow) const;
-  Rgb pillarRadiance(const ShadedRay& ray, const RayHit& hit, const Eigen::Vector3f& p) const;
-  Rgb bodyRadiance(const ShadedRay& ray, const RayHit& hit, const Eigen::Vector3f& p) const;
+                   NearbyLight& nearby) const;
+  Rgb pillarRadiance(const ShadedRay& ray, const RayHit& hit, const Eigen::Vector3f& p,
+                     NearbyLight& nearby) const;
+  Rgb bodyRadiance(const ShadedRay& ray, const RayHit& hit, const Eigen::Vector3f& p,
+                   NearbyLight& nearby) const;
   Rgb bodyColor(const BodyPart& part, const Eigen::Vector3f& p, float footprint_m) const;
   Rgb clothColor(const Cloth& cloth, float u, float v, float footprint_m) const;
   /// Light from all sources and from the room, with every shadow, on something that moves.
-  Rgb lightInRoom(const Eigen::Vector3f& p, const Eigen::Vector3f& normal) const;
-  /// How many of a source's points people do not hide from `p`.
-  int countSeen(const Eigen::Vector3f& p, const Eigen::Vector3f* points, int count) const;
-  /// The share of a source that people do not keep from `p`.
-  float notShaded(std::size_t source, const Eigen::Vector3f& p) const;
+  Rgb lightInRoom(const Eigen::Vector3f& p, const Eigen::Vector3f& normal,
+                  NearbyLight& nearby) const;
 
   const Scene& scene_;
   const Geometry& geometry_;
   const RayWorld& world_;
   const LightMap& lights_;
   std::vector<FaceFrame> frames_;
-  std::vector<std::uint64_t> lit_people_;  // For each source, whom its light reaches, one bit each.
+  PeopleShadows shadows_;
   Texture weave_;
   Texture folds_;
 };

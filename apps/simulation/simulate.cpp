@@ -3,10 +3,13 @@
 
 #include "apps/simulation/simulate.hpp"
 
+#include "apps/recording/sensor_bag.hpp"
 #include "apps/simulation/recording_writer.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 namespace heel {
 namespace {
@@ -28,19 +31,54 @@ double stepFor(const RobotParams& robot) {
   return step;
 }
 
+SensorBag beginBag(const std::filesystem::path& path, const Simulator& simulator) {
+  RecordingInfo info;
+  info.sensor = SensorKind::kStereo;
+  info.camera = simulator.camera();
+  info.T_base_camera = simulator.T_base_camera();
+  SensorBag bag(path, info);
+  const LaserParams& laser = simulator.scene().robot.laser;
+  Eigen::Isometry3d T_base_scanner = Eigen::Isometry3d::Identity();
+  T_base_scanner.translation() = laser.at;
+  bag.setScanner(T_base_scanner, static_cast<float>(laser.max_range_m));
+  return bag;
+}
+
+void addTo(SensorBag& bag, const Readings& readings) {
+  std::vector<FloorPose> people;
+  for (const PersonTruth& person : readings.truth.people) {
+    people.push_back({person.position, person.yaw_rad});
+  }
+  bag.addTruth(readings.stamp_s, readings.truth.robot, people);
+  // The odometry comes before what is measured from where it says.
+  if (readings.odometry) bag.addOdometry(readings.stamp_s, *readings.odometry);
+  if (readings.laser != nullptr) bag.add(readings.stamp_s, *readings.laser);
+  if (readings.stereo == nullptr) return;
+  Frame frame;
+  frame.stamp_s = readings.stamp_s;
+  frame.image_bgr = readings.stereo->left_bgr;
+  frame.right_bgr = readings.stereo->right_bgr;
+  bag.add(frame);
+}
+
 }  // namespace
 
 SimulateResult simulate(const Scene& scene, const SimulateOptions& options) {
   Simulator simulator(scene, {options.seed, options.threads, true});
   RecordingWriter writer(options.out, simulator, options.write_pixel_truth);
+  std::optional<SensorBag> bag;
+  if (!options.bag.empty()) bag.emplace(beginBag(options.bag, simulator));
   SimulateResult result;
   result.duration_s = options.duration_s.value_or(scene.duration_s);
   const double step_s = stepFor(scene.robot);
   const auto steps = std::lround(std::ceil(result.duration_s / step_s - 1e-6));
   for (long i = 0; i < steps; ++i) {
-    writer.add(simulator.step(i == 0 ? 0.0 : step_s));
+    const Readings& readings = simulator.step(i == 0 ? 0.0 : step_s);
+    writer.add(readings);
+    if (bag) addTo(*bag, readings);
     if (options.progress) options.progress(static_cast<double>(i + 1) / static_cast<double>(steps));
   }
+  if (bag) bag->commit();
   writer.finish();
   result.frames = writer.frames();
   return result;

@@ -16,7 +16,8 @@ namespace heel {
 
 /// What to record, and where.
 struct SimulateOptions {
-  std::filesystem::path out;         ///< Folder; made here, and it must not hold anything yet.
+  std::filesystem::path out;  ///< Folder; made here, and it must not hold anything yet.
+  std::filesystem::path bag;  ///< Also a bag with the same images and readings; may be empty.
   std::optional<double> duration_s;  ///< Else the scene's own.
   std::uint64_t seed = 1;
   int threads = 0;                       ///< 0 = as many as the machine has.
@@ -46,6 +47,8 @@ struct SimulateResult {
 ///   number of the person |
 ///
 /// Images and truth are written whole or not at all: the folder appears when all is done.
+/// The bag (see SensorBag) has the same images, the readings of the laser and of the odometry as
+/// they were measured, and the truth of the robot and people.
 /// @throws std::runtime_error  one sentence, if `out` holds something or can't be written.
 SimulateResult simulate(const Scene& scene, const SimulateOptions& options);
 

@@ -4,6 +4,7 @@
 #include "apps/simulation/simulator.hpp"
 
 #include <tbb/info.h>
+#include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -149,10 +150,15 @@ void Simulator::State::render() {
   const std::uint64_t picture = hashOf(options.seed, 3, camera_clock.count());
   const float right_gain = 1.0F + 0.03F * static_cast<float>(uniformFrom(options.seed) - 0.5);
   arena.execute([&] {
-    renderView(world, *shader, pinhole, T_world_left, left);
-    renderView(world, *shader, pinhole, T_world_right, right);
-    camera_model->develop(left.radiance, picture, 1.0F, stereo.left_bgr);
-    camera_model->develop(right.radiance, picture + 1, right_gain, stereo.right_bgr);
+    tbb::parallel_invoke(
+        [&] {
+          renderView(world, *shader, pinhole, T_world_left, left);
+          camera_model->develop(left.radiance, picture, 1.0F, stereo.left_bgr);
+        },
+        [&] {
+          renderView(world, *shader, pinhole, T_world_right, right);
+          camera_model->develop(right.radiance, picture + 1, right_gain, stereo.right_bgr);
+        });
   });
   stereo.depth_m = left.depth_m;
   stereo.people = left.people;

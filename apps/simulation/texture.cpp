@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace heel {
 namespace {
@@ -62,14 +63,17 @@ Texture::Texel Texture::bilinear(std::size_t level, float u, float v) const {
 Rgb Texture::sample(float u, float v, float footprint) const {
   const float texels = footprint * static_cast<float>(size_);
   if (!(texels > 1.0F)) return bilinear(0, u, v).head<3>();
-  // The exponent is the level; the rest of the number is nearly how far it is to the next one.
-  int exponent = 0;
-  const float weight = 2.0F * std::frexp(texels, &exponent) - 1.0F;
+  // The float's exponent is the level; its fraction is nearly how far it is to the next one.
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &texels, sizeof bits);
   const std::size_t last = levels_.size() - 1;
-  const std::size_t fine = std::min(static_cast<std::size_t>(exponent - 1), last);
+  const std::size_t fine = std::min(static_cast<std::size_t>((bits >> 23U) - 127U), last);
   const std::size_t coarse = std::min(fine + 1, last);
-  if (weight < 0.1F) return bilinear(fine, u, v).head<3>();
-  if (weight > 0.9F) return bilinear(coarse, u, v).head<3>();
+  const float way = static_cast<float>(bits & 0x7FFFFFU) * 0x1p-23F;
+  // Levels are mixed only about half-way between them, which halves the look-ups and hardly shows.
+  const float weight = std::clamp(2.0F * way - 0.5F, 0.0F, 1.0F);
+  if (weight == 0.0F) return bilinear(fine, u, v).head<3>();
+  if (weight == 1.0F) return bilinear(coarse, u, v).head<3>();
   return (bilinear(fine, u, v) * (1.0F - weight) + bilinear(coarse, u, v) * weight).head<3>();
 }
 

@@ -190,7 +190,7 @@ TEST(OpenRecording, NamesTheKnownLayoutsForAnyOtherFolder) {
   }
   writeText(folder / "notes.txt", "hello");
   EXPECT_THAT(messageOf([&] { openRecording(folder / "notes.txt"); }),
-              HasSubstr("neither a folder nor a PCD file"));
+              HasSubstr("neither a folder, nor a PCD file (.pcd), nor a bag"));
 }
 
 TEST(OpenRecording, RefusesParametersThatAreNotPositive) {

@@ -132,18 +132,36 @@ TEST_F(RayWorldTest, AnswersTheSameForPacketsAsForSingleRays) {
   RayWorld world(geometry);
   world.setPeople({{{2.5F, -0.3F, 0.0F}, {2.5F, -0.3F, 0.5F}, 0.2F, 0.1F}});
   for (int row = -20; row <= 20; ++row) {
-    std::array<Vector3f, 8> directions;
-    for (int i = 0; i < 8; ++i) {
-      directions[static_cast<std::size_t>(i)] = {1.0F, 0.08F * static_cast<float>(i) - 0.3F,
-                                                 0.02F * static_cast<float>(row)};
+    std::array<Vector3f, RayWorld::kPacket> directions;
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      directions[i] = {1.0F, 0.04F * static_cast<float>(i) - 0.3F, 0.02F * static_cast<float>(row)};
     }
-    std::array<RayHit, 8> hits;
-    world.trace(Vector3f::Zero(), directions.data(), 7, hits);
-    for (std::size_t i = 0; i < 7; ++i) {
+    std::array<RayHit, RayWorld::kPacket> hits;
+    world.trace(Vector3f::Zero(), directions.data(), RayWorld::kPacket - 1, hits);
+    for (std::size_t i = 0; i + 1 < directions.size(); ++i) {
       const RayHit single = world.trace(Vector3f::Zero(), directions[i]);
       EXPECT_EQ(hits[i].kind, single.kind);
       EXPECT_NEAR(hits[i].distance, single.distance, 1e-4);
     }
+  }
+}
+
+TEST_F(RayWorldTest, FindsPeopleWithPacketsThatLookAllAround) {
+  Geometry geometry;
+  geometry.faces.push_back({{4, 10, -10}, {0, -20, 0}, {0, 0, 20}, {-1, 0, 0}});
+  RayWorld world(geometry);
+  for (int turn = 0; turn < 16; ++turn) {
+    const auto ray = [](int i) {
+      const float angle = 0.3926991F * static_cast<float>(i);
+      return Vector3f(std::cos(angle), std::sin(angle), 0.0F);
+    };
+    const Vector3f middle = 2.0F * ray(turn), up(0.0F, 0.0F, 0.1F);
+    world.setPeople({{middle - up, middle + up, 0.2F, 0.2F}});
+    std::array<Vector3f, RayWorld::kPacket> directions;
+    for (int i = 0; i < 16; ++i) directions[static_cast<std::size_t>(i)] = ray(i);
+    std::array<RayHit, RayWorld::kPacket> hits;
+    world.trace(Vector3f::Zero(), directions.data(), RayWorld::kPacket, hits);
+    EXPECT_EQ(hits[static_cast<std::size_t>(turn)].kind, RayHit::Kind::kBody) << turn;
   }
 }
 

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/bag/bag.hpp"
+
+#include "apps/bag/ros1_bag_reader.hpp"
+#include "apps/bag/ros1_bag_writer.hpp"
+#include "apps/bag/ros2_bag_reader.hpp"
+#include "apps/bag/ros2_bag_writer.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace heel {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// ".bag", and what a recorder calls a bag that it has not closed: ".bag.active".
+bool isRos1Name(const fs::path& path) {
+  return path.extension() == ".bag" ||
+         (path.extension() == ".active" && path.stem().extension() == ".bag");
+}
+
+bool holdsDatabase(const fs::path& folder) {
+  return std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
+                     [](const auto& entry) { return entry.path().extension() == ".db3"; });
+}
+
+}  // namespace
+
+std::string printable(std::string_view name) {
+  std::string text(name);
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text;
+}
+
+bool isBag(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) {
+    return fs::exists(path / "metadata.yaml") || holdsDatabase(path);
+  }
+  return isRos1Name(path) || path.extension() == ".db3";
+}
+
+std::unique_ptr<BagReader> openBag(const fs::path& path) {
+  if (!fs::exists(path)) throw std::runtime_error(path.string() + ": there is no such bag");
+  if (isRos1Name(path)) return std::make_unique<Ros1BagReader>(path);
+  return std::make_unique<Ros2BagReader>(path);
+}
+
+std::unique_ptr<BagWriter> createBag(const fs::path& path) {
+  if (path.extension() == ".bag") return std::make_unique<Ros1BagWriter>(path);
+  return std::make_unique<Ros2BagWriter>(path);
+}
+
+}  // namespace heel

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Bags: the logs of ROS robots, read as a stream. No ROS is needed.
+#pragma once
+
+#include "apps/bag/message_archives.hpp"
+#include "apps/bag/message_definition.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace heel {
+
+/// A stream of messages of one type.
+struct BagTopic {
+  std::string name;
+  std::string type;  ///< In ROS 1's way for both forms: "sensor_msgs/Image".
+  std::string md5;   ///< Of the type's definition; empty in ROS 2.
+
+  /// Whether its messages are of our `Message`, in the version that we know.
+  template <class Message>
+  bool holds() const {
+    // tf's own older type has the same fields.
+    const bool same_type =
+        type == Message::kType || (type == "tf/tfMessage" && TFMessageMsg::kType == Message::kType);
+    return same_type && (md5.empty() || md5 == "*" || md5 == Message::kMd5);
+  }
+};
+
+/// A message as it lies in a bag.
+struct BagMessage {
+  std::size_t topic = 0;               ///< Index into topics().
+  std::int64_t stamp_ns = 0;           ///< When it was recorded.
+  const std::uint8_t* data = nullptr;  ///< Valid until the next one is read.
+  std::size_t size = 0;
+};
+
+/// A bag, read once from its beginning to its end; holds one chunk of it in memory at the most.
+///
+/// What is damaged or missing is left out, and lost() says so.
+class BagReader {
+ public:
+  virtual ~BagReader() = default;
+
+  virtual BagForm form() const = 0;
+
+  /// The topics that have been met so far: all of them once next() has returned false.
+  const std::vector<BagTopic>& topics() const { return topics_; }
+
+  /// Reads the next message in the order of recording; false at the end.
+  virtual bool next(BagMessage& message) = 0;
+
+  /// What of the bag could not be read so far, in one sentence that names it; empty: nothing.
+  const std::string& lost() const { return lost_; }
+
+  /// @throws std::runtime_error  with half a sentence, if the message is broken.
+  template <class Message>
+  void read(const BagMessage& raw, Message& message) const {
+    readMessage(form(), raw.data, raw.size, message);
+  }
+
+ protected:
+  std::vector<BagTopic> topics_;
+  std::string lost_;
+};
+
+/// A name of a bag that may be damaged: '?' for whatever is no printable ASCII.
+std::string printable(std::string_view name);
+
+/// Whether `path` is named like a bag: X.bag (ROS 1), X.db3, or a folder with a metadata.yaml or a
+/// .db3 in it (ROS 2).
+bool isBag(const std::filesystem::path& path);
+
+/// @throws std::runtime_error  one sentence that names the file, if it is no bag or can't be read.
+std::unique_ptr<BagReader> openBag(const std::filesystem::path& path);
+
+/// Writes a bag; it gets its name only when it is complete.
+class BagWriter {
+ public:
+  virtual ~BagWriter() = default;
+
+  virtual BagForm form() const = 0;
+
+  /// @param latched  Whoever comes late shall get the last message, too.
+  /// @throws std::runtime_error  if it can't be written, for instance when the disk is full.
+  template <class Message>
+  void write(const std::string& topic, std::int64_t stamp_ns, const Message& message,
+             bool latched = false) {
+    writeMessage(form(), message, bytes_);
+    put(topicNamed<Message>(topic, latched), stamp_ns, bytes_);
+  }
+
+  /// Completes the bag and gives it its name, in the place of one that has it.
+  /// @throws std::runtime_error  as write().
+  virtual void commit() = 0;
+
+ protected:
+  struct Topic {
+    std::string name, type, md5, definition;
+    bool latched = false;
+  };
+  std::vector<Topic> topics_;
+
+ private:
+  virtual void put(std::size_t topic, std::int64_t stamp_ns,
+                   const std::vector<std::uint8_t>& bytes) = 0;
+  /// Told of each topic before its first message.
+  virtual void add(std::size_t topic) = 0;
+
+  template <class Message>
+  std::size_t topicNamed(const std::string& name, bool latched) {
+    for (std::size_t i = 0; i < topics_.size(); ++i) {
+      if (topics_[i].name == name) return i;
+    }
+    topics_.push_back({name, Message::kType, Message::kMd5, definitionOf<Message>(), latched});
+    add(topics_.size() - 1);
+    return topics_.size() - 1;
+  }
+
+  std::vector<std::uint8_t> bytes_;
+};
+
+/// Begins a bag: `X.bag` in ROS 1's form, `X.db3` as the one file of ROS 2's, any other name as
+/// ROS 2's folder (metadata.yaml and a .db3).
+/// @throws std::runtime_error  if it can't be made, or a folder of that name holds other things.
+std::unique_ptr<BagWriter> createBag(const std::filesystem::path& path);
+
+}  // namespace heel

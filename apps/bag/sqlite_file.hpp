@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// The few calls to SQLite that bags need, with errors as exceptions.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace heel {
+
+class SqliteQuery;
+
+/// A database file that is open.
+class SqliteFile {
+ public:
+  enum class Use { kRead, kCreate };
+  /// @throws std::runtime_error  one sentence that names the file.
+  SqliteFile(const std::filesystem::path& file, Use use);
+
+  /// @throws std::runtime_error  as all of this class.
+  void run(const std::string& sql);
+  SqliteQuery query(const std::string& sql);
+  bool hasTable(const std::string& table);
+  /// Ends the use of the file; whatever could not be written is told here.
+  void close();
+
+  [[noreturn]] void fail() const;
+  std::string problem() const;
+
+ private:
+  struct Close {
+    void operator()(sqlite3* database) const;
+  };
+  std::string name_;
+  std::unique_ptr<sqlite3, Close> database_;
+};
+
+/// A statement, run row by row.
+class SqliteQuery {
+ public:
+  enum class Row { kThere, kEnd, kBroken };
+
+  SqliteQuery(SqliteFile& file, sqlite3_stmt* statement) : file_(file), statement_(statement) {}
+
+  SqliteQuery& bind(int parameter, std::int64_t value);
+  SqliteQuery& bind(int parameter, const std::string& value);
+  /// The bytes must stay until the statement has been run.
+  SqliteQuery& bind(int parameter, const std::uint8_t* bytes, std::size_t size);
+
+  Row step();  ///< Does not throw.
+  void run();  ///< For statements without rows; may be bound and run again.
+  void reset();
+
+  std::int64_t integer(int column) const;
+  std::string text(int column) const;
+  const std::uint8_t* blob(int column, std::size_t& size) const;
+
+ private:
+  struct Finalize {
+    void operator()(sqlite3_stmt* statement) const;
+  };
+  SqliteFile& file_;
+  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+};
+
+}  // namespace heel
