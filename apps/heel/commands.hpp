@@ -27,7 +27,9 @@ void addInspect(CLI::App& app);
 void addLocalize(CLI::App& app);
 void addMap(CLI::App& app);
 void addPlan(CLI::App& app);
+void addPlanView(CLI::App& app);
 void addSimulate(CLI::App& app);
+void addView(CLI::App& app);
 void addEvaluate(CLI::App& app);
 void addExperiment(CLI::App& app);
 

@@ -1,82 +1,137 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "apps/clouds/cloud_inputs.hpp"
+#include "apps/heel/cloud_batch.hpp"
 #include "apps/heel/commands.hpp"
-#include "apps/recording/pcd_file.hpp"
 #include "apps/report/atomic_file.hpp"
 #include "segmentation/appearance_filter.hpp"
 #include "segmentation/appearance_model_io.hpp"
 
 #include <CLI/CLI.hpp>
-#include <pcl/common/io.h>
 
 #include <cstdio>
-#include <cstring>
-#include <filesystem>
-#include <limits>
 #include <memory>
-#include <stdexcept>
+#include <optional>
 
 namespace heel {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct Options {
-  std::filesystem::path model;
-  std::filesystem::path in;
-  std::filesystem::path out;
+  fs::path model;
+  fs::path out;
+  CloudBatch batch;
   bool negative = false;
   bool keep_organized = false;
 };
 
-/// Makes the positions of points NaN, as pcl::FilterIndices does; all else stays.
-void blank(const pcl::Indices& indices, pcl::PCLPointCloud2& blob) {
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  for (const char* name : {"x", "y", "z"}) {
-    const auto& field = blob.fields[static_cast<std::size_t>(pcl::getFieldIndex(blob, name))];
-    for (const auto i : indices) {
-      std::memcpy(&blob.data[static_cast<std::size_t>(i) * blob.point_step + field.offset], &nan,
-                  sizeof nan);
-    }
-  }
-  blob.is_dense = 0;
-}
+/// Filters one cloud into `out`, written whole or not at all.
+/// @return how many points passed.
+std::size_t filterCloud(const fs::path& in, const fs::path& out, const ColorTable& table,
+                        const Options& options, CloudFate& fate) {
+  CloudFile cloud = readCloud(in);
+  fate.facts = cloud.facts;
+  needColors(in, cloud.facts);
 
-void run(const Options& options) {
-  if (std::filesystem::weakly_canonical(options.in) ==
-      std::filesystem::weakly_canonical(options.out)) {
-    throw std::runtime_error(options.out.string() + ": would overwrite the cloud that is filtered");
-  }
-  const AppearanceModel model = loadAppearance(options.model);
-  PcdFile pcd = readPcd(options.in);
-
-  AppearanceFilter<pcl::PointXYZRGB> filter(true);
-  filter.setTable(model.filterTable());
+  AppearanceFilter<pcl::PCLPointCloud2> filter;
+  filter.setTable(table);
   filter.setNegative(options.negative);
-  filter.setInputCloud(ColorCloud::ConstPtr(&pcd.cloud, [](const ColorCloud*) {}));
+  filter.setKeepOrganized(options.keep_organized);
+  filter.setInputCloud(pcl::make_shared<pcl::PCLPointCloud2>(cloud.blob));
   pcl::Indices kept;
   filter.filter(kept);
-
   if (kept.empty()) {
-    throw std::runtime_error(options.in.string() +
-                             ": none of its points passes; no cloud is written");
+    fate.outcome = "nothing";
+    fate.reason = in.string() + ": none of its points passes; no cloud is written";
+    return 0;
   }
-  if (options.keep_organized) {
-    blank(*filter.getRemovedIndices(), pcd.blob);
-  } else {
-    pcl::PCLPointCloud2 chosen;
-    pcl::copyPointCloud(pcd.blob, kept, chosen);
-    pcd.blob = std::move(chosen);
-  }
-  const std::filesystem::path temporary = temporaryBeside(options.out);
+  filter.filter(cloud.blob);
+
+  const fs::path temporary = temporaryBeside(out);
   try {
-    writePcd(temporary, pcd);
+    writeCloud(temporary, cloud);
   } catch (const std::runtime_error&) {
-    std::filesystem::remove(temporary);
-    throw std::runtime_error(options.out.string() + ": the cloud cannot be written");
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw std::runtime_error(out.string() + ": the cloud cannot be written");
   }
-  commitTemporary(temporary, options.out);
-  std::printf("kept %zu of %zu points; wrote %s\n", kept.size(), pcd.cloud.size(),
-              options.out.string().c_str());
+  commitTemporary(temporary, out);
+  fate.outcome = "written";
+  return kept.size();
+}
+
+void filterOne(const fs::path& in, const fs::path& out, const Options& options) {
+  if (fs::weakly_canonical(in) == fs::weakly_canonical(out)) {
+    throw std::runtime_error(out.string() + ": would overwrite the cloud that is filtered");
+  }
+  CloudFate fate;
+  const ColorTable table = loadAppearance(options.model).filterTable();
+  const std::size_t kept = filterCloud(in, out, table, options, fate);
+  if (kept == 0) throw std::runtime_error(fate.reason);
+  std::printf("kept %zu of %zu points; wrote %s\n", kept, fate.facts.points(), out.c_str());
+}
+
+void filterMany(const Options& options) {
+  const ColorTable table = loadAppearance(options.model).filterTable();
+  const auto clouds = findClouds(options.batch.names);
+  const auto results = resultNames(clouds, options.out);
+  CloudSummary summary(options.out, {"points_out", "result"});
+  std::size_t points_in = 0, points_out = 0;
+  const auto reasons = workOnClouds(
+      "filtering", clouds.size(), options.batch.threads,
+      [&](std::size_t i, CloudFate& fate) {
+        return filterCloud(clouds[i], results[i], table, options, fate);
+      },
+      [&](std::size_t i, const CloudFate& fate, std::size_t kept) {
+        if (kept == 0) removeFormer(results[i]);
+        points_in += fate.hasFailed() ? 0 : fate.facts.points();
+        points_out += kept;
+        summary.add(clouds[i], fate, [&](CsvWriter& row) {
+          row.integer(static_cast<std::int64_t>(kept));
+          row.text(kept > 0 ? results[i].filename().string() : "");
+        });
+      });
+  summary.commit({{"model", options.model.string()},
+                  {"negative", options.negative},
+                  {"keep_organized", options.keep_organized},
+                  {"points_in", points_in},
+                  {"points_out", points_out}});
+  if (summary.failed() < clouds.size()) {
+    std::printf("%zu clouds: %s; kept %zu of %zu points\n", clouds.size(),
+                summary.outcomes().c_str(), points_out, points_in);
+    std::printf("results in %s: clouds, summary.csv, summary.json\n", options.out.c_str());
+  }
+  tellFailures(reasons, clouds.size());
+}
+
+/// Whether one cloud goes to one file, and to which; else results go to the folder --out.
+std::optional<fs::path> singleResult(Options& options) {
+  auto& names = options.batch.names;
+  if (options.out.empty()) {
+    if (names.size() != 2 || !isCloudName(names[1]) || isPattern(names[0]) ||
+        fs::is_directory(names[0])) {
+      throw std::runtime_error("name the folder for the results with --out");
+    }
+    const fs::path out = names[1];
+    names.pop_back();
+    return out;
+  }
+  if (!isCloudName(options.out) || fs::is_directory(options.out)) return std::nullopt;
+  if (names.size() != 1 || isPattern(names[0]) || fs::is_directory(names[0])) {
+    throw std::runtime_error(options.out.string() +
+                             ": is the name of one cloud; for several, --out is a folder");
+  }
+  return options.out;
+}
+
+void run(Options& options) {
+  if (const auto out = singleResult(options)) {
+    filterOne(options.batch.names.front(), *out, options);
+  } else {
+    filterMany(options);
+  }
 }
 
 }  // namespace
@@ -84,17 +139,23 @@ void run(const Options& options) {
 void addFilter(CLI::App& app) {
   auto options = std::make_shared<Options>();
   CLI::App* verb =
-      app.add_subcommand("filter", "Keep a cloud's points that have a person's colours");
+      app.add_subcommand("filter", "Keep the points of clouds that have a person's colours");
   verb->footer(
-      "Example:\n"
+      "Examples:\n"
       "  heel filter --model person.yaml scene.pcd person_in_scene.pcd\n"
-      "Looks at colours only, not at heights. All fields of the cloud are kept.");
+      "  heel filter --model person.yaml scene.ply --negative --out rest.ply\n"
+      "  heel filter --model person.yaml 'clouds/*.pcd' more_clouds --out filtered\n"
+      "Looks at colours only, not at heights. All fields of a cloud are kept. Each result has its\n"
+      "cloud's name; summary.csv and summary.json tell what became of every cloud. Fails if one\n"
+      "of them did; the others are done all the same.");
   verb->add_option("--model", options->model, "the person, as 'heel learn' wrote it")->required();
-  verb->add_option("IN", options->in, "PCD file with colours")->required();
-  verb->add_option("OUT", options->out, "PCD file to write")->required();
+  addCloudBatch(*verb, options->batch,
+                "PCD or PLY files, folders of them, and patterns in quotes; without --out: one "
+                "cloud, and the file to write");
+  verb->add_option("--out", options->out, "folder for the results, or the file for one cloud's");
   verb->add_flag("--negative", options->negative, "keep all other points instead");
   verb->add_flag("--keep-organized", options->keep_organized,
-                 "keep the cloud's shape: removed points become NaN");
+                 "keep a cloud's shape: removed points become NaN");
   verb->callback([options] { run(*options); });
 }
 

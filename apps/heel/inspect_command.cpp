@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "apps/bag/bag.hpp"
+#include "apps/clouds/cloud_inputs.hpp"
 #include "apps/follower/camera_setup.hpp"
 #include "apps/follower/depth_images.hpp"
 #include "apps/heel/bag_options.hpp"
 #include "apps/heel/commands.hpp"
 #include "apps/heel/inspect_bag.hpp"
+#include "apps/heel/inspect_clouds.hpp"
 #include "apps/heel/inspect_plan.hpp"
 #include "apps/mapper/map_picture.hpp"
+#include "apps/recording/cloud_file.hpp"
+#include "apps/recording/folder_files.hpp"
 #include "apps/report/drawing.hpp"
 #include "apps/report/video_writer.hpp"
 #include "mapping/map_server_file.hpp"
@@ -72,15 +76,6 @@ cv::Mat inspectModel(const fs::path& file) {
   return drawAppearance(model);
 }
 
-/// Depth as colours, from red (near) to blue (6 m and more); black where there is none.
-cv::Mat paintDepth(const cv::Mat& depth_m) {
-  cv::Mat scaled, painted;
-  depth_m.convertTo(scaled, CV_8UC1, -255.0 / 6.0, 255.0);
-  cv::applyColorMap(scaled, painted, cv::COLORMAP_TURBO);
-  painted.setTo(cv::Scalar::all(0), ~(depth_m > 0.0F));
-  return painted;
-}
-
 void printSetup(const CameraSetup& setup) {
   const Mounting mounting = mountingOf(setup.T_base_camera);
   std::printf("  camera %.2f m over the floor, pitch %.1f deg, roll %.1f deg (%s)\n",
@@ -97,6 +92,10 @@ void printSetup(const CameraSetup& setup) {
   const SetupReport& report = setup.report;
   std::printf("  depth at %.0f %% of the pixels; %.1f %% quite black, %.1f %% quite white\n",
               100.0 * report.found_share, 100.0 * report.black_share, 100.0 * report.white_share);
+}
+
+bool isCloudFolder(const fs::path& path) {
+  return fs::is_directory(path) && !filesIn(path, isCloudName).empty();
 }
 
 cv::Mat inspectRecording(const fs::path& path, const RecordingParams& opening) {
@@ -128,6 +127,16 @@ cv::Mat inspectRecording(const fs::path& path, const RecordingParams& opening) {
   return picture;
 }
 
+/// Clouds in a folder need not be a recording, and that is no error.
+cv::Mat inspectMaybeRecording(const fs::path& path, const RecordingParams& opening) {
+  try {
+    return inspectRecording(path, opening);
+  } catch (const std::runtime_error& error) {
+    std::printf("no recording to track in: %s\n", error.what());
+    return {};
+  }
+}
+
 cv::Mat inspectWallMap(const fs::path& file) {
   const OccupancyGrid floor = loadWallMap(file).floorGrid();
   std::printf("wall map; from %.2f to %.2f m over the floor: %s\n", kBodyBand.low_m,
@@ -145,7 +154,16 @@ cv::Mat inspectFloorPlan(const fs::path& file) {
 
 cv::Mat inspect(const Options& options) {
   const fs::path& what = options.what;
+  if (isPattern(what)) {
+    inspectClouds(what);
+    return {};
+  }
   if (isBag(what) && !inspectBag(what, options.opening.topics)) return {};
+  if (isCloudName(what) && !fs::is_directory(what)) return inspectCloud(what);
+  if (isCloudFolder(what)) {
+    inspectClouds(what);
+    return inspectMaybeRecording(what, options.opening);
+  }
   const fs::path extension = what.extension();
   if (extension == ".bt") return inspectWallMap(what);
   if (extension == ".pnml") return inspectPlan(what);
@@ -154,7 +172,7 @@ cv::Mat inspect(const Options& options) {
 }
 
 void run(const Options& options) {
-  if (!fs::exists(options.what)) {
+  if (!fs::exists(options.what) && !isPattern(options.what)) {
     throw std::runtime_error(options.what.string() + ": there is no such file or folder");
   }
   const cv::Mat picture = inspect(options);
@@ -176,10 +194,11 @@ void addInspect(CLI::App& app) {
       "  heel inspect plan.pnml --out plan.png\n"
       "  heel inspect recordings/kitchen\n"
       "  heel inspect robot.bag\n"
-      "  heel inspect scene.pcd --out scene.png");
+      "  heel inspect scene.pcd --out scene.png\n"
+      "  heel inspect 'clouds/*.ply'");
   verb->add_option("WHAT", options->what,
                    "model or map_server map (.yaml), wall map (.bt), plan (.pnml), recording "
-                   "(folder), bag, or PCD file")
+                   "(folder), bag, or PCD and PLY files (one, or a pattern in quotes)")
       ->required();
   verb->add_option("--out", options->out, "where to write the picture")->capture_default_str();
   addCameraTopics(*verb, options->opening.topics);

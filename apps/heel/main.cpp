@@ -93,7 +93,9 @@ int main(int argc, char** argv) {
   heel::addLocalize(app);
   heel::addMap(app);
   heel::addPlan(app);
+  heel::addPlanView(app);
   heel::addSimulate(app);
+  heel::addView(app);
   heel::addEvaluate(app);
   heel::addExperiment(app);
   try {

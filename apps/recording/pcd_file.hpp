@@ -5,28 +5,19 @@
 /// PCD files with colours, checked.
 #pragma once
 
-#include "cloud/color_cloud.hpp"
+#include "apps/recording/cloud_file.hpp"
 
-#include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>
-#include <pcl/PCLPointCloud2.h>
 
 #include <filesystem>
 
 namespace heel {
 
-/// A PCD file: all of its fields, and what Heel needs of them.
-struct PcdFile {
-  pcl::PCLPointCloud2 blob;  ///< Every field of the file.
-  Eigen::Vector4f origin = Eigen::Vector4f::Zero();
-  Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
-  ColorCloud cloud;  ///< Its places and colours, point by point.
-};
+using PcdFile = CloudFile;
 
 /// Reads a PCD file with colours (fields x, y, z and rgb or rgba; organized or not; ascii, binary
 /// or compressed).
-/// @throws std::runtime_error  with one sentence that names the file, if it is missing, truncated,
-///         or not PCD, has no colours, no points, or none with finite coordinates.
+/// @throws std::runtime_error  as readCloud, and if it has no colours.
 PcdFile readPcd(const std::filesystem::path& file);
 
 /// Looks at the header and the size of a PCD file only.

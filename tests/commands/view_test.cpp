@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// heel view, without a display.
+
+#include "tests/commands/heel.hpp"
+#include "tests/commands/small_model.hpp"
+#include "tests/commands/small_recording.hpp"
+#include "tests/support/temp_folder.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+
+namespace heel::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+class View : public testing::Test {
+ protected:
+  View() { SmallRecording{5, 8}.write(folder_ / "room"); }
+
+  TempFolder folder_;
+};
+
+TEST_F(View, WritesPicturesToAFolder) {
+  const HeelRun run = heel({"view", folder_ / "room", "--out", folder_ / "out", "--pictures", "4"});
+  EXPECT_TRUE(succeeds(run));
+  EXPECT_THAT(run.out, HasSubstr("wrote 4 pictures of 13 frames"));
+  EXPECT_THAT(filesBelow(folder_ / "out"), ElementsAre("view_000001.png", "view_000005.png",
+                                                       "view_000009.png", "view_000013.png"));
+}
+
+TEST_F(View, WithAModelShowsTheSameBytesEachTime) {
+  writeSmallModel(folder_ / "person.yaml");
+  for (const char* out : {"a", "b"}) {
+    EXPECT_TRUE(succeeds(heel({"view", folder_ / "room", "--model", folder_ / "person.yaml",
+                               "--out", folder_ / out, "--pictures", "0"})));
+  }
+  const auto names = filesBelow(folder_ / "a");
+  EXPECT_THAT(names, SizeIs(13));
+  for (const auto& name : names) {
+    EXPECT_EQ(readText(folder_ / "a" / name), readText(folder_ / "b" / name)) << name;
+  }
+}
+
+TEST_F(View, WithoutADisplaySaysSoAndWritesPictures) {
+  unsetenv("DISPLAY");
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_.path());
+  const HeelRun run = heel({"view", "room"});
+  std::filesystem::current_path(before);
+  EXPECT_TRUE(succeeds(run));
+  EXPECT_THAT(run.out, HasSubstr("pictures of the same go to view"));
+  EXPECT_THAT(filesBelow(folder_ / "view"), SizeIs(7));
+}
+
+TEST_F(View, OfNoRecordingSaysWhy) {
+  EXPECT_TRUE(failsWith(heel({"view", folder_ / "nowhere"}), {"nowhere", "does not exist"}));
+}
+
+}  // namespace
+}  // namespace heel::test
