@@ -34,4 +34,9 @@ FloorPose alongArc(const FloorPose& pose, double distance_m, double turn_rad) {
           wrapped(pose.yaw_rad + turn_rad)};
 }
 
+double bearingOf(const FloorPose& from, const Eigen::Vector2d& place) {
+  const Eigen::Vector2d way = from.inverse() * place;
+  return std::atan2(way.y(), way.x());
+}
+
 }  // namespace heel

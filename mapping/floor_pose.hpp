@@ -33,4 +33,7 @@ Eigen::Isometry3d basePose(const FloorPose& pose);
 /// `pose` after `distance_m` along an arc that turns by `turn_rad`.
 FloorPose alongArc(const FloorPose& pose, double distance_m, double turn_rad);
 
+/// Which way a place is from a pose [rad], 0 straight ahead, to the left from there.
+double bearingOf(const FloorPose& from, const Eigen::Vector2d& place);
+
 }  // namespace heel

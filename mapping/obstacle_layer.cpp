@@ -162,7 +162,8 @@ void ObstacleLayer::forgetUnderRobot() {
   }
 }
 
-void ObstacleLayer::addScan(const LaserScan& scan, const FloorPose& T_base_laser) {
+void ObstacleLayer::addScan(const LaserScan& scan, const FloorPose& T_base_laser,
+                            const std::function<bool(const Eigen::Vector2d&)>& is_mapped) {
   requireFrame();
   require(finite(T_base_laser) && T_base_laser.position.norm() <= params_.size_m,
           "laser must be on the robot");
@@ -189,7 +190,8 @@ void ObstacleLayer::addScan(const LaserScan& scan, const FloorPose& T_base_laser
     if (!(range_m >= params_.laser_min_range_m && range_m <= params_.laser_max_range_m)) continue;
     const Eigen::Vector2d end = laser.position + range_m * direction(i);
     const GridCell cell = worldCell(end);
-    if (inWindow(cell) && !leftOut(end)) see(cells_[slot(cell)].laser);
+    const bool is_known = is_mapped && is_mapped(end);
+    if (inWindow(cell) && !leftOut(end) && !is_known) see(cells_[slot(cell)].laser);
   }
 }
 

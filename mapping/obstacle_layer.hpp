@@ -15,6 +15,7 @@
 #include <pcl/types.h>
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -88,9 +89,12 @@ class ObstacleLayer {
 
   /// Each beam clears the cells before its end, and the end is an obstacle. Ranges that are not
   /// numbers or too short are left out; infinite ones are free up to `laser_max_range_m`.
+  /// @param is_mapped  Whether the map shows what is at a place: no obstacle of this layer then. A
+  ///                   wall seen with a little error would else make doorways narrower.
   /// @throws std::invalid_argument  if the scan's angles are not finite or the laser is further off
   ///                                than the window is wide.
-  void addScan(const LaserScan& scan, const FloorPose& T_base_laser);
+  void addScan(const LaserScan& scan, const FloorPose& T_base_laser,
+               const std::function<bool(const Eigen::Vector2d&)>& is_mapped = {});
 
   /// Points in the base frame; those that are not finite are left out. Points of one frame add up
   /// in their cells, over all calls.

@@ -10,8 +10,9 @@
 
 namespace heel {
 
-CoarseFloor::CoarseFloor(OccupancyGrid map, double cell_size_m, double body_radius_m)
-    : map_(std::move(map)), cell_size_m_(cell_size_m) {
+CoarseFloor::CoarseFloor(OccupancyGrid map, double cell_size_m, double body_radius_m,
+                         std::optional<OccupancyGrid> sight)
+    : map_(std::move(map)), sight_(sight ? std::move(*sight) : map_), cell_size_m_(cell_size_m) {
   if (map_.empty()) throw std::invalid_argument("a floor needs a map");
   if (!(cell_size_m > 0.0)) throw std::invalid_argument("cells must have a size");
   if (!(body_radius_m >= 0.5 * cell_size_m)) {
@@ -75,10 +76,10 @@ bool CoarseFloor::isClear(const Eigen::Vector2d& point, double radius_m) const {
 
 bool CoarseFloor::sees(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
   // From cell to cell along the line (Amanatides and Woo).
-  GridCell cell = map_.cellAt(from);
-  const GridCell last = map_.cellAt(to);
-  const Eigen::Vector2d way = (to - from) / map_.cell_size_m();
-  const Eigen::Vector2d start = (from - map_.origin_m()) / map_.cell_size_m();
+  GridCell cell = sight_.cellAt(from);
+  const GridCell last = sight_.cellAt(to);
+  const Eigen::Vector2d way = (to - from) / sight_.cell_size_m();
+  const Eigen::Vector2d start = (from - sight_.origin_m()) / sight_.cell_size_m();
   const int step_x = way.x() > 0.0 ? 1 : -1, step_y = way.y() > 0.0 ? 1 : -1;
   const auto crossing = [](double at, int index, int step, double speed) {
     if (speed == 0.0) return std::numeric_limits<double>::infinity();
@@ -89,7 +90,7 @@ bool CoarseFloor::sees(const Eigen::Vector2d& from, const Eigen::Vector2d& to) c
   const double each_x = 1.0 / std::abs(way.x()), each_y = 1.0 / std::abs(way.y());
   int left = std::abs(last.x - cell.x) + std::abs(last.y - cell.y);
   for (; left >= 0; --left) {
-    if (!map_.contains(cell) || map_.at(cell) != Occupancy::kFree) return false;
+    if (!sight_.contains(cell) || sight_.at(cell) != Occupancy::kFree) return false;
     if (next_x < next_y) {
       cell.x += step_x;
       next_x += each_x;

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -23,11 +24,14 @@ constexpr std::array<std::array<int, 2>, 8> kWays = {
 /// its index, row by row.
 class CoarseFloor {
  public:
+  /// @param map    Where one can stand.
+  /// @param sight  What can be looked through; absent: the same.
   /// @param cell_size_m  Of the large cells.
   /// @param body_radius_m  The map must be free so far around a cell's middle.
   /// @throws std::invalid_argument  if the map is empty, or unless cell_size_m is positive and the
   ///         body as wide as a cell, so that no wall is missed between two cells.
-  CoarseFloor(OccupancyGrid map, double cell_size_m, double body_radius_m);
+  CoarseFloor(OccupancyGrid map, double cell_size_m, double body_radius_m,
+              std::optional<OccupancyGrid> sight = std::nullopt);
 
   double cellSize_m() const { return cell_size_m_; }
   int cells() const { return width_ * height_; }
@@ -44,7 +48,7 @@ class CoarseFloor {
   }
   /// Whether the map is free within a radius of a point.
   bool isClear(const Eigen::Vector2d& point, double radius_m) const;
-  /// Whether the map is free along a line.
+  /// Whether one can look along a line.
   bool sees(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
 
   /// Memory for walkingDistances(), to use again.
@@ -54,6 +58,7 @@ class CoarseFloor {
 
  private:
   OccupancyGrid map_;
+  OccupancyGrid sight_;
   double cell_size_m_;
   int width_ = 0;
   int height_ = 0;

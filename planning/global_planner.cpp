@@ -18,13 +18,14 @@ constexpr double kJoinCells = 2.5;
 constexpr double kKeptMayBeLonger = 1.02;
 
 GlobalPlannerParams checked(const GlobalPlannerParams& p) {
-  const double sum = p.robot_radius_m + p.safety_m + p.comfort_m + p.crowding + p.goal_tolerance_m +
-                     p.escape_m + p.keep_root_m;
+  const double sum = p.robot_radius_m + p.safety_m + p.comfort_m + p.crowding + p.bend_room_m +
+                     p.goal_tolerance_m + p.escape_m + p.keep_root_m;
   if (!std::isfinite(sum)) throw std::invalid_argument("a planner's parameters must be finite");
   if (!(p.robot_radius_m > 0.0 && p.comfort_m > 0.0)) {
     throw std::invalid_argument("a planner's robot radius and comfort must be positive");
   }
-  if (std::min({p.safety_m, p.crowding, p.goal_tolerance_m, p.escape_m, p.keep_root_m}) < 0.0) {
+  if (std::min({p.safety_m, p.crowding, p.bend_room_m, p.goal_tolerance_m, p.escape_m,
+                p.keep_root_m}) < 0.0) {
     throw std::invalid_argument("a planner's lengths and shares must not be negative");
   }
   return p;
@@ -32,7 +33,8 @@ GlobalPlannerParams checked(const GlobalPlannerParams& p) {
 
 /// How far clearances matter: to the end of comfort, and for two cells of a move.
 double reachFor(const OccupancyGrid& map, const GlobalPlannerParams& p) {
-  return p.robot_radius_m + p.safety_m + p.comfort_m + 2.0 * map.cell_size_m();
+  return p.robot_radius_m + p.safety_m + std::max(p.comfort_m, p.bend_room_m) +
+         2.0 * map.cell_size_m();
 }
 
 }  // namespace
@@ -182,6 +184,7 @@ bool GlobalPlanner::trace(int cell, const Eigen::Vector2d& start, const Eigen::V
     const double least_m = from_root_m - (start - root_).norm();
     if (pathLength(path) > kKeptMayBeLonger * least_m) return false;
   }
+  if (params_.bend_room_m > 0.0) taut_.widen(path, params_.bend_room_m);
   if (escapes) {
     plan.escape_m = (path.front() - start).norm();
     path.insert(path.begin(), start);

@@ -23,6 +23,7 @@ struct GlobalPlannerParams {
   double safety_m = 0.01;         ///< Paths keep this much more than the radius away.
   double comfort_m = 0.2;         ///< More room than this, beyond both, is worth no detour.
   double crowding = 0.02;         ///< A way without that room counts as longer by up to this share.
+  double bend_room_m = 0.0;       ///< Bends go so much wider than they must, where there is room.
   double goal_tolerance_m = 0.5;  ///< How far from a goal that can't be reached a path may end.
   double escape_m = 0.6;         ///< How far to look for room when the robot is too near something.
   double keep_root_m = 0.6;      ///< How far the robot may move before a search begins anew.

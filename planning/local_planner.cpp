@@ -62,8 +62,9 @@ LocalPlanner::LocalPlanner(const LocalPlannerParams& params) : params_(params) {
   }
   for (const double value :
        {params.margin_m, params.people_margin_m, params.slow_gap_m, params.slow_people_gap_m,
-        params.least_speed_mps, params.give_way_gap_m, params.give_way_s, params.arrive_m,
-        params.depart_m - params.arrive_m, static_cast<double>(params.latency_periods)}) {
+        params.least_speed_mps, params.give_way_gap_m, params.give_way_s, params.look_away_s,
+        params.arrive_m, params.depart_m - params.arrive_m,
+        static_cast<double>(params.latency_periods)}) {
     if (!(value >= 0.0)) throw std::invalid_argument("a local planner's parameter is negative");
   }
   futures_.steps = static_cast<std::size_t>(std::lround(steps));
@@ -73,7 +74,7 @@ LocalPlanner::LocalPlanner(const LocalPlannerParams& params) : params_(params) {
 void LocalPlanner::reset() {
   last_ = {};
   arrived_ = false;
-  blocked_s_ = 0.0;
+  blocked_s_ = waited_s_ = 0.0;
 }
 
 LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed,
@@ -110,6 +111,7 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
     weights[static_cast<std::size_t>(DriveTerm::kProgress)] = 0.0;
     weights[static_cast<std::size_t>(DriveTerm::kSmooth)] *= 0.1;
   }
+  if (waited_s_ > params_.look_away_s) weights[static_cast<std::size_t>(DriveTerm::kView)] = 0.0;
   layOut(scene, threatened);
   plan.options = futures_.size();
 
@@ -314,6 +316,7 @@ void LocalPlanner::explain(const DriveScene& scene, LocalPlan& plan) {
   const bool waits = has_way && !drives;
   const bool turning_to_way = plan.status == DriveStatus::kTurning && plan.costs[0] < 0.9;
   blocked_s_ = waits && !turning_to_way ? blocked_s_ + params_.limits.period_s : 0.0;
+  waited_s_ = waits ? waited_s_ + params_.limits.period_s : 0.0;
   plan.blocked_s = blocked_s_;
 }
 

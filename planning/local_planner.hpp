@@ -24,6 +24,7 @@ struct LocalPlannerParams {
   double slow_gap_m = 0.08;       ///< With less room than this the speed falls, ...
   double least_speed_mps = 0.08;  ///< ... down to this where there is none.
   double slow_people_gap_m = 0.3;
+  double look_away_s = 0.5;     ///< After standing so long for the view of a person, it turns away.
   double give_way_gap_m = 0.2;  ///< Backs off when a person will be nearer than this, ...
   double give_way_s = 1.2;      ///< ... this soon.
   double arrive_m = 0.08;       ///< Nearer than this to the path's end it has arrived, ...
@@ -112,6 +113,7 @@ class LocalPlanner {
   VelocityCommand last_;
   bool arrived_ = false;
   double blocked_s_ = 0.0;
+  double waited_s_ = 0.0;  // since it last drove, with a way to go
   double gap_m_ = 0.0;
   PathAhead path_;
   Trajectories futures_;

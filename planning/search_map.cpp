@@ -31,13 +31,14 @@ std::size_t index(int cell) { return static_cast<std::size_t>(cell); }
 
 }  // namespace
 
-SearchMap::SearchMap(const OccupancyGrid& walls, const SearchMapParams& params)
+SearchMap::SearchMap(const OccupancyGrid& floor, const OccupancyGrid& sight,
+                     const SearchMapParams& params)
     : params_((requirePositive(params), params)),
-      floor_(walls, params.cell_size_m, params.body_radius_m),
+      floor_(floor, params.cell_size_m, params.body_radius_m, sight),
       shares_(index(floor_.cells()), Shares{}),
       next_(shares_),
       belief_(shares_.size(), 0.0) {
-  if (floor_.nearestFree(walls.origin_m()) < 0) {
+  if (floor_.nearestFree(floor.origin_m()) < 0) {
     throw std::invalid_argument("no one can stand anywhere on this map");
   }
   findViews();
@@ -152,14 +153,41 @@ void SearchMap::walk() {
 }
 
 void SearchMap::look(const FloorPose& camera, double elapsed_s) {
+  thin(elapsed_s, [&](const Eigen::Vector2d& place) { return isInView(camera, place); });
+}
+
+void SearchMap::scan(const LaserScan& scan, const FloorPose& scanner, double elapsed_s) {
+  thin(elapsed_s,
+       [&](const Eigen::Vector2d& place) { return isSeenThrough(scan, scanner, place); });
+}
+
+void SearchMap::thin(double elapsed_s, FunctionRef<bool(const Eigen::Vector2d&)> is_empty) {
   if (!(elapsed_s >= 0.0)) throw std::invalid_argument("time does not go back");
   if (walked_m_.empty()) return;
   const double unnoticed = std::max(1e-6, std::exp(-elapsed_s / params_.notice_s));
   for (std::size_t c = 0; c < shares_.size(); ++c) {
-    if (belief_[c] < kNoShare || !isInView(camera, floor_.center(static_cast<int>(c)))) continue;
+    if (belief_[c] < kNoShare || !is_empty(floor_.center(static_cast<int>(c)))) continue;
     for (double& share : shares_[c]) share *= unnoticed;
   }
   sumUp();
+}
+
+// Every beam that would meet somebody who stands there goes on behind them.
+bool SearchMap::isSeenThrough(const LaserScan& scan, const FloorPose& scanner,
+                              const Eigen::Vector2d& point) const {
+  const Eigen::Vector2d to = scanner.inverse() * point;
+  const double range = to.norm();
+  if (range <= params_.body_radius_m || range > params_.max_scan_m) return false;
+  const double half = std::asin(params_.body_radius_m / range);
+  const double middle = std::atan2(to.y(), to.x()) - scan.first_rad;
+  const double first = std::ceil((middle - half) / scan.step_rad);
+  const double last = std::floor((middle + half) / scan.step_rad);
+  if (first < 0.0 || last >= static_cast<double>(scan.ranges_m.size()) || last < first)
+    return false;
+  const auto behind = static_cast<float>(range + params_.body_radius_m);
+  return std::all_of(scan.ranges_m.begin() + static_cast<std::ptrdiff_t>(first),
+                     scan.ranges_m.begin() + static_cast<std::ptrdiff_t>(last) + 1,
+                     [behind](float beam) { return beam > behind; });
 }
 
 bool SearchMap::isInView(const FloorPose& camera, const Eigen::Vector2d& point) const {

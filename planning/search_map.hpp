@@ -8,7 +8,9 @@
 #pragma once
 
 #include "mapping/floor_pose.hpp"
+#include "mapping/laser_scan.hpp"
 #include "planning/coarse_floor.hpp"
+#include "planning/function_ref.hpp"
 
 #include <array>
 #include <optional>
@@ -30,6 +32,7 @@ struct SearchMapParams {
   double field_of_view_rad = 1.0;  ///< Horizontal, of the camera.
   double min_range_m = 0.6;
   double max_range_m = 5.0;
+  double max_scan_m = 6.0;          ///< Legs further away can be missed by the laser.
   double notice_s = 0.3;            ///< Time that a person in view goes unnoticed, on average.
   double robot_clearance_m = 0.35;  ///< Free around a place to look from.
   double robot_speed_mps = 0.3;
@@ -55,9 +58,11 @@ struct SearchView {
 /// Deterministic. Nothing allocates after the first start() and nextView().
 class SearchMap {
  public:
-  /// @param walls  What bars the view and the way, for people and robot.
+  /// @param floor  What bars the way, for people and robot.
+  /// @param sight  What bars the view of a person: who stands behind a table is seen.
   /// @throws std::invalid_argument  if a parameter is not positive, or no cell is free.
-  explicit SearchMap(const OccupancyGrid& walls, const SearchMapParams& params = {});
+  SearchMap(const OccupancyGrid& floor, const OccupancyGrid& sight,
+            const SearchMapParams& params = {});
 
   const CoarseFloor& floor() const { return floor_; }
 
@@ -69,6 +74,9 @@ class SearchMap {
 
   /// The camera has looked from here for a while, and the person was not found.
   void look(const FloorPose& camera, double elapsed_s);
+
+  /// The laser has scanned from here for a while: nobody is where its beams went through.
+  void scan(const LaserScan& scan, const FloorPose& scanner, double elapsed_s);
 
   /// The probability that the person is in a cell of the floor; their sum is 1 after a start().
   const std::vector<double>& belief() const { return belief_; }
@@ -88,6 +96,9 @@ class SearchMap {
   void walk();
   void sumUp();
   void findViews();
+  void thin(double elapsed_s, FunctionRef<bool(const Eigen::Vector2d&)> is_empty);
+  bool isSeenThrough(const LaserScan& scan, const FloorPose& scanner,
+                     const Eigen::Vector2d& point) const;
   bool isInView(const FloorPose& camera, const Eigen::Vector2d& point) const;
   std::size_t visibleIndex(std::size_t view, int cell) const;
   Bearings chancesAround(std::size_t view) const;

@@ -35,6 +35,33 @@ void TautPath::pull(FloorPath& path) {
   skipAhead(path);
 }
 
+void TautPath::widen(FloorPath& path, double room_m) {
+  const double step_m = 0.25 * map_->cell_size_m();
+  const auto most = static_cast<int>(room_m / step_m);
+  for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+    Eigen::Vector2d place = path[i];
+    double room = map_->clearance(place);
+    for (int step = 0; step < most && room < radius_m_ + room_m; ++step) {
+      const Eigen::Vector2d next = place + step_m * awayFrom(place);
+      const double next_room = map_->clearance(next);
+      if (next_room < room + 0.3 * step_m) break;  // The middle, between two things.
+      if (!isClear(path[i - 1], next) || !isClear(next, path[i + 1])) break;
+      place = next;
+      room = next_room;
+    }
+    path[i] = place;
+  }
+}
+
+/// The way in which room grows, of length 1; 0 where it grows in none.
+Eigen::Vector2d TautPath::awayFrom(const Eigen::Vector2d& place) const {
+  const double step_m = 0.5 * map_->cell_size_m();
+  const Eigen::Vector2d x(step_m, 0.0), y(0.0, step_m);
+  const Eigen::Vector2d slope(map_->clearance(place + x) - map_->clearance(place - x),
+                              map_->clearance(place + y) - map_->clearance(place - y));
+  return slope.norm() > 0.0 ? Eigen::Vector2d(slope.normalized()) : slope;
+}
+
 /// From each point goes straight to the farthest that it finds in sight.
 void TautPath::skipAhead(FloorPath& path) {
   const std::size_t last = path.size() - 1;

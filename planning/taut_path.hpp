@@ -20,6 +20,10 @@ class TautPath {
   /// the tangents of the curve that the string would follow.
   void pull(FloorPath& path);
 
+  /// Moves bends further from what they go around, by up to `room_m`, where there is such room; the
+  /// pieces stay clear. A robot that does not keep exactly to its path has this to spare.
+  void widen(FloorPath& path, double room_m);
+
  private:
   bool isClear(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
     return map_->isClear(a, b, radius_m_);
@@ -27,6 +31,7 @@ class TautPath {
   void skipAhead(FloorPath& path);
   void slide(FloorPath& path);
   void cutBends(FloorPath& path);
+  Eigen::Vector2d awayFrom(const Eigen::Vector2d& place) const;
   /// How much of the way from `from` to `to` can be gone so that `eye` still sees the place.
   double seenShare(const Eigen::Vector2d& eye, const Eigen::Vector2d& from,
                    const Eigen::Vector2d& to) const;

@@ -83,6 +83,7 @@ TargetTracker::TargetTracker(const TargetParams& params, const TrackerParams& tr
   require(std::isfinite(params.min_appearance_ratio) && params.min_appearance_ratio >= 1.0,
           "min_appearance_ratio must be at least 1");
   require(params.appearance_frames >= 1, "appearance_frames must be at least 1");
+  require(isNotNegative(params.expected_within_m), "expected_within_m must not be negative");
   require(params.release_share >= 0.0 && params.release_share <= 1.0,
           "release_share must be in [0, 1]");
   require(params.release_s >= 0.0, "release_s must not be negative");
@@ -165,6 +166,10 @@ bool TargetTracker::search() {
   for (const Track& track : tracker_.tracks()) {
     if (track.status != TrackStatus::kConfirmed) {
       continue;
+    }
+    if (isExpected(track)) {
+      take(track, TargetReason::kRecognized);
+      return true;
     }
     somebody_in_view = true;
     const bool looks_like = track.appearance() > params_.min_appearance;
@@ -283,6 +288,13 @@ double TargetTracker::confidenceOf(const Track& track) const {
   const double unseen_s = *tracker_.stamp_s() - track.seen_s;
   return track.appearance() * std::exp(-unseen_s / params_.coast_memory_s) *
          (track.appearance() / all);
+}
+
+/// Whether this is the lost target where another sensor has it, looking not too unlike itself.
+bool TargetTracker::isExpected(const Track& track) const {
+  return had_target_ && expected_m_ &&
+         (track.motion.position_m() - *expected_m_).norm() < params_.expected_within_m &&
+         track.appearance() > params_.release_share * params_.min_appearance;
 }
 
 /// Whether the target can have walked to where this track is.

@@ -28,6 +28,9 @@ struct TargetParams {
   /// target was last seen than max_speed_mps * (time since) + reach_slack_m.
   double max_speed_mps = 2.0;
   double reach_slack_m = 0.8;
+  /// Who is within expected_within_m of the place where the lost target is expected needs only
+  /// release_share of min_appearance, and is taken before anyone else.
+  double expected_within_m = 0.5;
   /// Whoever was taken by looks is let go once their appearance has been under this share of
   /// min_appearance
   double release_share = 0.6;
@@ -116,6 +119,9 @@ class TargetTracker {
   /// @throws std::invalid_argument  if the place is not finite.
   void startAt(const Eigen::Vector2d& position_m);
 
+  /// Says where another sensor has the target, for the next steps; nothing where none has.
+  void expectAt(const std::optional<Eigen::Vector2d>& position_m) { expected_m_ = position_m; }
+
   /// Takes in the observations made at `stamp_s`.
   /// @return The target, valid until the next call.
   /// @throws std::invalid_argument  if the stamp is not finite.
@@ -135,11 +141,13 @@ class TargetTracker {
   void explainUnseen(const Track& track, const std::vector<Observation>& observations);
   double confidenceOf(const Track& track) const;
   bool canBeTarget(const Track& track) const;
+  bool isExpected(const Track& track) const;
 
   TargetParams params_;
   Tracker tracker_;
   TargetEstimate estimate_;
   std::optional<Eigen::Vector2d> start_m_;
+  std::optional<Eigen::Vector2d> expected_m_;
   bool had_target_ = false;
   bool taken_by_looks_ = false;
   std::optional<double>

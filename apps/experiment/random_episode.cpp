@@ -178,6 +178,9 @@ Scene randomEpisode(std::uint64_t seed, const std::filesystem::path& scenes,
   camera.width = 320;
   camera.height = 240;
   camera.rate_hz = params.camera_rate_hz;
+  LaserParams& laser = home.scene.robot.laser;
+  laser.view_rad = 2.0 * M_PI;  // People who pass by the robot stay in view of it.
+  laser.beams = 361;
   home.scene.name = "episode " + std::to_string(seed);
   return std::move(home.scene);
 }

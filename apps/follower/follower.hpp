@@ -9,8 +9,10 @@
 #include "apps/follower/obstacle_points.hpp"
 #include "apps/follower/people_around.hpp"
 #include "apps/follower/perception.hpp"
+#include "apps/follower/person_search.hpp"
 #include "apps/follower/robot_readings.hpp"
 #include "apps/follower/sensor_watch.hpp"
+#include "apps/follower/target_place.hpp"
 #include "apps/follower/wall_gate.hpp"
 #include "mapping/localization.hpp"
 #include "mapping/obstacle_layer.hpp"
@@ -20,7 +22,6 @@
 #include "planning/global_planner.hpp"
 #include "planning/goal_chooser.hpp"
 #include "planning/local_planner.hpp"
-#include "planning/search_map.hpp"
 
 #include <functional>
 #include <memory>
@@ -52,24 +53,24 @@ struct FollowerParams {
   GlobalPlannerParams paths;
   LocalPlannerParams drive;
   GoalChooserParams goal;
-  SearchMapParams search;
+  TargetPlaceParams place;
+  PersonSearchParams search;
 
   FollowerParams();  ///< With what suits following where a part's own default is for other uses.
 
   double near_m = 1.0;             ///< The paper's metre: nearer than this the robot stops ...
   double far_m = 1.2;              ///< ... until the person is further than this.
+  double sees_within_m = 4.0;      ///< Somebody this near, before the camera, is seen.
   double lost_after_s = 0.5;       ///< Without the target's place for longer, it is lost.
-  double seek_radps = 0.6;         ///< Turn of a seek.
-  double looked_around_rad = 1.0;  ///< So much of a turn has seen what is near.
-  double search_s = 60.0;          ///< Budget of a search.
-  double new_view_s = 3.0;         ///< So often a search thinks again where to look.
+  double seek_radps = 0.9;         ///< Turn of a seek.
+  double ahead_rad = 0.3;          ///< What is within this of straight ahead is in view.
   double lost_turn_radps = 0.4;    ///< Turn of a robot that does not know where it is.
   double give_up_s = 4.0;          ///< Blocked for so long, it is as near as it can get.
-  double legs_within_m = 0.4;      ///< Legs this near to the target are the target's.
-  double legs_alone_s = 4.0;       ///< For so long the laser alone goes on with them.
   double beside_s = 2.0;           ///< For so long a lost person is taken to walk on as they did.
+  double stands_mps = 0.15;        ///< Who is slower stands: paths go around them, ...
+  double beside_people_m = 0.05;   ///< ... with so much more room than around things.
   double target_radius_m = 0.45;   ///< Readings this near to the target are the target's own.
-  double mapped_within_m = 0.15;   ///< Points this near to what the map shows are that.
+  double mapped_within_m = 0.15;   ///< What is seen this near to what the map shows is that.
   double obstacles_every_s = 0.2;  ///< How often the camera looks for obstacles.
 };
 
@@ -130,19 +131,23 @@ class Follower {
   void lookAround(const RobotReadings& readings);
   void learn(const Frame& frame);
   void see(const Frame& frame);
-  void decide();
-  void placeTarget();
+  void decide(const RobotReadings& readings);
+  bool isInView(const Eigen::Vector2d& place) const;
   void checkFacts();
   void begin(FollowingAction action);
   void drive();
+  void notePeople();
+  bool isMapped(const Eigen::Vector2d& place) const;
   void keepUnmapped(const std::vector<Eigen::Vector3f>& points);
-  void rememberTheLost();
   void driveTo(const Eigen::Vector2d& goal);
   VelocityCommand localCommand();
   void follow();
   void face();
+  void goToLastSeen();
   void seek();
   void search();
+  void lookAt(const Eigen::Vector2d& place);
+  double sideOf(const Eigen::Vector2d& place) const;
 
   RobotDescription robot_;
   FollowerParams params_;
@@ -161,7 +166,8 @@ class Follower {
   GlobalPlanner planner_;
   LocalPlanner local_planner_;
   GoalChooser goal_chooser_;
-  SearchMap search_;
+  TargetPlace target_place_;
+  PersonSearch search_;
   std::vector<DoorwayOnMap> doorways_;
 
   FollowStep step_;
@@ -169,24 +175,17 @@ class Follower {
   double steady_s_ = 0.0;  // a clock that does not jump
   VelocityCommand speed_;  // by odometry
   TargetEstimate target_;
-  Eigen::Vector2d last_place_ = Eigen::Vector2d::Zero();  // of the target, as far as was known
-  Eigen::Vector2d target_velocity_ = Eigen::Vector2d::Zero();
-  int legs_ = 0;               // the target's, among the people around
-  double legs_alone_s_ = 0.0;  // since the camera saw the target
   FollowingFacts facts_;
   FollowingAction action_ = FollowingAction::kStop;
-  double unseen_s_ = 0.0;  // since the target had a place
   double obstacles_age_s_ = 0.0;
-  double turned_rad_ = 0.0;  // in the present seek
-  double seek_side_ = 1.0;   // +1: to the left
-  double searched_s_ = 0.0;
-  bool search_is_over_ = false;
-  std::optional<SearchView> view_;  // of the present search
-  double view_age_s_ = 0.0;
-  bool is_there_ = false;     // at the view, and turned to it
+  double turned_rad_ = 0.0;   // in the present seek
+  double seek_side_ = 1.0;    // +1: to the left
+  bool is_there_ = false;     // at the search's view, and turned to it
   bool has_arrived_ = false;  // where the last driveTo() went, or as near as can be
+  bool looks_away_ = false;   // from the target, in this step
   GlobalPlan plan_;
   std::vector<MovingPerson> people_;
+  std::vector<FloorDisc> standing_;  // people, with the room that they are left
   std::vector<FloorDisc> masked_;
   std::vector<Eigen::Vector3f> unmapped_;  // points in the base frame
 };

@@ -28,10 +28,13 @@ void PeopleAround::step(double stamp_s, const LaserScan& scan, const FloorPose& 
   tracker_.step(stamp_s, things_);
   people_.clear();
   for (const Track& track : tracker_.tracks()) {
-    if (track.status == TrackStatus::kTentative || !walks(track, stamp_s)) continue;
+    const double rests_s = restsFor_s(track, stamp_s);
+    if (track.status == TrackStatus::kTentative || rests_s > params_.stays_s) continue;
     MovingPerson person{track.motion.position_m(), track.motion.velocity_mps(),
                         params_.person_radius_m};
-    if (person.velocity.norm() > params_.max_speed_mps) person.velocity.setZero();
+    const bool walks =
+        rests_s < params_.rests_after_s && person.velocity.norm() <= params_.max_speed_mps;
+    if (!walks) person.velocity.setZero();
     people_.push_back(person);
   }
 }
@@ -47,7 +50,17 @@ int PeopleAround::nearest(const Eigen::Vector2d& place_m, double within_m) const
   return id;
 }
 
-bool PeopleAround::walks(const Track& track, double stamp_s) {
+bool PeopleAround::hasOtherNear(int id, double within_m) const {
+  const Track* track = find(id);
+  if (track == nullptr) return false;
+  const std::vector<Track>& all = tracker_.tracks();
+  return std::any_of(all.begin(), all.end(), [&](const Track& other) {
+    return other.id != id && other.status != TrackStatus::kTentative &&
+           (other.motion.position_m() - track->motion.position_m()).norm() < within_m;
+  });
+}
+
+double PeopleAround::restsFor_s(const Track& track, double stamp_s) {
   const Eigen::Vector2d place_m = track.motion.position_m();
   const auto stride = std::find_if(strides_.begin(), strides_.end(),
                                    [&](const Stride& s) { return s.track_id == track.id; });
@@ -57,7 +70,7 @@ bool PeopleAround::walks(const Track& track, double stamp_s) {
     };
     strides_.erase(std::remove_if(strides_.begin(), strides_.end(), ended), strides_.end());
     strides_.push_back({track.id, place_m, stamp_s, -std::numeric_limits<double>::infinity()});
-    return false;
+    return std::numeric_limits<double>::infinity();
   }
   const bool is_stride = (place_m - stride->place_m).norm() > params_.stride_m;
   if (is_stride) stride->stamp_s = stamp_s;
@@ -65,7 +78,7 @@ bool PeopleAround::walks(const Track& track, double stamp_s) {
     stride->place_m = place_m;
     stride->since_s = stamp_s;
   }
-  return stamp_s - stride->stamp_s < params_.rests_after_s;
+  return stamp_s - stride->stamp_s;
 }
 
 // Runs of neighbouring ends that the map does not show.

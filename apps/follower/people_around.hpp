@@ -23,7 +23,8 @@ struct PeopleAroundParams {
   /// Who leaves a place by so much, within rests_after_s, walks; the middle of what is seen of a
   /// thing that stands shifts as much, slowly, when the robot drives around it.
   double stride_m = 0.3;
-  double rests_after_s = 2.0;  ///< Who has not done so for as long does not walk any more.
+  double rests_after_s = 2.0;  ///< Who has not done so for as long stands, ...
+  double stays_s = 30.0;  ///< ... and is a person, with more around them than legs, for so long.
   double person_radius_m = 0.25;
   double max_speed_mps = 2.0;  ///< Nobody indoors is faster; what seems so is two things.
   TrackerParams tracker = defaultTracker();
@@ -31,8 +32,8 @@ struct PeopleAroundParams {
   static TrackerParams defaultTracker();
 };
 
-/// Tracks everything of a person's size that the map does not show, and tells of what walks. What
-/// stands, furniture or person, is left to who looks for obstacles.
+/// Tracks everything of a person's size that the map does not show, and tells of what walks or has
+/// walked. What never did, furniture or person, is left to who looks for obstacles.
 class PeopleAround {
  public:
   explicit PeopleAround(const PeopleAroundParams& params = {});
@@ -43,6 +44,8 @@ class PeopleAround {
 
   /// Whoever or whatever is nearest to a place, walking or not; 0 if nobody is within reach.
   int nearest(const Eigen::Vector2d& place_m, double within_m) const;
+  /// Whether another thing of a person's size is this near to one.
+  bool hasOtherNear(int id, double within_m) const;
   /// Their track, or null if it has ended.
   const Track* find(int id) const { return tracker_.findTrack(id); }
 
@@ -53,7 +56,8 @@ class PeopleAround {
   void findThings(const LaserScan& scan, const FloorPose& T_world_scanner,
                   const Clearance& clearance);
   void addThing(const std::vector<Eigen::Vector2d>& ends);
-  bool walks(const Track& track, double stamp_s);
+  /// Time since the last stride; infinite if there was none.
+  double restsFor_s(const Track& track, double stamp_s);
 
   PeopleAroundParams params_;
   Tracker tracker_;

@@ -92,6 +92,9 @@ class Perception {
   /// The target is at this place of the world in the next frame (after phase 1, say).
   void startAt(const Eigen::Vector2d& position_m) { tracker_.startAt(position_m); }
 
+  /// Another sensor has the target there, from the next frame on; or nowhere.
+  void expectAt(const std::optional<Eigen::Vector2d>& position_m) { tracker_.expectAt(position_m); }
+
   /// Stamps need not be regular; one that is not later than the last is skipped by the tracker.
   /// @throws std::invalid_argument  if the frame has not what the sensor gives, or its images do
   ///                                not fit each other.

@@ -19,7 +19,13 @@ constexpr double kTurnRate_radps = 3.0;
 constexpr double kAcceleration_mps2 = 2.0;
 constexpr double kForesight_s = 2.0;
 constexpr double kReflex_s = 0.4;
+constexpr double kPush_spm = 60.0;  // Cost of a push, per m/s.
 constexpr double kBodyToWall_m = 0.2;
+constexpr double kPatience_s = 1.5;  // Held up by the robot for so long, one makes room for it, ...
+constexpr double kMakesRoom_s = 6.0;  // ... for so long,
+constexpr double kHeldUp_m = 1.0;     // if it is this near;
+constexpr double kRoom_m = 1.4;       // this far is far enough.
+constexpr double kAside_mps = 0.4;
 constexpr double kGivesUp_s = 10.0;  // Someone who can't get to a place goes to the next.
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * kPi); }
@@ -28,11 +34,17 @@ double wrapped(double angle) { return std::remainder(angle, 2.0 * kPi); }
 double timeToTouch(const Vector2d& offset, const Vector2d& approach, double reach) {
   const double c = offset.squaredNorm() - reach * reach;
   const double b = offset.dot(approach);
-  if (c <= 0.0) return b < 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
+  if (c <= 0.0) return std::numeric_limits<double>::infinity();  // See `closing`.
   const double a = approach.squaredNorm();
   const double root = b * b - a * c;
   if (b >= 0.0 || root <= 0.0) return std::numeric_limits<double>::infinity();
   return (-b - std::sqrt(root)) / a;
+}
+
+/// How fast two discs that touch already come closer [m/s].
+double closing(const Vector2d& offset, const Vector2d& approach, double reach) {
+  const double away = offset.norm();
+  return away < reach ? std::max(-offset.dot(approach) / std::max(away, 1e-3), 0.0) : 0.0;
 }
 
 }  // namespace
@@ -78,20 +90,48 @@ void Walker::step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& 
       }
     }
   }
+  makes_room_s_ = std::max(makes_room_s_ - dt_s, 0.0);
+  const double to_robot_m = (robot - pose_.position).norm();
+  if (stuck_s_ > kPatience_s && to_robot_m < kHeldUp_m) {
+    makes_room_s_ = kMakesRoom_s;
+    stuck_s_ = 0.0;
+  }
+  if (makes_room_s_ > 0.0) {
+    wanted = to_robot_m < kRoom_m ? wayAside(plan, robot) : Vector2d::Zero();
+  }
   const bool walks = !wanted.isZero();
+  const Vector2d way = wanted.normalized();
   if (walks) wanted = chooseVelocity(wanted, plan, others);
   move(dt_s, wanted);
-  stuck_s_ = walks && velocity_.norm() < 0.1 ? stuck_s_ + dt_s : std::max(stuck_s_ - dt_s, 0.0);
+  stuck_s_ = walks && velocity_.dot(way) < 0.1 ? stuck_s_ + dt_s : std::max(stuck_s_ - dt_s, 0.0);
   if (stuck_s_ > kGivesUp_s) {
     stuck_s_ = 0.0;
     finishStep();
   }
 }
 
+// Away from the robot, to where there is room.
+Vector2d Walker::wayAside(const FloorPlan& plan, const Vector2d& robot) const {
+  Vector2d best = Vector2d::Zero();
+  double most = 0.0;
+  for (int i = 0; i < 16; ++i) {
+    const double angle = kPi / 8.0 * i;
+    const Vector2d way(std::cos(angle), std::sin(angle));
+    const Vector2d there = pose_.position + 0.5 * way;
+    const double room_m =
+        std::min(plan.clearance(there), plan.clearance(pose_.position + 0.25 * way));
+    const double gain_m = (there - robot).norm() - (pose_.position - robot).norm();
+    if (room_m < kBodyToWall_m || gain_m + 0.3 * std::min(room_m, 0.6) <= most) continue;
+    most = gain_m + 0.3 * std::min(room_m, 0.6);
+    best = kAside_mps * way;
+  }
+  return best;
+}
+
 Vector2d Walker::chooseVelocity(const Vector2d& wanted, const FloorPlan& plan,
                                 const std::vector<Mover>& others) const {
-  static constexpr std::array<double, 11> kTurns = {0.0,  -0.3,  0.3,  -0.6, 0.6, -0.95,
-                                                    0.95, -1.35, 1.35, -1.8, 1.8};
+  static constexpr std::array<double, 13> kTurns = {0.0,   -0.3, 0.3,  -0.6, 0.6,  -0.95, 0.95,
+                                                    -1.35, 1.35, -1.8, 1.8,  -2.6, 2.6};
   const double speed = wanted.norm();
   Vector2d best = Vector2d::Zero();
   double least = std::numeric_limits<double>::infinity();
@@ -103,10 +143,13 @@ Vector2d Walker::chooseVelocity(const Vector2d& wanted, const FloorPlan& plan,
       double cost = (velocity - wanted).norm() / speed + (turn > 0.0 ? 0.08 : 0.0);
       if (pace == 0.0) cost += 0.4 * stuck_s_;  // Nobody waits for ever.
       for (const Mover& other : others) {
-        const double touch = timeToTouch(other.position - pose_.position, other.velocity - velocity,
-                                         other.radius_m + kRadius_m);
+        const Vector2d offset = other.position - pose_.position;
+        const Vector2d approach = other.velocity - velocity;
+        const double reach = other.radius_m + kRadius_m;
+        const double touch = timeToTouch(offset, approach, reach);
         if (touch < kForesight_s) cost += 3.0 * (1.0 - touch / kForesight_s) + 0.5;
         if (touch < kReflex_s) cost += 10.0;  // Rather stand than bump into somebody.
+        cost += kPush_spm * closing(offset, approach, reach);  // Least of all push them.
       }
       if (cost >= least) continue;
       const bool straight = turn == 0.0;

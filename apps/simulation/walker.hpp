@@ -41,6 +41,7 @@ class Walker {
   static constexpr double kRadius_m = 0.25;
 
   void finishStep();
+  Eigen::Vector2d wayAside(const FloorPlan& plan, const Eigen::Vector2d& robot) const;
   Eigen::Vector2d chooseVelocity(const Eigen::Vector2d& wanted, const FloorPlan& plan,
                                  const std::vector<Mover>& others) const;
   void move(double dt_s, const Eigen::Vector2d& wanted);
@@ -51,7 +52,8 @@ class Walker {
   Eigen::Vector2d velocity_ = Eigen::Vector2d::Zero();
   std::size_t step_ = 0;
   double waited_s_ = 0.0;
-  double stuck_s_ = 0.0;  // How long somebody has been in the way.
+  double makes_room_s_ = 0.0;  // still, for the robot
+  double stuck_s_ = 0.0;       // How long somebody has been in the way.
 };
 
 }  // namespace heel

@@ -109,16 +109,20 @@ TEST_F(PeopleAroundTest, IsSureOfAWalkerWithinAMetre) {
   EXPECT_EQ(people.people().size(), 1U);
 }
 
-TEST_F(PeopleAroundTest, WhoStopsIsGivenWayForAWhileThenStands) {
+TEST_F(PeopleAroundTest, WhoStopsIsAPersonForAWhileThenAThing) {
   discs = {{Vector2d(2.5, -1.0)}};
   walk({0.0, 0.8}, 1.5);
   walk({0.0, 0.0}, 1.0);
   ASSERT_EQ(people.people().size(), 1U);
   EXPECT_NEAR(people.people()[0].velocity.norm(), 0.0, 0.2);
   walk({0.0, 0.0}, 2.0);
-  EXPECT_TRUE(people.people().empty());
+  ASSERT_EQ(people.people().size(), 1U) << "a person still";
+  EXPECT_EQ(people.people()[0].velocity.norm(), 0.0);
   walk({0.0, -0.6}, 1.5);
-  EXPECT_EQ(people.people().size(), 1U) << "who goes on walks again";
+  ASSERT_EQ(people.people().size(), 1U);
+  EXPECT_LT(people.people()[0].velocity.y(), -0.3) << "who goes on walks again";
+  walk({0.0, 0.0}, PeopleAroundParams().stays_s + 1.0);
+  EXPECT_TRUE(people.people().empty());
 }
 
 TEST_F(PeopleAroundTest, LegsAreOnePersons) {

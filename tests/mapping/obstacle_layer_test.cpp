@@ -45,6 +45,19 @@ TEST(ObstacleLayer, PutsABeamsEndWhereItIsInTheWorld) {
   EXPECT_TRUE(occupied(layer, 9.78, -3.88));
 }
 
+TEST(ObstacleLayer, LeavesToTheMapWhatTheMapShows) {
+  ObstacleLayer layer;
+  const auto is_wall = [](const Eigen::Vector2d& place) { return place.x() > 0.9; };
+  layer.begin(0.0, {});
+  layer.addScan(oneBeam(1.02), {}, is_wall);
+  layer.finish();
+  EXPECT_TRUE(layer.obstacles().empty());
+  layer.begin(0.1, {});
+  layer.addScan(oneBeam(0.8), {}, is_wall);
+  layer.finish();
+  EXPECT_EQ(layer.obstacles().size(), 1U);
+}
+
 TEST(ObstacleLayer, MeasuresTheDistanceToTheNearestObstacle) {
   ObstacleLayer layer;
   seePoints(layer, 0.0, thrice(1.02, 0.03, 0.7));

@@ -65,6 +65,30 @@ TEST(GlobalPlanner, GoesRoundACornerAlongItsTangents) {
   expectClear(map, plan.path, kBody_m);
 }
 
+TEST(GlobalPlanner, GivesBendsRoomWhereThereIs) {
+  const DrawnMap map = twoRooms(1.2);
+  GlobalPlannerParams roomy = kRobot;
+  roomy.bend_room_m = 0.15;
+  const Eigen::Vector2d start(1, 0.6), goal(5, 0.6);
+  const GlobalPlan close = GlobalPlanner(map.grid(), kRobot).plan(start, goal);
+  GlobalPlanner planner(map.grid(), roomy);
+  const GlobalPlan wide = planner.plan(start, goal);
+  expectClear(map, wide.path, kBody_m);
+  const auto least = [&](const FloorPath& path) {
+    double room = 9.0;
+    for (std::size_t i = 1; i + 1 < path.size(); ++i) {
+      room = std::min(room, planner.clearance().clearance(path[i]));
+    }
+    return room;
+  };
+  ASSERT_GT(close.path.size(), 2U);
+  EXPECT_GT(least(wide.path), least(close.path) + 0.1);
+  EXPECT_LT(wide.length_m, 1.05 * close.length_m);
+  // In a doorway just wide enough there is none, and it goes through all the same.
+  const DrawnMap narrow = twoRooms(0.7);
+  EXPECT_EQ(GlobalPlanner(narrow.grid(), roomy).plan({1, 1}, {5, 1}).status, PlanStatus::kFound);
+}
+
 TEST(GlobalPlanner, GoesThroughADoorwayJustWideEnough) {
   const DrawnMap wide = twoRooms(0.7), narrow = twoRooms(0.6);
   GlobalPlanner through(wide.grid(), kRobot), shut(narrow.grid(), kRobot);

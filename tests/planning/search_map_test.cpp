@@ -43,7 +43,10 @@ const std::vector<std::string> kThreeRooms = {  // cells of 0.2 m: 8.2 m x 4.2 m
 constexpr double kLeftDoor = 2.2, kRightDoor = 6.0;
 const Eigen::Vector2d kMiddle(4.1, 2.1);
 
-SearchMap threeRooms() { return SearchMap(test::drawnMap(kThreeRooms, 0.2)); }
+SearchMap threeRooms() {
+  const OccupancyGrid map = test::drawnMap(kThreeRooms, 0.2);
+  return SearchMap(map, map);
+}
 
 double total(const SearchMap& map) {
   return std::accumulate(map.belief().begin(), map.belief().end(), 0.0);
@@ -215,6 +218,37 @@ TEST(SearchMap, FindsSomebodyWhoHidesByLookingWhereItSays) {
   EXPECT_LT(views, 6);
 }
 
+TEST(SearchMap, LooksOverWhatOnlyBarsTheWay) {
+  // A row of tables across the middle room.
+  std::vector<std::string> lines = kThreeRooms;
+  for (std::size_t y = 1; y < 20; ++y) lines[y][20] = '#';
+  const OccupancyGrid floor = test::drawnMap(lines, 0.2), sight = test::drawnMap(kThreeRooms, 0.2);
+  const SearchMap over(floor, sight), walled(floor, floor);
+  const Eigen::Vector2d here(3.5, 2.1), there(4.7, 2.1);
+  EXPECT_TRUE(over.floor().sees(here, there));
+  EXPECT_FALSE(walled.floor().sees(here, there));
+  EXPECT_FALSE(over.floor().isClear(kMiddle, 0.1)) << "nobody stands on a table";
+}
+
+TEST(SearchMap, NobodyIsWhereTheLaserSeesThrough) {
+  SearchMap map = threeRooms();
+  map.start(kMiddle, {0.0, 0.0});
+  map.spread(1.0);
+  LaserScan scan;  // To the right the beams go through, to the left something stands.
+  scan.first_rad = -1.5;
+  scan.step_rad = 0.01;
+  scan.ranges_m.assign(150, 5.0F);
+  scan.ranges_m.resize(301, 1.0F);
+  map.scan(scan, {{2.4, 2.1}, 0.0}, 3.0);
+  double right = 0.0, left = 0.0;
+  for (int c = 0; c < map.floor().cells(); ++c) {
+    const Eigen::Vector2d place = map.floor().center(c);
+    (place.y() < 1.8 ? right : left) += map.belief()[static_cast<std::size_t>(c)];
+  }
+  EXPECT_LT(right, 0.01);
+  EXPECT_NEAR(right + left, 1.0, 1e-9);
+}
+
 TEST(SearchMap, ManySmallTimesAreOneLargeTime) {
   SearchMap once = threeRooms(), often = threeRooms();
   once.start(kMiddle, {0.5, 0.0});
@@ -236,11 +270,15 @@ TEST(SearchMap, DoesNothingBeforeItStarts) {
 
 TEST(SearchMap, AllocatesNothingOnceWarm) {
   SearchMap map = threeRooms();
+  LaserScan scan;
+  scan.step_rad = 0.02;
+  scan.ranges_m.assign(100, 3.0F);
   const auto run = [&] {
     map.start(kMiddle, {0.5, 0.5});
     for (int i = 0; i < 20; ++i) {
       map.spread(0.2);
       map.look({kMiddle, 0.3 * i}, 0.2);
+      map.scan(scan, {kMiddle, 0.3 * i}, 0.2);
     }
     return map.nextView({kMiddle, 0.0});
   };
@@ -253,8 +291,10 @@ TEST(SearchMap, AllocatesNothingOnceWarm) {
 TEST(SearchMap, RejectsWhatMakesNoSense) {
   SearchMapParams params;
   params.notice_s = 0.0;
-  EXPECT_THROW(SearchMap(test::drawnMap(kThreeRooms, 0.2), params), std::invalid_argument);
-  EXPECT_THROW(SearchMap(test::drawnMap({"##", "##"}, 0.5)), std::invalid_argument);
+  const OccupancyGrid rooms = test::drawnMap(kThreeRooms, 0.2);
+  EXPECT_THROW(SearchMap(rooms, rooms, params), std::invalid_argument);
+  const OccupancyGrid full = test::drawnMap({"##", "##"}, 0.5);
+  EXPECT_THROW(SearchMap(full, full), std::invalid_argument);
   SearchMap map = threeRooms();
   EXPECT_THROW(map.start({std::nan(""), 0.0}, {0.0, 0.0}), std::invalid_argument);
   EXPECT_THROW(map.spread(-1.0), std::invalid_argument);

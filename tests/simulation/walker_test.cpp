@@ -95,6 +95,47 @@ TEST(Walker, StepsAroundTheRobot) {
   EXPECT_GT(least, 0.0);
 }
 
+TEST(Walker, NeverPushesARobotInItsWay) {
+  // A corridor which the robot, standing or creeping on, leaves no room in.
+  for (const double creep_mps : {0.0, 0.05}) {
+    Scene scene = test::squareRoom();
+    for (const double y : {-0.45, 0.45}) {
+      Wall& wall = scene.walls.emplace_back();
+      wall.from = {-2.9, y};
+      wall.to = {2.9, y};
+    }
+    scene.robot.start = {0.0, 0.0};
+    scene.people.push_back(test::standingPerson("eva", 2.0, 0.0));
+    scene.people[0].path = {walkTo(-2.0, 0.0, 0.6)};
+    Simulator simulator(scene, {1, 0, false});
+    for (int i = 0; i < 80; ++i) {
+      EXPECT_FALSE(simulator.step(0.1, {creep_mps, 0.0}).truth.contact) << creep_mps << " " << i;
+    }
+  }
+}
+
+TEST(Walker, MakesRoomForARobotThatHoldsItUp) {
+  Scene scene = test::squareRoom();
+  for (const double y : {-0.45, 0.45}) {
+    Wall& wall = scene.walls.emplace_back();
+    wall.from = {-0.5, y};
+    wall.to = {0.5, y};
+  }
+  scene.robot.start = {-0.2, 0.0};
+  scene.people.push_back(test::standingPerson("eva", 1.5, 0.0));
+  scene.people[0].path = {walkTo(-2.5, 0.0, 0.6)};
+  Simulator simulator(scene, {1, 0, false});
+  double nearest_m = 9.0, furthest_m = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    const WorldTruth& truth = simulator.step(0.1).truth;
+    const double away_m = truth.people[0].position.norm();
+    nearest_m = std::min(nearest_m, away_m);
+    if (nearest_m < 0.8) furthest_m = std::max(furthest_m, away_m);
+  }
+  EXPECT_LT(nearest_m, 0.8) << "it came up to the robot";
+  EXPECT_GT(furthest_m, 1.0) << "and stepped back";
+}
+
 TEST(Body, StandsOnTheFloorAndIsAsTallAsItSays) {
   ScenePerson person;
   person.height_m = 1.8;

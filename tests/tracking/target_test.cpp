@@ -156,6 +156,27 @@ TEST(TargetTracker, AConfuserBesideTheTargetDoesNotTakeItsPlace) {
   EXPECT_LT(back.motion.mean.y(), 0.1);
 }
 
+TEST(TargetTracker, TakesWhoIsWhereAnotherSensorHasItThoughTheyLookLittleLikeIt) {
+  constexpr double kInTheShade = 0.3;  // Too little to be known by.
+  Scene run;
+  run.target().startAt({0.0, 0.0});
+  run.see({seen(0.0, 0.0)}, 3);
+  run.see({}, 10);
+  EXPECT_EQ(run.see({seen(1.0, 0.0, kInTheShade)}, 3).reason, TargetReason::kNobodyLooksLike);
+  run.target().expectAt(Eigen::Vector2d(2.0, 0.0));
+  EXPECT_EQ(run.see({seen(1.0, 0.0, kInTheShade)}, 3).reason, TargetReason::kNobodyLooksLike);
+  run.target().expectAt(Eigen::Vector2d(1.1, 0.1));
+  EXPECT_EQ(run.see({seen(1.0, 0.0, kInTheShade)}).status, TargetStatus::kFollowed);
+
+  Scene other;
+  other.target().startAt({0.0, 0.0});
+  other.see({seen(0.0, 0.0)}, 3);
+  other.see({}, 10);
+  other.target().expectAt(Eigen::Vector2d(1.0, 0.0));
+  EXPECT_EQ(other.see({seen(1.0, 0.0, kUnlike)}, 5).reason, TargetReason::kNobodyLooksLike)
+      << "but not somebody in other clothes";
+}
+
 TEST(TargetTracker, CoastsThenIsLostAtItsLastPlace) {
   Scene run;
   run.target().startAt({0.0, 0.0});

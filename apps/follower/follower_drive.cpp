@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// The follower's actions: from what the plan says to a velocity.
+
+#include "apps/follower/follower.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+namespace heel {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kHalfBody_m = 0.25;
+
+}  // namespace
+
+// A speed for what the plan says (section 3.3); nothing moves while it is not safe.
+void Follower::drive() {
+  step_.goal.reset();
+  step_.path = nullptr;
+  step_.velocity = {};
+  looks_away_ = false;
+  if (step_.is_learning) {
+    step_.reason = "learns whom to follow";
+    return;
+  }
+  if (!watch_.blindness().empty()) {
+    step_.reason = watch_.blindness();
+    return;
+  }
+  if (step_.robot.lost) {  // Another view may tell; a round robot touches nothing by turning.
+    step_.reason = "does not know where it is";
+    step_.velocity.turn_radps = params_.lost_turn_radps;
+    return;
+  }
+  step_.reason = target_.hasPlace() || step_.perception == nullptr ? "" : step_.perception->reason;
+  switch (action_) {
+    case FollowingAction::kStop:
+      break;
+    case FollowingAction::kFollow:
+      follow();
+      break;
+    case FollowingAction::kFace:
+      face();
+      break;
+    case FollowingAction::kGoToLastSeen:
+      goToLastSeen();
+      break;
+    case FollowingAction::kSeek:
+      seek();
+      break;
+    case FollowingAction::kSearch:
+      search();
+      break;
+  }
+}
+
+// Stands off the person, in view of them and in nobody's way.
+void Follower::follow() {
+  if (!target_place_.now()) return driveTo(target_place_.last().position);
+  const MovingPerson& target = *target_place_.now();
+  const auto clearance = [this](const Vector2d& p) { return planner_.clearance().clearance(p); };
+  const auto sees = [this](const Vector2d& from, const Vector2d& to) {
+    const double eye_m = robot_.camera.T_base_camera.translation().z();
+    return walls_->lineOfSight({from.x(), from.y(), eye_m}, {to.x(), to.y(), eye_m}, kHalfBody_m);
+  };
+  const auto place = goal_chooser_.choose(target, step_.robot.pose, clearance, sees, doorways_);
+  driveTo(place ? place->pose.position : *step_.target);
+}
+
+// From within a metre somebody who stood there would be seen: no need to go on.
+void Follower::goToLastSeen() {
+  const Vector2d& place = target_place_.last().position;
+  driveTo(place);
+  const bool is_near = (place - step_.robot.pose.position).norm() < params_.near_m;
+  has_arrived_ = has_arrived_ || is_near;
+}
+
+// A turn on the spot, towards the side where the person was last seen.
+void Follower::seek() {
+  step_.velocity.turn_radps = seek_side_ * params_.seek_radps;
+  turned_rad_ += std::abs(watch_.increment().yaw_rad);
+}
+
+// Goes where the chance to see the person is best, and looks there.
+void Follower::search() {
+  if (search_.choose(dt_s_, step_.robot.pose, is_there_)) local_planner_.reset();
+  is_there_ = false;
+  const std::optional<SearchView>& view = search_.view();
+  if (!view) return;
+  driveTo(view->camera.position);
+  if (!has_arrived_) return;
+  lookAt(view->camera * Vector2d(2.0, 0.0));
+  is_there_ = step_.velocity.turn_radps == 0.0;
+}
+
+void Follower::lookAt(const Vector2d& place) {
+  const double turn =
+      turnToFace(robot_.drive, {step_.robot.pose, speed_}, place, params_.drive.facing);
+  step_.velocity = {0.0, turn};
+}
+
+// +1: to the left.
+double Follower::sideOf(const Vector2d& place) const {
+  return bearingOf(step_.robot.pose, place) < 0.0 ? -1.0 : 1.0;
+}
+
+// Stays where it is, turned to the person, unless it must make room: nobody waits at a doorway
+// that the robot stands in.
+void Follower::face() {
+  const Vector2d& here = step_.robot.pose.position;
+  const GoalChooserParams& goal = goal_chooser_.params();
+  const bool blocks = std::any_of(doorways_.begin(), doorways_.end(), [&](const DoorwayOnMap& d) {
+    return inPassage(d, here, goal.doorway_depth_m, goal.radius_m) > 0.0;
+  });
+  if (blocks) {
+    looks_away_ = true;  // The person waits: making room goes before keeping them in view.
+    return follow();
+  }
+  plan_.path.clear();
+  step_.velocity = localCommand();
+}
+
+// Around what the map and the moment show, in view of the person if there is one.
+void Follower::driveTo(const Vector2d& goal) {
+  const FloorPose& pose = step_.robot.pose;
+  planner_.plan(pose.position, goal, plan_);
+  if (!plan_.found()) {  // What is in the way may be gone by then: as the map has it.
+    planner_.setObstacles({});
+    planner_.plan(pose.position, goal, plan_);
+    planner_.setObstacles(standing_, &layer_.window());
+  }
+  if (!plan_.found()) plan_.path.clear();
+  step_.velocity = localCommand();
+  step_.goal = goal;
+  step_.path = &plan_.path;
+  has_arrived_ = has_arrived_ || !plan_.found();
+}
+
+// Along the path, if there is one, without touching anything; in view of the target.
+VelocityCommand Follower::localCommand() {
+  const auto clearance = [this](const Vector2d& p) { return planner_.clearance().clearance(p); };
+  const LocalPlan now = local_planner_.step(step_.robot.pose, speed_, plan_.path, clearance,
+                                            people_, looks_away_ ? std::nullopt : step_.target);
+  has_arrived_ = now.status == DriveStatus::kArrived || now.blocked_s > params_.give_up_s;
+  step_.reason += (step_.reason.empty() ? "" : "; ") + std::string(describe(now.reason));
+  return now.command;
+}
+
+}  // namespace heel

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/follower/person_search.hpp"
+
+namespace heel {
+
+void PersonSearch::lose(const MovingPerson& last, double unseen_s) {
+  map_.start(last.position, last.velocity);
+  map_.spread(unseen_s);
+  view_.reset();
+  searched_s_ = 0.0;
+  is_over_ = false;
+}
+
+bool PersonSearch::choose(double elapsed_s, const FloorPose& robot, bool is_there) {
+  searched_s_ += elapsed_s;
+  view_age_s_ += elapsed_s;
+  if (view_ && !is_there && view_age_s_ <= params_.new_view_s) return false;
+  view_ = map_.nextView(robot);
+  view_age_s_ = 0.0;
+  is_over_ = !view_;
+  return true;
+}
+
+}  // namespace heel

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// The search for a person who was lost: where to look next, until the time for it is over.
+#pragma once
+
+#include "planning/search_map.hpp"
+#include "planning/surroundings.hpp"
+
+#include <optional>
+
+namespace heel {
+
+struct PersonSearchParams {
+  SearchMapParams map;
+  double budget_s = 60.0;   ///< Of one search.
+  double new_view_s = 3.0;  ///< So often it thinks again where to look.
+};
+
+/// Keeps, from the moment of a loss on, where the person can be: spread by time, thinned by looks.
+class PersonSearch {
+ public:
+  /// Of these, one bars the way and one the view.
+  PersonSearch(const OccupancyGrid& floor, const OccupancyGrid& sight,
+               const PersonSearchParams& params = {})
+      : params_(params), map_(floor, sight, params.map) {}
+
+  /// They are lost; a while ago they were here, and walked so.
+  void lose(const MovingPerson& last, double unseen_s);
+  /// Time goes by without them.
+  void wait(double elapsed_s) { map_.spread(elapsed_s); }
+  /// They were not before the camera, which looked from here.
+  void look(const FloorPose& camera, double elapsed_s) { map_.look(camera, elapsed_s); }
+  /// Nor where the laser's beams went through.
+  void scan(const LaserScan& scan, const FloorPose& scanner, double elapsed_s) {
+    map_.scan(scan, scanner, elapsed_s);
+  }
+
+  /// Chooses what to look at, if the last choice is old or the robot `is_there`; takes from the
+  /// budget. @return whether there is a new choice.
+  bool choose(double elapsed_s, const FloorPose& robot, bool is_there);
+  /// The choice; nothing if nothing is left to look at.
+  const std::optional<SearchView>& view() const { return view_; }
+  /// Another choice, next time.
+  void restart() { view_.reset(); }
+  /// Whether the time is used up, or nothing is left to look at.
+  bool isOver() const { return is_over_ || searched_s_ > params_.budget_s; }
+
+ private:
+  PersonSearchParams params_;
+  SearchMap map_;
+  std::optional<SearchView> view_;
+  double view_age_s_ = 0.0;
+  double searched_s_ = 0.0;
+  bool is_over_ = false;
+};
+
+}  // namespace heel

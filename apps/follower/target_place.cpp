@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/follower/target_place.hpp"
+
+#include <algorithm>
+
+namespace heel {
+
+void TargetPlace::step(const TargetEstimate& seen, const PeopleAround& around,
+                       FunctionRef<bool(const Eigen::Vector2d&)> is_in_view, double elapsed_s) {
+  now_.reset();
+  bool is_seen = false;
+  if (seen.status == TargetStatus::kFollowed) {
+    now_ = MovingPerson{seen.motion.position_m(), seen.motion.velocity_mps()};
+    legs_ = around.nearest(now_->position, params_.legs_within_m);
+    doubt_ = 0.0;
+    mixed_ = false;
+    is_seen = true;
+  } else if (const Track* legs = believedLegs(around, is_in_view, elapsed_s)) {
+    now_ = MovingPerson{legs->motion.position_m(), legs->motion.velocity_mps()};
+    is_seen = legs->status == TrackStatus::kConfirmed;
+  } else if (seen.status == TargetStatus::kCoasting) {
+    now_ = MovingPerson{seen.motion.position_m(), seen.motion.velocity_mps()};
+  }
+  unseen_s_ = is_seen ? 0.0 : unseen_s_ + elapsed_s;
+  if (is_seen) last_ = *now_;
+  findSuspect(around, is_in_view);
+}
+
+void TargetPlace::findSuspect(const PeopleAround& around,
+                              FunctionRef<bool(const Eigen::Vector2d&)> is_in_view) {
+  suspect_.reset();
+  if (now_) return;
+  double nearest_m = params_.legs_within_m + unseen_s_ * params_.max_speed_mps;
+  for (const MovingPerson& person : around.people()) {
+    const double away_m = (person.position - last_.position).norm();
+    if (away_m > nearest_m || is_in_view(person.position)) continue;
+    nearest_m = away_m;
+    suspect_ = person;
+  }
+}
+
+MovingPerson TargetPlace::expected() const {
+  if (suspect_) return *suspect_;
+  MovingPerson person = last_;
+  person.position += std::min(unseen_s_, params_.walks_on_s) * person.velocity;
+  return person;
+}
+
+const Track* TargetPlace::believedLegs(const PeopleAround& around,
+                                       FunctionRef<bool(const Eigen::Vector2d&)> is_in_view,
+                                       double elapsed_s) {
+  const Track* legs = around.find(legs_);
+  if (legs == nullptr) return nullptr;
+  const Eigen::Vector2d place = legs->motion.position_m();
+  double patience_s = params_.legs_alone_s;
+  if (is_in_view(place)) patience_s = params_.legs_in_view_s;
+  mixed_ = mixed_ || around.hasOtherNear(legs_, params_.legs_apart_m);
+  if (mixed_) patience_s = params_.legs_mixed_s;
+  doubt_ += elapsed_s / patience_s;
+  return doubt_ < 1.0 ? legs : nullptr;
+}
+
+}  // namespace heel
