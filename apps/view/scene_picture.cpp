@@ -116,12 +116,14 @@ void drawPoints(const Eye& eye, const ViewScene& scene, cv::Mat& picture) {
   Splats splats(picture);
   const Eigen::Vector3f camera = scene.drawn.T_floor_camera.translation().cast<float>();
   const double focal = scene.drawn.camera.fx;
-  for (const auto& point : *tintedCloud(scene)) {
+  const auto cloud = tintedCloud(scene);
+  for (const auto& point : *cloud) {
     if (!pcl::isFinite(point)) continue;
     const double range_m = double{(point.getVector3fMap() - camera).norm()};
     splats.add(eye, point, focal > 0.0 ? range_m / focal : kUnknownSpacing_m);
   }
-  for (const auto& point : *wallPoints(scene.walls)) {
+  const auto walls = wallPoints(scene.walls);
+  for (const auto& point : *walls) {
     splats.add(eye, point, 0.4 * scene.walls.cell_size_m());
   }
 }
