@@ -11,6 +11,8 @@ namespace heel {
 
 using Eigen::Vector2d;
 
+constexpr double kThere_m = 0.05;
+
 void PathAhead::take(const std::vector<Vector2d>& path, const Vector2d& position, double reach_m) {
   points_.clear();
   // The nearest point of the polyline.
@@ -123,8 +125,10 @@ void addPursuit(const DriveLimits& limits, const DriveState& now, const PathAhea
     // Full speed up to 37 degrees off, none from 72 degrees on.
     double speed = pursuit.speed_mps * std::clamp((std::cos(angle) - 0.3) / 0.5, 0.0, 1.0);
     if (path.endsAtGoal()) speed = std::min(speed, 0.9 * speedToStopWithin(limits, left));
-    const VelocityCommand command{speed, std::clamp(pursuit.turn_gain * angle,
-                                                    -limits.max_turn_radps, limits.max_turn_radps)};
+    VelocityCommand command{speed, std::clamp(pursuit.turn_gain * angle, -limits.max_turn_radps,
+                                              limits.max_turn_radps)};
+    // So near to the goal its direction says nothing.
+    if (path.endsAtGoal() && left < kThere_m) command = {};
     if (step == 0) out.commands.push_back(command);
     state = driven(limits, state, command, limits.period_s);
     out.poses.push_back(state.pose);

@@ -41,6 +41,7 @@ FollowerParams::FollowerParams() {
   goal.doorway_depth_m = 0.95;  // somebody who comes out of it must get past the robot
   drive.terms.weights[static_cast<std::size_t>(DriveTerm::kView)] = 4.0;
   obstacles.min_points = 6;
+  obstacles.min_memory_s = 0.7;  // a false match of one frame must not close a doorway for long
   obstacles.memory_gain = 3.0;
   obstacles.max_memory_s = 8.0;
 }
@@ -187,11 +188,18 @@ bool Follower::isMapped(const Vector2d& place) const {
   return to_walls_.at(place) <= params_.mapped_within_m;
 }
 
+// People are avoided as people; what the camera saw of them would be in the way where they were.
+bool Follower::isSomebody(const Vector2d& place) const {
+  return std::any_of(people_.begin(), people_.end(), [&](const MovingPerson& person) {
+    return (person.position - place).norm() < params_.target_radius_m;
+  });
+}
+
 void Follower::keepUnmapped(const std::vector<Eigen::Vector3f>& points) {
   unmapped_.clear();
   for (const Eigen::Vector3f& point : points) {
     const Vector2d place = step_.robot.pose * Vector2d(point.head<2>().cast<double>());
-    if (!isMapped(place)) unmapped_.push_back(point);
+    if (!isMapped(place) && !isSomebody(place)) unmapped_.push_back(point);
   }
 }
 
@@ -283,6 +291,7 @@ void Follower::begin(FollowingAction action) {
   has_arrived_ = false;
   search_.restart();
   is_there_ = false;
+  if (action != FollowingAction::kFollow && action != FollowingAction::kFace) making_room_.reset();
   if (action == FollowingAction::kSeek) {
     turned_rad_ = 0.0;
     seek_side_ = sideOf(target_place_.expected().position);

@@ -22,6 +22,7 @@
 #include "planning/global_planner.hpp"
 #include "planning/goal_chooser.hpp"
 #include "planning/local_planner.hpp"
+#include "planning/wayside.hpp"
 
 #include <functional>
 #include <memory>
@@ -53,6 +54,7 @@ struct FollowerParams {
   GlobalPlannerParams paths;
   LocalPlannerParams drive;
   GoalChooserParams goal;
+  WaysideParams wayside;
   TargetPlaceParams place;
   PersonSearchParams search;
 
@@ -60,6 +62,10 @@ struct FollowerParams {
 
   double near_m = 1.0;             ///< The paper's metre: nearer than this the robot stops ...
   double far_m = 1.2;              ///< ... until the person is further than this.
+  double beside_m = 0.7;           ///< Somebody this near leaves the robot no room to drive.
+  double comes_mps = 0.15;         ///< Who comes nearer than far_m at this speed wants to get past.
+  double makes_room_s = 20.0;      ///< Leaves the way to them for so long at most, ...
+  double waits_aside_s = 6.0;      ///< ... and for so long once it is out of their way.
   double sees_within_m = 4.0;      ///< Somebody this near, before the camera, is seen.
   double lost_after_s = 0.5;       ///< Without the target's place for longer, it is lost.
   double seek_radps = 0.9;         ///< Turn of a seek.
@@ -138,11 +144,18 @@ class Follower {
   void drive();
   void notePeople();
   bool isMapped(const Eigen::Vector2d& place) const;
+  bool isSomebody(const Eigen::Vector2d& place) const;
   void keepUnmapped(const std::vector<Eigen::Vector3f>& points);
   void driveTo(const Eigen::Vector2d& goal);
   VelocityCommand localCommand();
   void follow();
   void face();
+  bool standsInDoorway() const;
+  bool makesRoom();
+  double roomAt(const Eigen::Vector2d& place) const;
+  bool isInTheWay() const;
+  void goAside();
+  bool hasPassed() const;
   void goToLastSeen();
   void seek();
   void search();
@@ -183,6 +196,16 @@ class Follower {
   bool is_there_ = false;     // at the search's view, and turned to it
   bool has_arrived_ = false;  // where the last driveTo() went, or as near as can be
   bool looks_away_ = false;   // from the target, in this step
+  /// The target wants to get past the robot, which goes aside.
+  struct MakingRoom {
+    Eigen::Vector2d place;   // where it goes
+    Eigen::Vector2d before;  // where it was then,
+    Eigen::Vector2d person;  // and where they were
+    double since_s = 0.0;
+    double waited_s = 0.0;
+  };
+  std::optional<MakingRoom> making_room_;
+  std::vector<Eigen::Vector2d> waysides_;
   GlobalPlan plan_;
   std::vector<MovingPerson> people_;
   std::vector<FloorDisc> standing_;  // people, with the room that they are left

@@ -61,6 +61,7 @@ void Follower::drive() {
 
 // Stands off the person, in view of them and in nobody's way.
 void Follower::follow() {
+  if (makesRoom()) return;
   if (!target_place_.now()) return driveTo(target_place_.last().position);
   const MovingPerson& target = *target_place_.now();
   const auto clearance = [this](const Vector2d& p) { return planner_.clearance().clearance(p); };
@@ -112,17 +113,87 @@ double Follower::sideOf(const Vector2d& place) const {
 // Stays where it is, turned to the person, unless it must make room: nobody waits at a doorway
 // that the robot stands in.
 void Follower::face() {
-  const Vector2d& here = step_.robot.pose.position;
-  const GoalChooserParams& goal = goal_chooser_.params();
-  const bool blocks = std::any_of(doorways_.begin(), doorways_.end(), [&](const DoorwayOnMap& d) {
-    return inPassage(d, here, goal.doorway_depth_m, goal.radius_m) > 0.0;
-  });
-  if (blocks) {
+  if (makesRoom()) return;
+  if (standsInDoorway()) {
     looks_away_ = true;  // The person waits: making room goes before keeping them in view.
-    return follow();
+    follow();
+    // Close by they leave no room to drive, and will be in view when they have gone past.
+    const bool is_beside =
+        step_.target && (*step_.target - step_.robot.pose.position).norm() < params_.beside_m;
+    if (is_beside && step_.velocity.forward_mps >= 0.0) lookAt(*step_.target);
+    return;
   }
   plan_.path.clear();
   step_.velocity = localCommand();
+}
+
+bool Follower::standsInDoorway() const {
+  const GoalChooserParams& goal = goal_chooser_.params();
+  return std::any_of(doorways_.begin(), doorways_.end(), [&](const DoorwayOnMap& d) {
+    return inPassage(d, step_.robot.pose.position, goal.doorway_depth_m, goal.radius_m) > 0.0;
+  });
+}
+
+// Where there is no room for two, the robot leaves the way to a person who comes up to it.
+bool Follower::makesRoom() {
+  if (!making_room_ && isInTheWay()) goAside();
+  if (!making_room_) return false;
+  MakingRoom& room = *making_room_;
+  room.since_s += dt_s_;
+  if (hasPassed() || room.since_s > params_.makes_room_s || room.waited_s > params_.waits_aside_s) {
+    making_room_.reset();
+    return false;
+  }
+  looks_away_ = true;
+  driveTo(room.place);
+  if (has_arrived_) {
+    room.waited_s += dt_s_;
+    if (step_.target) lookAt(*step_.target);
+  }
+  return true;
+}
+
+// Distance to what stands, people apart.
+double Follower::roomAt(const Vector2d& place) const {
+  return std::min(to_walls_.at(place), layer_.distance(place));
+}
+
+bool Follower::isInTheWay() const {
+  if (!target_place_.now()) return false;
+  const MovingPerson& person = *target_place_.now();
+  const Vector2d& here = step_.robot.pose.position;
+  const Vector2d to_robot = here - person.position;
+  const bool comes = person.velocity.dot(to_robot) > params_.comes_mps * to_robot.norm();
+  if (to_robot.norm() > (comes ? params_.far_m : params_.beside_m)) return false;
+  const auto room = [this](const Vector2d& p) { return roomAt(p); };
+  return standsInDoorway() || !leavesRoom(here, person.position, room, params_.wayside);
+}
+
+void Follower::goAside() {
+  const Vector2d& here = step_.robot.pose.position;
+  const Vector2d& person = target_place_.now()->position;
+  const auto room = [this](const Vector2d& p) { return roomAt(p); };
+  findWaysides(here, person, room, doorways_, params_.wayside, waysides_);
+  for (const Vector2d& place : waysides_) {
+    planner_.plan(here, place, plan_);
+    const bool is_near = plan_.length_m < 1.5 * params_.wayside.reach_m;
+    if (!plan_.found() || !is_near || (plan_.end - place).norm() > params_.wayside.apart_m) {
+      continue;
+    }
+    making_room_ = MakingRoom{place, here, person};
+    local_planner_.reset();
+    return;
+  }
+}
+
+// They are on the other side of where the robot stood, and go on.
+bool Follower::hasPassed() const {
+  if (!target_place_.now()) return false;
+  const MovingPerson& person = *target_place_.now();
+  const Vector2d off = person.position - making_room_->before;
+  const bool is_beyond = off.dot(making_room_->person - making_room_->before) < 0.0;
+  const Vector2d from_robot = person.position - step_.robot.pose.position;
+  return is_beyond && from_robot.norm() > params_.near_m && person.velocity.dot(from_robot) > 0.0;
 }
 
 // Around what the map and the moment show, in view of the person if there is one.

@@ -78,13 +78,14 @@ void ObstaclePoints::collect() {
   points_.clear();
   const PinholeCamera& camera = camera_.left;
   const Eigen::Vector3f eye = T_base_camera_.translation();
+  const auto nearest = static_cast<float>(params_.nearest_m);
   const auto low = static_cast<float>(params_.min_height_m);
   const auto high = static_cast<float>(params_.max_height_m);
   const auto range = static_cast<float>(params_.max_range_m);
   for (int v = 0; v < depth_m_.rows; ++v) {
     const float* depth = depth_m_.ptr<float>(v);
     for (int u = 0; u < depth_m_.cols; ++u) {
-      if (!(depth[u] > 0.0F && std::isfinite(depth[u]))) continue;  // NaN too
+      if (!(depth[u] > nearest && std::isfinite(depth[u]))) continue;  // NaN too
       if (!texture_.empty() && texture_.at<std::uint8_t>(v, u) == 0) continue;
       const Eigen::Vector3f seen(static_cast<float>((u - camera.cx) / camera.fx) * depth[u],
                                  static_cast<float>((v - camera.cy) / camera.fy) * depth[u],

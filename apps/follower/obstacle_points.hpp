@@ -18,7 +18,7 @@ namespace heel {
 
 struct ObstaclePointsParams {
   int width_px = 160;          ///< Images are made this small, or left as they are if smaller.
-  double nearest_m = 0.45;     ///< Nearer things can't be matched.
+  double nearest_m = 0.45;     ///< Nearer things can't be matched; what seems so is false.
   double max_range_m = 2.0;    ///< On the floor, from the camera; it is coarse further away.
   double min_height_m = 0.08;  ///< Lower points are the floor's noise.
   double max_height_m = 1.2;   ///< Higher ones the robot passes under.

@@ -30,6 +30,7 @@ void PeopleAround::step(double stamp_s, const LaserScan& scan, const FloorPose& 
   for (const Track& track : tracker_.tracks()) {
     const double rests_s = restsFor_s(track, stamp_s);
     if (track.status == TrackStatus::kTentative || rests_s > params_.stays_s) continue;
+    if (isThing(track.motion.position_m())) continue;
     MovingPerson person{track.motion.position_m(), track.motion.velocity_mps(),
                         params_.person_radius_m};
     const bool walks =
@@ -69,7 +70,8 @@ double PeopleAround::restsFor_s(const Track& track, double stamp_s) {
       return tracker_.findTrack(s.track_id) == nullptr;
     };
     strides_.erase(std::remove_if(strides_.begin(), strides_.end(), ended), strides_.end());
-    strides_.push_back({track.id, place_m, stamp_s, -std::numeric_limits<double>::infinity()});
+    strides_.push_back(
+        {track.id, stamp_s, place_m, stamp_s, -std::numeric_limits<double>::infinity()});
     return std::numeric_limits<double>::infinity();
   }
   const bool is_stride = (place_m - stride->place_m).norm() > params_.stride_m;
@@ -78,7 +80,16 @@ double PeopleAround::restsFor_s(const Track& track, double stamp_s) {
     stride->place_m = place_m;
     stride->since_s = stamp_s;
   }
-  return stamp_s - stride->stamp_s;
+  const double rests_s = stamp_s - stride->stamp_s;
+  const bool stood = std::isinf(rests_s) && stamp_s - stride->born_s > params_.rests_after_s;
+  if (stood && !isThing(place_m)) standing_m_.push_back(place_m);
+  return rests_s;
+}
+
+bool PeopleAround::isThing(const Eigen::Vector2d& place_m) const {
+  return std::any_of(standing_m_.begin(), standing_m_.end(), [&](const Eigen::Vector2d& thing) {
+    return (thing - place_m).norm() < params_.thing_within_m;
+  });
 }
 
 // Runs of neighbouring ends that the map does not show.

@@ -25,6 +25,7 @@ struct PeopleAroundParams {
   double stride_m = 0.3;
   double rests_after_s = 2.0;  ///< Who has not done so for as long stands, ...
   double stays_s = 30.0;  ///< ... and is a person, with more around them than legs, for so long.
+  double thing_within_m = 0.3;  ///< What is this near to where a thing always stood is that thing.
   double person_radius_m = 0.25;
   double max_speed_mps = 2.0;  ///< Nobody indoors is faster; what seems so is two things.
   TrackerParams tracker = defaultTracker();
@@ -58,14 +59,19 @@ class PeopleAround {
   void addThing(const std::vector<Eigen::Vector2d>& ends);
   /// Time since the last stride; infinite if there was none.
   double restsFor_s(const Track& track, double stamp_s);
+  /// Whether something stands there that never walked. Of somebody who passes it closely the laser
+  /// may take one for the other, and a carton would be a person from then on.
+  bool isThing(const Eigen::Vector2d& place_m) const;
 
   PeopleAroundParams params_;
   Tracker tracker_;
   std::vector<Eigen::Vector2d> ends_;  // of the thing that is being gathered
   std::vector<Observation> things_;
+  std::vector<Eigen::Vector2d> standing_m_;  // what never walked
   /// The last stride of a track, and since when a new one is measured from where.
   struct Stride {
     int track_id;
+    double born_s;
     Eigen::Vector2d place_m;
     double since_s;
     double stamp_s;

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "planning/wayside.hpp"
+
+#include "planning/goal_chooser.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace heel {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr int kBearings = 24;
+constexpr double kRing_m = 0.2;
+/// Cosine of the least angle between the way to a place and the direction of the person.
+constexpr double kTowards = 0.3;
+
+template <typename Visit>
+void aboutIt(const Vector2d& middle, double radius_m, Visit visit) {
+  for (int i = 0; i < kBearings; ++i) {
+    const double bearing = 2.0 * kPi * i / kBearings;
+    visit(Vector2d(middle + radius_m * Vector2d(std::cos(bearing), std::sin(bearing))));
+  }
+}
+
+}  // namespace
+
+bool leavesRoom(const Vector2d& place, const Vector2d& person, Clearance clearance,
+                const WaysideParams& params) {
+  const Vector2d to = person - place;
+  const double first = std::atan2(to.y(), to.x());
+  const double aside_m = params.radius_m + params.person_m;
+  const auto isOpen = [&](double side) {
+    for (int i = 1; i <= kBearings / 4; ++i) {
+      const double bearing = first + side * 2.0 * kPi * i / kBearings;
+      const Vector2d p = place + aside_m * Vector2d(std::cos(bearing), std::sin(bearing));
+      if (!(clearance(p) >= params.person_m)) return false;  // NaN too
+    }
+    return true;
+  };
+  return isOpen(1.0) || isOpen(-1.0);
+}
+
+void findWaysides(const Vector2d& robot, const Vector2d& person, Clearance clearance,
+                  const std::vector<DoorwayOnMap>& doorways, const WaysideParams& params,
+                  std::vector<Vector2d>& out) {
+  out.clear();
+  const Vector2d to_person = (person - robot).normalized();
+  const auto isGood = [&](const Vector2d& place) {
+    if (!(clearance(place) >= params.radius_m + params.margin_m)) return false;
+    if ((place - person).norm() < params.away_m) return false;
+    const Vector2d way = place - robot;
+    if (way.dot(to_person) > kTowards * way.norm()) return false;
+    const auto leads = [&](const DoorwayOnMap& d) {
+      return inPassage(d, place, params.doorway_depth_m, params.radius_m) > 0.0;
+    };
+    return std::none_of(doorways.begin(), doorways.end(), leads) &&
+           leavesRoom(place, person, clearance, params);
+  };
+  for (double ring_m = kRing_m; ring_m <= params.reach_m; ring_m += kRing_m) {
+    aboutIt(robot, ring_m, [&](const Vector2d& place) {
+      const bool is_new = std::none_of(out.begin(), out.end(), [&](const Vector2d& other) {
+        return (other - place).norm() < params.apart_m;
+      });
+      if (is_new && isGood(place)) out.push_back(place);
+    });
+  }
+}
+
+}  // namespace heel

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Where to stand so that somebody can get past the robot.
+#pragma once
+
+#include "planning/doorways.hpp"
+#include "planning/surroundings.hpp"
+
+#include <vector>
+
+namespace heel {
+
+struct WaysideParams {
+  double radius_m = 0.26;        ///< Of the robot.
+  double margin_m = 0.08;        ///< Room that it needs around it.
+  double person_m = 0.35;        ///< Half the width that a person needs to walk at ease.
+  double reach_m = 3.0;          ///< Looks for places no further than this.
+  double away_m = 1.0;           ///< Keeps this far from the person.
+  double doorway_depth_m = 0.9;  ///< So far before and behind a doorway people come through.
+  double apart_m = 0.4;          ///< Places nearer to each other than this are one.
+};
+
+/// Whether a person can walk by a robot that stands at `place`, on its left or on its right.
+/// @param clearance  Distance to what stands, without robot and person [m].
+bool leavesRoom(const Eigen::Vector2d& place, const Eigen::Vector2d& person, Clearance clearance,
+                const WaysideParams& params = {});
+
+/// Places near the robot where it would leave room to a person, the nearest first: outside of
+/// doorways, and not towards the person. Whether there is a way to them is for a planner to say.
+/// @param clearance  As for leavesRoom().
+/// @param out  The places [m, world]; its memory is used again.
+void findWaysides(const Eigen::Vector2d& robot, const Eigen::Vector2d& person, Clearance clearance,
+                  const std::vector<DoorwayOnMap>& doorways, const WaysideParams& params,
+                  std::vector<Eigen::Vector2d>& out);
+
+}  // namespace heel
