@@ -9,6 +9,7 @@
 #include <pcl/point_types.h>
 
 #include <cstdio>
+#include <string>
 
 /// person_filter MODEL IN.pcd OUT.pcd: the points that have the person's colours, without specks.
 int main(int argc, char** argv) {
@@ -18,7 +19,8 @@ int main(int argc, char** argv) {
   if (pcl::io::loadPCDFile(argv[2], *cloud) != 0) return 1;
 
   const heel::AppearanceModel model = heel::loadAppearance(argv[1]);
-  std::puts(model.separability().advice.c_str());  // empty if all is well
+  const std::string advice = model.separability().advice;  // empty if all is well
+  if (!advice.empty()) std::printf("%s\n", advice.c_str());
 
   heel::AppearanceFilter<Point> by_color;
   by_color.setTable(model.filterTable());
