@@ -26,7 +26,8 @@ MODULES = {
     "planning": "Paths, driving, where to stand, and where to search.",
     "apps/follower": "The whole composed: phase 1, phase 2, and the robot's mind.",
     "apps/recording": "How recordings and bags are read.",
-    "apps/simulation": "The simulated robot. In a scene's YAML file these are the keys under `robot`.",
+    "apps/simulation": "The simulated robot. A scene's YAML file has these names under `robot`, "
+                       "but angles in degrees: `view_deg`, `pitch_deg`, `yaw_deg`.",
 }
 
 # Structs of parameters with another name.
@@ -34,7 +35,7 @@ OTHERS = {"BagTopics", "DriveLimits", "HeightBand", "MountingTolerance", "Person
 
 # What people change first. Values are looked up; a name that is gone is an error.
 FIRST = [
-    ("Your camera is much nearer to things, or much finer, than 640x480 with 0.1 m baseline",
+    ("Near things have no depth: a long baseline, or a fine camera",
      ["StereoMatcherParams.disparities"],
      "The nearest depth is focal length times baseline over it. More costs time."),
     ("Your light is poor: shadows become foreground, or the person does not",
@@ -66,7 +67,7 @@ FIRST = [
     ("Your robot is wider, or faster",
      ["DriveLimits.radius_m", "DriveLimits.max_speed_mps", "GlobalPlannerParams.robot_radius_m",
       "GoalChooserParams.radius_m"],
-     "`Follower` takes them from its `RobotDescription`."),
+     "`Follower` takes the first three from its `RobotDescription`; the last is set by hand."),
     ("The robot follows too closely, or from too far",
      ["FollowerParams.near_m", "FollowerParams.far_m", "GoalChooserParams.standoff_m"],
      "Keep near_m below far_m."),

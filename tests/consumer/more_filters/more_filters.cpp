@@ -40,7 +40,7 @@ POINT_CLOUD_REGISTER_POINT_STRUCT(GradedPoint, (float, x, x)(float, y, y)(float,
     }                                                                  \
   } while (false)
 
-/// more_filters MODEL SCENE.pcd: the other ways of using the filter, on what learn_from_points
+/// more_filters person.yaml SCENE.pcd: other ways to use the filter, on what learn_from_points
 /// made.
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
@@ -63,6 +63,18 @@ int main(int argc, char** argv) {
   //! [threshold]
   CHECK(strict_table.passes(30, 30, 200) && !strict_table.passes(190, 30, 40));
 
+  pcl::Indices indices;
+  {
+    const pcl::PointCloud<pcl::PointXYZRGB>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZRGB>);
+    pcl::io::loadPCDFile(file, *cloud);
+    //! [filter]
+    heel::AppearanceFilter<pcl::PointXYZRGB> filter;  // a pcl::FilterIndices, with all it promises
+    filter.setTable(heel::loadAppearance("person.yaml").filterTable());
+    filter.setInputCloud(cloud);
+    filter.filter(indices);
+    //! [filter]
+  }
+
   //! [organized]
   pcl::PointCloud<pcl::PointXYZRGB>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZRGB>);
   pcl::io::loadPCDFile(file, *cloud);
@@ -77,7 +89,8 @@ int main(int argc, char** argv) {
   CHECK(same_shape.width == cloud->width && same_shape.height == cloud->height);
   int left = 0;
   for (const auto& point : same_shape) left += std::isfinite(point.z) ? 1 : 0;
-  CHECK(left > 0 && left + static_cast<int>(removed.size()) == static_cast<int>(cloud->size()));
+  CHECK(left > 0 && static_cast<std::size_t>(left) == indices.size());
+  CHECK(left + static_cast<int>(removed.size()) == static_cast<int>(cloud->size()));
 
   //! [blob]
   pcl::PCLPointCloud2::Ptr blob(new pcl::PCLPointCloud2);
