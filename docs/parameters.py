@@ -79,8 +79,8 @@ FIRST = [
 
 UNITS = [  # the longest endings first
     ("_mps2", "m/s²"), ("_radps2", "rad/s²"), ("_radps", "rad/s"), ("_mps", "m/s"),
-    ("_per_m2", "1/m²"), ("_per_square_m", "m/m²"), ("_m2", "m²"), ("_rad", "rad"), ("_px", "px"), ("_hz", "1/s"),
-    ("_pm", "1/m"), ("_percent", "%"), ("_bins", "bins"), ("_pixels", "px"), ("_frames", "frames"),
+    ("_per_m2", "1/m²"), ("_per_square_m", "1/m"), ("_m2", "m²"), ("_rad", "rad"), ("_px", "px"),
+    ("_hz", "1/s"), ("_pm", "1/m"), ("_percent", "%"), ("_bins", "bins"), ("_pixels", "px"), ("_frames", "frames"),
     ("_share", "share"), ("_prob", "probability"), ("_m", "m"), ("_s", "s"),
 ]
 BRACKETED_UNIT = re.compile(r"\[((?:1/)?(?:m|s|rad|px|deg)(?:\^\d)?(?:/s(?:\^\d)?)?)\]")
@@ -302,7 +302,9 @@ def default_of(field, structs):
         return "see there"
     if field.type in ("int", "double", "bool"):
         raise SystemExit(f"docs/parameters.py: {field.name} has no default")
-    return {"std::string": '`""`'}.get(field.type, "none" if "optional" in field.type else "empty")
+    if field.type.startswith("std::optional"):
+        return "none"
+    return '`""`' if field.type == "std::string" else "`{}`"
 
 
 def struct_section(struct, structs, users, changed):
