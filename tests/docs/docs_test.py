@@ -6,10 +6,12 @@
   docs_test.py code              each C++ and CMake block is that of the file named above it
   docs_test.py links             relative links, headings and pictures are there
   docs_test.py size              pages and pictures are small
-  docs_test.py commands HEEL     each `heel ...` line has a verb and options that HEEL knows
+  docs_test.py commands HEEL     each `heel ...` has a verb and options that HEEL knows, and those
+                                 in blocks all that it requires
 
-A block names its file in a comment right above it, `<!-- tests/consumer/x/main.cpp -->`, or a region
-of it, `<!-- tests/consumer/x/main.cpp [name] -->`: what is between two lines with `[name]` in a comment.
+A block names its file in a comment right above it, `<!-- tests/consumer/x/main.cpp -->`, or a part
+of it, `<!-- tests/consumer/x/main.cpp [name] -->`: what is between two lines that are a comment
+with `[name]`.
 """
 
 import functools
@@ -121,7 +123,7 @@ def check_size():
 
 
 def heel_calls(page):
-    """(where, words) of each call of heel: in blocks without a language, and between backticks."""
+    """(where, words, whether it is in a block) of each call of heel, in a block or in backticks."""
     text = text_of(page)
     for fence in FENCE.finditer(text):
         if fence[1] in ("", "sh"):
@@ -129,10 +131,10 @@ def heel_calls(page):
             for line in lines:
                 for command in re.split(r"&&|\|", line):
                     if re.match(r"\s*(\S+/)?heel ", command):
-                        yield place(page, fence.start()), shlex.split(command, comments=True)
+                        yield place(page, fence.start()), shlex.split(command, comments=True), True
     plain = FENCE.sub(lambda fence: re.sub(r"[^\n]", " ", fence[0]), text)
     for inline in re.finditer(r"`(heel [^`]+)`", plain):
-        yield place(page, inline.start()), shlex.split(inline[1].replace("\n", " "))
+        yield place(page, inline.start()), shlex.split(inline[1].replace("\n", " ")), False
 
 
 def check_commands(heel):
@@ -146,20 +148,21 @@ def check_commands(heel):
 
     wrong, calls = [], 0
     for page in PAGES:
-        for where, words in heel_calls(page):
+        for where, (_, *words), is_whole in heel_calls(page):
             calls += 1
-            words = words[1:]
             verbs = words[:2] if words[:1] == ["experiment"] else words[:1]
-            if verbs[:1] in (["--version"], ["VERB"], ["--help"], ["..."]) or verbs[1:] in (["NAME"], ["..."]):
+            if not verbs or verbs[0].startswith("-") or not {"VERB", "NAME", "..."}.isdisjoint(verbs):
                 continue
             help_text = help_of(*verbs)
             if help_text is None:
                 wrong.append(f"{where}: there is no 'heel {' '.join(verbs)}'")
                 continue
-            for word in words[len(verbs):]:
-                option = word.partition("=")[0]
-                if option.startswith("--") and not knows(help_text, option):
-                    wrong.append(f"{where}: heel {' '.join(verbs)} knows no {option}")
+            options = {word.partition("=")[0] for word in words if word.startswith("--")}
+            wrong += [f"{where}: heel {' '.join(verbs)} knows no {option}"
+                      for option in sorted(options) if not knows(help_text, option)]
+            required = set(re.findall(r"^ +(--[\w-]+) .*\bREQUIRED\b", help_text, re.M))
+            if is_whole and not required <= options:
+                wrong.append(f"{where}: heel {' '.join(verbs)} needs {', '.join(required - options)}")
     if calls == 0:
         wrong.append("no page calls heel: are the pages there?")
     return wrong
