@@ -80,7 +80,8 @@ FIRST = [
 UNITS = [  # the longest endings first
     ("_mps2", "m/s²"), ("_radps2", "rad/s²"), ("_radps", "rad/s"), ("_mps", "m/s"),
     ("_per_m2", "1/m²"), ("_per_square_m", "1/m"), ("_m2", "m²"), ("_rad", "rad"), ("_px", "px"),
-    ("_hz", "1/s"), ("_pm", "1/m"), ("_percent", "%"), ("_bins", "bins"), ("_pixels", "px"), ("_frames", "frames"),
+    ("_hz", "1/s"), ("_pm", "1/m"), ("_percent", "%"), ("_bins", "bins"), ("_pixels", "px"),
+    ("_frames", "frames"),
     ("_share", "share"), ("_prob", "probability"), ("_m", "m"), ("_s", "s"),
 ]
 BRACKETED_UNIT = re.compile(r"\[((?:1/)?(?:m|s|rad|px|deg)(?:\^\d)?(?:/s(?:\^\d)?)?)\]")
@@ -365,7 +366,7 @@ def make_page():
     count = sum(1 for struct in structs.values() for field in struct.fields()
                 if field.type not in structs)
     out = [
-        "<!-- Made by docs/parameters.py of the headers. Change their comments, and run it again. -->",
+        "<!-- Made by docs/parameters.py of the headers: change their comments, and run it. -->",
         "", "# Parameters", "",
         f"All {count} parameters of the library, in {len(structs)} structs: what each is, its unit "
         "and its default. The defaults suit a",

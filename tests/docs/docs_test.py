@@ -151,7 +151,8 @@ def check_commands(heel):
         for where, (_, *words), is_whole in heel_calls(page):
             calls += 1
             verbs = words[:2] if words[:1] == ["experiment"] else words[:1]
-            if not verbs or verbs[0].startswith("-") or not {"VERB", "NAME", "..."}.isdisjoint(verbs):
+            is_form = not {"VERB", "NAME", "..."}.isdisjoint(verbs)
+            if not verbs or verbs[0].startswith("-") or is_form:
                 continue
             help_text = help_of(*verbs)
             if help_text is None:
@@ -162,7 +163,8 @@ def check_commands(heel):
                       for option in sorted(options) if not knows(help_text, option)]
             required = set(re.findall(r"^ +(--[\w-]+) .*\bREQUIRED\b", help_text, re.M))
             if is_whole and not required <= options:
-                wrong.append(f"{where}: heel {' '.join(verbs)} needs {', '.join(required - options)}")
+                missing = ", ".join(sorted(required - options))
+                wrong.append(f"{where}: heel {' '.join(verbs)} needs {missing}")
     if calls == 0:
         wrong.append("no page calls heel: are the pages there?")
     return wrong
