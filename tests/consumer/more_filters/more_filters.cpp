@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+// clang-format off
 //! [own point]
 #define PCL_NO_PRECOMPILE  // first of all, as for PCL's own filters
 #include <pcl/point_types.h>
@@ -13,11 +14,12 @@ struct EIGEN_ALIGN16 GradedPoint {
   PCL_MAKE_ALIGNED_OPERATOR_NEW
 };
 
-POINT_CLOUD_REGISTER_POINT_STRUCT(GradedPoint, (float, x, x)(float, y, y)(float, z, z)(
-                                                   float, rgb, rgb)(float, confidence, confidence))
+POINT_CLOUD_REGISTER_POINT_STRUCT(GradedPoint,
+    (float, x, x)(float, y, y)(float, z, z)(float, rgb, rgb)(float, confidence, confidence))
 
 #include "segmentation/appearance_filter.hpp"
 //! [own point]
+// clang-format on
 
 #include "segmentation/appearance_model_io.hpp"
 
