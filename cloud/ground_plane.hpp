@@ -70,8 +70,8 @@ class GroundPlaneEstimator {
 
 /// How far the floor that was found may be from the configured mounting.
 struct MountingTolerance {
-  double height_m = 0.05;
-  double angle_rad = 0.05;
+  double height_m = 0.05;   ///< Of the camera over the floor.
+  double angle_rad = 0.05;  ///< Of pitch and of roll.
 };
 
 /// A sentence that says how the mountings differ; empty if they agree.

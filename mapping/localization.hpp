@@ -25,12 +25,12 @@ struct LocalizationParams {
   ScanBeamsParams scan;
   PoseSearchParams search;
 
-  std::size_t min_particles = 500;
-  std::size_t max_particles = 5000;
-  double kld_error = 0.05;      ///< See kldParticles().
-  double kld_quantile = 2.326;  ///< Of 99 %.
-  double bin_m = 0.2;           ///< Edge of the bins that KLD counts.
-  double bin_rad = 0.175;
+  std::size_t min_particles = 500;   ///< Kept when the robot is sure where it is.
+  std::size_t max_particles = 5000;  ///< Bounds the time of a scan; more for a large building.
+  double kld_error = 0.05;           ///< See kldParticles().
+  double kld_quantile = 2.326;       ///< Of 99 %.
+  double bin_m = 0.2;                ///< Edge of the bins that KLD counts.
+  double bin_rad = 0.175;            ///< The same for headings.
 
   /// Neighbouring beams err together, so 60 of them are worth fewer that do not: log-likelihoods
   /// are multiplied with this.
@@ -48,7 +48,7 @@ struct LocalizationParams {
   double fast_rate = 0.15;      ///< Weight of a new scan in the fit's short average ...
   double slow_rate = 0.005;     ///< ... and in what is usual.
   double injected_share = 0.25;  ///< Of the particles, replaced by searched ones while lost.
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;        ///< Of all that is drawn by chance.
 };
 
 /// Where the robot is, and how far that can be trusted.

@@ -17,8 +17,8 @@ namespace heel {
 struct MapImageParams {
   Eigen::Vector2d origin_m = Eigen::Vector2d::Zero();  ///< Of the lower left corner.
   bool negate = false;                                 ///< Then white is p = 1.
-  double occupied_thresh = 0.65;
-  double free_thresh = 0.196;
+  double occupied_thresh = 0.65;                       ///< A wall from here on.
+  double free_thresh = 0.196;                          ///< Free below this.
 };
 
 /// Reads a picture (PGM, PNG, ...) as a floor plan; its upper row has the largest y.

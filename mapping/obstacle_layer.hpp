@@ -52,8 +52,8 @@ struct ObstacleLayerParams {
   /// somebody who walks by leaves a short trail, and a table that the robot drove up to is still
   /// known when it has left the camera's view.
   double min_memory_s = 2.0;
-  double max_memory_s = 15.0;
-  double memory_gain = 5.0;
+  double max_memory_s = 15.0;  ///< See min_memory_s; less where many people walk about.
+  double memory_gain = 5.0;    ///< See min_memory_s.
 };
 
 /// A rolling window of the floor in world axes around the robot, with what the laser and the

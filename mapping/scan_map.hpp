@@ -16,7 +16,7 @@ namespace heel {
 
 /// When a cell is free or occupied.
 struct ScanMapParams {
-  double cell_size_m = 0.05;
+  double cell_size_m = 0.05;     ///< Edge of a cell.
   double max_range_m = 20.0;     ///< Longer beams clear cells as far as this, and end nowhere.
   double occupied_share = 0.35;  ///< Of the beams that met a cell, so many ended in it at least.
   std::uint32_t least_hits = 2;  ///< Fewer ends are noise.

@@ -54,8 +54,11 @@ std::vector<BodyBand> wholeBody();
 /// How an appearance is modelled. The defaults did best on real recordings of all that learn from
 /// points higher than 1 m only.
 struct AppearanceParams {
-  ColorModel model = ColorModel::kColorRatio;
+  ColorModel model = ColorModel::kColorRatio;  ///< kPrincipalColors is the paper's.
+  /// Heights that are learned each by itself. wholeBody() tells people in similar tops apart;
+  /// upperBody() is the paper's.
   std::vector<BodyBand> bands = torsoAndHead();
+  /// kMatch confuses people less, and loses them sooner where the light changes.
   BodyComparison comparison = BodyComparison::kCoverage;
   ThresholdParams threshold;
   ColorRatioParams color_ratio;

@@ -41,7 +41,8 @@ struct ThresholdParams {
   /// Fewest errors: on real recordings the other rule lost people whose clothes looked darker on
   /// their way back.
   ThresholdRule rule = ThresholdRule::kFewestErrors;
-  double false_positive_weight = 1.0;     ///< For kFewestErrors.
+  /// For kFewestErrors: more lets less of the room pass, and less of the person.
+  double false_positive_weight = 1.0;
   double max_false_negative_share = 0.3;  ///< For kMostSelective.
 };
 

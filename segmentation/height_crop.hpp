@@ -15,7 +15,7 @@ namespace heel {
 /// itself by reaching it.
 struct HeightCropParams {
   double min_m = 0.3;  ///< Over noise of the floor and most feet.
-  double max_m = 2.3;
+  double max_m = 2.3;  ///< Lower it under a low ceiling.
 };
 
 /// The height stage of the chain. Holds PCL's filter, so that its memory is reused.

@@ -42,10 +42,10 @@ struct WorldBlobParams {
 
 /// What a blob must be to be a person without a look at its colours.
 struct PersonShape {
-  double min_height_m = 1.2;
-  double max_height_m = 2.1;
+  double min_height_m = 1.2;  ///< Of the highest point; lower for children and who sits.
+  double max_height_m = 2.1;  ///< Higher is a wall or a door.
   double min_area_m2 = 0.05;  ///< A head and a shoulder.
-  double max_extent_m = 1.2;
+  double max_extent_m = 1.2;  ///< Along the floor; longer is furniture.
 
   /// For a scene whose background is not known, where furniture passes for half hidden people: half
   /// of a body must be seen.

@@ -17,7 +17,7 @@ namespace heel {
 struct TargetParams {
   double start_distance_m = 0.5;  ///< A track this near to the place given at the start is it.
   /// Somebody is taken for the target by looks only if they have a confirmed track (which takes
-  /// several frames) whose running mean of appearance is over this,
+  /// several frames) whose running mean of appearance is over this (more: stricter),
   double min_appearance = 0.41;
   /// and over this many times that of anyone else who could be the target,
   double min_appearance_ratio = 1.16;
@@ -27,7 +27,7 @@ struct TargetParams {
   /// After a loss nobody is taken who can't have walked there: further from the place where the
   /// target was last seen than max_speed_mps * (time since) + reach_slack_m.
   double max_speed_mps = 2.0;
-  double reach_slack_m = 0.8;
+  double reach_slack_m = 0.8;  ///< See max_speed_mps.
   /// Who is within expected_within_m of the place where the lost target is expected needs only
   /// release_share of min_appearance, and is taken before anyone else.
   double expected_within_m = 0.5;

@@ -44,7 +44,8 @@ struct TrackerParams {
   double birth_clearance_m = 0.4;  ///< Closer to a track in view, what is left is its fragment.
   int confirm_hits = 2;            ///< A track is confirmed when seen in this many
   int confirm_frames = 3;          ///< of this many frames (at most 32), else it is dropped.
-  double max_coast_s = 1.0;        ///< A confirmed track unseen for longer is lost.
+  double max_coast_s = 1.0;        ///< A confirmed track unseen for longer is lost. At a low
+                                   ///< frame rate, at least three frames' time.
   double max_gap_s = 2.0;          ///< A longer gap between two frames loses all tracks.
 };
 

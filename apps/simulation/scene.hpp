@@ -134,10 +134,10 @@ struct ScenePerson {
 struct CameraParams {
   Eigen::Vector3d at{0.05, 0.06, 1.0};  ///< Left camera in the robot's base frame [m].
   double pitch_rad = 0.0;               ///< Down is positive.
-  int width = 320;
-  int height = 240;
-  double horizontal_view_rad = 1.05;  ///< Field of view.
-  double baseline_m = 0.12;
+  int width = 320;                      ///< Of the images [px].
+  int height = 240;                     ///< The same [px].
+  double horizontal_view_rad = 1.05;    ///< Field of view.
+  double baseline_m = 0.12;             ///< More measures further, and worse what is near.
   double rate_hz = 10.0;
   double exposure = 2.0;     ///< Signal for a radiance of 1; 1 saturates.
   double read_noise = 0.2;   ///< Standard deviation in the dark [of 255 levels of light].
@@ -149,7 +149,7 @@ struct CameraParams {
 /// A planar laser scanner, mounted on the robot.
 struct LaserParams {
   Eigen::Vector3d at{0.12, 0.0, 0.3};  ///< In the robot's base frame [m].
-  double view_rad = 3.14159265358979;
+  double view_rad = 3.14159265358979;  ///< From the first beam to the last.
   int beams = 181;
   double rate_hz = 10.0;
   double max_range_m = 20.0;
