@@ -34,15 +34,16 @@ constexpr double kFullTurn_rad = 6.283185307179586;
 }  // namespace
 
 FollowerParams::FollowerParams() {
-  paths.bend_room_m = 0.12;
+  paths.bend_room_m = 0.12;  // round a corner with some room one sees further behind it
   paths.safety_m = 0.08;  // more than the local planner's margin, or it stops where the path goes
   goal.ahead_cost = 0.0;  // people who are followed turn and stop; round them is out of their view
-  goal.lead_s = 0.2;
+  goal.lead_s = 0.2;      // they turn often
   goal.doorway_depth_m = 0.95;  // somebody who comes out of it must get past the robot
-  drive.terms.weights[static_cast<std::size_t>(DriveTerm::kView)] = 4.0;
-  obstacles.min_points = 6;
+  drive.margin_m = 0.06;        // the map's walls are as far off as localization is
+  drive.terms.weights[static_cast<std::size_t>(DriveTerm::kView)] = 4.0;  // or the target is lost
+  obstacles.min_points = 6;      // coarse stereo errs in specks
   obstacles.min_memory_s = 0.7;  // a false match of one frame must not close a doorway for long
-  obstacles.memory_gain = 3.0;
+  obstacles.memory_gain = 3.0;   // in a home with people, what was there is soon out of date
   obstacles.max_memory_s = 8.0;
 }
 
