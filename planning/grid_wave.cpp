@@ -22,18 +22,45 @@ constexpr Move kMoves[16] = {{1, 0, 1.0F},     {0, 1, 1.0F},     {-1, 0, 1.0F}, 
                              {2, 1, kRoot5},   {1, 2, kRoot5},   {-1, 2, kRoot5},  {-2, 1, kRoot5},
                              {-2, -1, kRoot5}, {-1, -2, kRoot5}, {1, -2, kRoot5},  {2, -1, kRoot5}};
 
-/// The points that a cell may stand for: its middle and those of its rim, in half cells from it.
-constexpr int kSpots[9][2] = {{0, 0}, {1, 0},  {0, 1},   {-1, 0}, {0, -1},
-                              {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+/// A wide cell stands for its middle if there is so much more room than it takes, in cells.
+constexpr float kAmple = 0.5F;
 
+/// The points on the rim of one of the map's cells, in half cells from its middle.
+constexpr int kRim[8][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+
+constexpr int kMostStride = 7;
+/// A spot is a point of a cell, in halves of the map's cells from its lower corner.
+std::uint8_t spotAt(int half_x, int half_y) {
+  return static_cast<std::uint8_t>(half_x + 16 * half_y);
+}
+
+/// Of the move that leads back: the moves are in groups of four quarter turns, the last of eight
+/// turned alternately.
+unsigned opposite(unsigned move) { return move < 8 ? move ^ 2U : move ^ 4U; }
+
+/// Moves that turn by at most a right angle from a move; the rest lead back to where the way came
+/// by.
+std::array<unsigned, 16> movesOnward() {
+  std::array<unsigned, 16> onward{};
+  for (unsigned k = 0; k < 256; ++k) {
+    const Move &a = kMoves[k / 16], &b = kMoves[k % 16];
+    if (a.x * b.x + a.y * b.y >= 0) onward[k / 16] |= 1U << k % 16;
+  }
+  return onward;
+}
+
+constexpr unsigned kAllMoves = 0xFFFF;
+constexpr std::uint8_t kNoMove = 16;
 constexpr std::uint8_t kUnknownYet = 0, kHolds = 1, kBroken = 2;
 
 }  // namespace
 
 GridWave::GridWave(const ClearanceMap& map, const GridWaveParams& params)
     : map_(&map),
-      width_(map.width()),
-      height_(map.height()),
+      stride_(params.stride),
+      width_((map.width() + stride_ - 1) / std::max(1, stride_)),
+      height_((map.height() + stride_ - 1) / std::max(1, stride_)),
+      per_list_(1.0F / static_cast<float>(stride_)),
       radius_m_(params.radius_m),
       radius_(static_cast<float>(params.radius_m / map.cell_size_m())),
       comfort_(static_cast<float>(params.comfort_m / map.cell_size_m())),
@@ -45,23 +72,43 @@ GridWave::GridWave(const ClearanceMap& map, const GridWaveParams& params)
   if (params.radius_m > map.reach_m()) {
     throw std::invalid_argument("a wave's radius must be within the reach of the clearances");
   }
+  if (stride_ < 1 || stride_ > kMostStride) {
+    throw std::invalid_argument("a wave's stride must be from 1 to 7");
+  }
   const auto size = index(width_ * height_);
   next_.assign(size, -1);
   previous_.assign(size, -1);
   lists_.assign(index(2 * (width_ + height_)), -1);
   cost_.assign(size, kFar);
   parent_.assign(size, -1);
+  by_.assign(size, kNoMove);
   state_.assign(size, kNew);
   mark_.assign(size, kUnknownYet);
-  spot_.assign(size, 0);
+  const int middle = 2 * (stride_ / 2) + 1;
+  middle_ = spotAt(middle, middle);
+  spot_.assign(size, middle_);
+  known_.assign(size, 0);
+  clear_.assign(size, 0);
   room_.assign(size, 0.0F);
   half_price_.assign(size, kFar);
-  for (int cell = 0; cell < width_ * height_; ++cell) measure(cell);
+  std::transform(std::begin(kMoves), std::end(kMoves), steps_.begin(),
+                 [&](const Move& move) { return move.y * width_ + move.x; });
+  for (int cell = 0; cell < width_ * height_; ++cell) {
+    measure(cell);
+    forgetMoves(cell);
+  }
+}
+
+int GridWave::cellOfMaps(int map_cell) const {
+  const int x = map_cell % map_->width(), y = map_cell / map_->width();
+  return y / stride_ * width_ + x / stride_;
 }
 
 Eigen::Vector2d GridWave::placeOf(int cell) const {
-  const int* spot = kSpots[spot_[index(cell)]];
-  return map_->centerOf(cell) + 0.5 * map_->cell_size_m() * Eigen::Vector2d(spot[0], spot[1]);
+  const int spot = spot_[index(cell)];
+  const Eigen::Vector2d halves(2 * stride_ * (cell % width_) + spot % 16 - 1,
+                               2 * stride_ * (cell / width_) + spot / 16 - 1);
+  return map_->centerOf(0) + 0.5 * map_->cell_size_m() * halves;
 }
 
 /// Chooses the cell's place and what it costs there.
@@ -70,9 +117,7 @@ bool GridWave::measure(int cell) {
   const std::size_t i = index(cell);
   const std::uint8_t old_spot = spot_[i];
   const float old_room = room_[i];
-  spot_[i] = 0;
-  room_[i] = map_->clearanceInCells(cell);
-  if (room_[i] < radius_ && room_[i] > radius_ - 0.5F * kRoot2) chooseSpot(cell);
+  choosePlace(cell);
   half_price_[i] = kFar;
   if (room_[i] >= radius_) {
     const float share = (room_[i] - radius_) / comfort_;
@@ -81,28 +126,85 @@ bool GridWave::measure(int cell) {
   return spot_[i] != old_spot || room_[i] != old_room;
 }
 
-/// Looks for a place on the rim, if the cell lies on the middle line of a passage: nowhere else
-/// does the search need it.
-void GridWave::chooseSpot(int cell) {
-  const int x = cell % width_, y = cell / width_;
-  if (x == 0 || y == 0 || x == width_ - 1 || y == height_ - 1) return;
-  const float here = room_[index(cell)];
+void GridWave::choosePlace(int cell) {
+  const std::size_t i = index(cell);
+  const int x0 = stride_ * (cell % width_), x1 = std::min(x0 + stride_, map_->width());
+  const int y0 = stride_ * (cell / width_), y1 = std::min(y0 + stride_, map_->height());
+  const auto room = [&](int x, int y) { return map_->clearanceInCells(y * map_->width() + x); };
+  spot_[i] = middle_;
+  room_[i] = room(std::min(x0 + stride_ / 2, x1 - 1), std::min(y0 + stride_ / 2, y1 - 1));
+  const float ample = radius_ + (stride_ > 1 ? kAmple : 0.0F);
+  if (room_[i] >= ample) return;
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; ++x) {
+      if (room(x, y) <= room_[i]) continue;
+      room_[i] = room(x, y);
+      spot_[i] = spotAt(2 * (x - x0) + 1, 2 * (y - y0) + 1);
+    }
+  }
+  if (room_[i] >= ample || room_[i] <= radius_ - 0.5F * kRoot2) return;
+  for (int y = std::max(1, y0); y < std::min(y1, map_->height() - 1); ++y) {
+    for (int x = std::max(1, x0); x < std::min(x1, map_->width() - 1); ++x) chooseSpot(cell, x, y);
+  }
+  if (spot_[i] % 2 == 0 || spot_[i] / 16 % 2 == 0) spotted_.push_back(cell);
+}
+
+/// Looks for a place on the rim of one of the map's cells, if that lies on the middle line of a
+/// passage: nowhere else does the search need it.
+void GridWave::chooseSpot(int cell, int x, int y) {
+  const int across_y = map_->width(), map_cell = y * across_y + x;
+  const float here = map_->clearanceInCells(map_cell);
+  if (here <= radius_ - 0.5F * kRoot2) return;
   const auto is_ridge = [&](int across) {
-    const float a = map_->clearanceInCells(cell - across),
-                b = map_->clearanceInCells(cell + across);
+    const float a = map_->clearanceInCells(map_cell - across),
+                b = map_->clearanceInCells(map_cell + across);
     return here >= a && here >= b && here > std::min(a, b);
   };
-  if (!is_ridge(1) && !is_ridge(width_) && !is_ridge(width_ + 1) && !is_ridge(width_ - 1)) return;
-  const Eigen::Vector2d middle = map_->centerOf(cell);
-  for (std::uint8_t k = 1; k < 9; ++k) {
-    const Eigen::Vector2d offset(kSpots[k][0], kSpots[k][1]);
-    const Eigen::Vector2d place = middle + 0.5 * map_->cell_size_m() * offset;
+  if (!is_ridge(1) && !is_ridge(across_y) && !is_ridge(across_y + 1) && !is_ridge(across_y - 1)) {
+    return;
+  }
+  const Eigen::Vector2d middle = map_->centerOf(map_cell);
+  const int half_x = 2 * (x - stride_ * (cell % width_)) + 1;
+  const int half_y = 2 * (y - stride_ * (cell / width_)) + 1;
+  for (const auto& rim : kRim) {
+    const Eigen::Vector2d place =
+        middle + 0.5 * map_->cell_size_m() * Eigen::Vector2d(rim[0], rim[1]);
     const auto room = static_cast<float>(map_->clearance(place) / map_->cell_size_m());
     if (room < radius_ || room <= room_[index(cell)]) continue;
     room_[index(cell)] = room;
-    spot_[index(cell)] = k;
+    spot_[index(cell)] = spotAt(half_x + rim[0], half_y + rim[1]);
   }
-  if (spot_[index(cell)] != 0) spotted_.push_back(cell);
+}
+
+/// No move leads off the map; that is always known.
+void GridWave::forgetMoves(int cell) {
+  const int x = cell % width_, y = cell / width_;
+  unsigned known = 0;
+  if (x < 2 || y < 2 || x >= width_ - 2 || y >= height_ - 2) {
+    for (unsigned k = 0; k < 16; ++k) {
+      const int nx = x + kMoves[k].x, ny = y + kMoves[k].y;
+      if (nx < 0 || ny < 0 || nx >= width_ || ny >= height_) known |= 1U << k;
+    }
+  }
+  known_[index(cell)] = static_cast<std::uint16_t>(known);
+  clear_[index(cell)] = 0;
+}
+
+/// What a move sweeps has come near to, or gone from, a point of the move: that is near by.
+void GridWave::forgetMovesAround(int cell) {
+  const int x0 = cell % width_, y0 = cell / width_;
+  for (int y = std::max(0, y0 - 2); y <= std::min(height_ - 1, y0 + 2); ++y) {
+    for (int x = std::max(0, x0 - 2); x <= std::min(width_ - 1, x0 + 2); ++x) {
+      forgetMoves(y * width_ + x);
+    }
+  }
+}
+
+void GridWave::learnMoves() {
+  for (int cell = 0; cell < width_ * height_; ++cell) {
+    if (!isFree(cell)) continue;
+    for (unsigned k = 0; k < 16; ++k) canMove(cell, k);
+  }
 }
 
 void GridWave::begin(const std::vector<WaveSeed>& seeds) {
@@ -116,6 +218,7 @@ void GridWave::begin(const std::vector<WaveSeed>& seeds) {
   seeds_.clear();
   for (const WaveSeed& seed : seeds) {
     if (!isFree(seed.cell)) throw std::invalid_argument("a wave must begin on free cells");
+    by_[index(seed.cell)] = kNoMove;
     open(seed.cell, seed.cost, -1);
     seeds_.push_back(seed.cell);
   }
@@ -131,7 +234,7 @@ void GridWave::reachAll() { run(-1); }
 void GridWave::run(int goal) {
   for (; list_ < static_cast<int>(lists_.size()); ++list_) {
     // All that is open costs as much as the list at least.
-    if (goal >= 0 && cost_[index(goal)] <= static_cast<float>(list_)) return;
+    if (goal >= 0 && cost_[index(goal)] <= static_cast<float>(list_ * stride_)) return;
     for (int cell = lists_[index(list_)]; cell >= 0; cell = lists_[index(list_)]) {
       unlink(cell);
       state_[index(cell)] = kDone;
@@ -164,48 +267,69 @@ void GridWave::unlink(int cell) {
 
 /// Relaxes the moves out of a cell.
 void GridWave::spreadFrom(int cell) {
-  const int x = cell % width_, y = cell / width_;
-  for (const Move& move : kMoves) {
-    const int nx = x + move.x, ny = y + move.y;
-    if (nx < 0 || ny < 0 || nx >= width_ || ny >= height_) continue;
-    relax(cell, ny * width_ + nx, move.length);
+  static const std::array<unsigned, 16> kOnward = movesOnward();
+  const unsigned shut = known_[index(cell)] & ~unsigned{clear_[index(cell)]};
+  const std::uint8_t by = by_[index(cell)];
+  for (unsigned moves = (by != kNoMove ? kOnward[by] : kAllMoves) & ~shut; moves != 0;
+       moves &= moves - 1) {
+    relax(cell, static_cast<unsigned>(__builtin_ctz(moves)));
   }
 }
 
 /// Relaxes the moves into a cell from finished ones.
 void GridWave::spreadInto(int cell) {
-  const int x = cell % width_, y = cell / width_;
-  for (const Move& move : kMoves) {
-    const int nx = x + move.x, ny = y + move.y;
-    if (nx < 0 || ny < 0 || nx >= width_ || ny >= height_) continue;
-    const int neighbour = ny * width_ + nx;
-    if (state_[index(neighbour)] == kDone) relax(neighbour, cell, move.length);
+  const unsigned shut = known_[index(cell)] & ~unsigned{clear_[index(cell)]};
+  for (unsigned k = 0; k < 16; ++k) {
+    const int from = cell + steps_[k];
+    if ((shut >> k & 1U) == 0 && state_[index(from)] == kDone) relax(from, opposite(k));
   }
 }
 
-/// Clearance changes by no more than the way: with enough at both ends there is enough between.
-bool GridWave::canMove(int from, int to, float length) const {
-  const float room = room_[index(from)] + room_[index(to)];
-  return room >= 2.0F * radius_ + length || map_->isClear(placeOf(from), placeOf(to), radius_m_);
+/// Whether the body clears a move. Clearance changes by no more than the way: with enough at both
+/// ends there is enough between.
+bool GridWave::canMove(int from, unsigned move) {
+  const unsigned bit = 1U << move;
+  if ((known_[index(from)] & bit) == 0) {
+    known_[index(from)] = static_cast<std::uint16_t>(known_[index(from)] | bit);
+    const int to = from + steps_[move];
+    const float room = room_[index(from)] + room_[index(to)];
+    const float length = lengthOf(from, to, move);
+    if (isFree(to) &&
+        (room >= 2.0F * radius_ + length || map_->isClear(placeOf(from), placeOf(to), radius_m_))) {
+      clear_[index(from)] = static_cast<std::uint16_t>(clear_[index(from)] | bit);
+    }
+  }
+  return (clear_[index(from)] & bit) != 0;
 }
 
-void GridWave::relax(int from, int to, float length) {
-  if ((spot_[index(from)] | spot_[index(to)]) != 0) {
-    length = static_cast<float>((placeOf(to) - placeOf(from)).norm() / map_->cell_size_m());
-  }
+float GridWave::lengthOf(int from, int to, unsigned move) const {
+  const int a = spot_[index(from)], b = spot_[index(to)];
+  const float straight = kMoves[move].length * static_cast<float>(stride_);
+  if (a == b) return straight;
+  const int dx = 2 * stride_ * kMoves[move].x + b % 16 - a % 16;
+  const int dy = 2 * stride_ * kMoves[move].y + b / 16 - a / 16;
+  return 0.5F * std::sqrt(static_cast<float>(dx * dx + dy * dy));
+}
+
+void GridWave::relax(int from, unsigned move) {
+  const int to = from + steps_[move];
   const float price = half_price_[index(from)] + half_price_[index(to)];
-  const float cost = cost_[index(from)] + length * price;
-  if (cost >= cost_[index(to)] || !canMove(from, to, length)) return;
-  open(to, cost, from);
+  const float cost = cost_[index(from)] + lengthOf(from, to, move) * price;
+  if (cost < cost_[index(to)] && canMove(from, move)) {
+    by_[index(to)] = static_cast<std::uint8_t>(move);
+    open(to, cost, from);
+  }
 }
 
 bool GridWave::mend(const std::vector<int>& changed) {
   // A point on a rim may have lost its room though the middle of its cell has not.
   broken_.assign(spotted_.begin(), spotted_.end());
   spotted_.clear();
-  broken_.insert(broken_.end(), changed.begin(), changed.end());
+  for (const int map_cell : changed) broken_.push_back(cellOfMaps(map_cell));
   for (const int cell : broken_) {
-    if (mark_[index(cell)] == kUnknownYet) mark_[index(cell)] = measure(cell) ? kBroken : kHolds;
+    if (mark_[index(cell)] != kUnknownYet) continue;
+    mark_[index(cell)] = measure(cell) ? kBroken : kHolds;
+    forgetMovesAround(cell);
   }
   for (const int cell : broken_) {
     if (mark_[index(cell)] == kHolds) mark_[index(cell)] = kUnknownYet;

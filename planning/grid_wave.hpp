@@ -8,6 +8,7 @@
 
 #include "planning/clearance_map.hpp"
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -16,6 +17,7 @@ namespace heel {
 
 /// What a wave goes through.
 struct GridWaveParams {
+  int stride = 1;          ///< How many of the map's cells one of the wave's is wide; up to 7.
   double radius_m = 0.3;   ///< Of the body, with its safety.
   double comfort_m = 0.2;  ///< Cells with less room than this beyond the radius cost more ...
   double crowding = 0.0;   ///< ... by up to this share of their length.
@@ -24,15 +26,17 @@ struct GridWaveParams {
 /// Where a wave begins.
 struct WaveSeed {
   int cell = 0;
-  float cost = 0.0F;  ///< In cells.
+  float cost = 0.0F;  ///< In the map's cells.
 };
 
 /// Dijkstra's search on cells with 16 moves (a straight line is at most 2.8 % longer by them), from
-/// its seeds outwards until the goal is reached. Every move is exact: the body clears all of it. A
-/// cell stands for its middle; in a narrow place whose middle line falls between the cells, for the
-/// point of its rim that has the most room. As hardly a move is shorter than a cell, the order
-/// among cells whose costs differ by less hardly matters: the queue is a row of lists, threaded
-/// through flat memory, and a cell that was finished too early is opened again.
+/// its seeds outwards until the goal is reached. Every move is exact: the body clears all of it,
+/// which is found out once. A cell stands for its middle; where the body can't stand there, for the
+/// middle of that of the map's cells in it which has the most room, and in a narrow place whose
+/// middle line falls between the map's cells, for the point on a rim that has the most room. As
+/// hardly a move is shorter than a cell, the order among cells whose costs differ by less hardly
+/// matters: the queue is a row of lists, threaded through flat memory, and a cell that was finished
+/// too early is opened again.
 class GridWave {
  public:
   static constexpr float kFar = std::numeric_limits<float>::infinity();
@@ -40,11 +44,18 @@ class GridWave {
   /// @param map  Must outlive this; after a change of its layer call mend().
   GridWave(const ClearanceMap& map, const GridWaveParams& params);
 
+  int width() const { return width_; }
+  int height() const { return height_; }
+  double cell_size_m() const { return stride_ * map_->cell_size_m(); }
+  /// Index of the cell that holds a point which is on the map.
+  int cellOf(const Eigen::Vector2d& point) const { return cellOfMaps(map_->cellOf(point)); }
   /// Whether the body can stand on the cell's place.
   bool isFree(int cell) const { return half_price_[index(cell)] < kFar; }
   /// The point that the cell stands for [m].
   Eigen::Vector2d placeOf(int cell) const;
 
+  /// Finds out about all moves at once, which searches then need not do.
+  void learnMoves();
   /// Forgets everything and begins at the seeds, which must be free.
   void begin(const std::vector<WaveSeed>& seeds);
   /// Goes on until the least cost of `goal` is known.
@@ -52,11 +63,11 @@ class GridWave {
   bool reach(int goal);
   /// Goes on to all that can be reached.
   void reachAll();
-  /// Takes in that the clearance of these cells has changed.
+  /// Takes in that the clearance of these cells of the map has changed.
   /// @return  false if that concerns a seed, then it must begin anew.
   bool mend(const std::vector<int>& changed);
 
-  /// Least cost of a cell that was reached, in cells; else an upper bound or kFar.
+  /// Least cost of a cell that was reached, in the map's cells; else an upper bound or kFar.
   float cost(int cell) const { return cost_[index(cell)]; }
   /// The cell before this one; -1 for a seed.
   int parent(int cell) const { return parent_[index(cell)]; }
@@ -69,24 +80,36 @@ class GridWave {
   void run(int goal);
   void open(int cell, float cost, int parent);
   void unlink(int cell);
-  void relax(int from, int to, float length);
-  bool canMove(int from, int to, float length) const;
+  void relax(int from, unsigned move);
+  bool canMove(int from, unsigned move);
+  float lengthOf(int from, int to, unsigned move) const;
   bool measure(int cell);
-  void chooseSpot(int cell);
+  void choosePlace(int cell);
+  void chooseSpot(int cell, int x, int y);
+  int cellOfMaps(int map_cell) const;
+  void forgetMoves(int cell);
+  void forgetMovesAround(int cell);
   void spreadFrom(int cell);
   void spreadInto(int cell);
-  static int listOf(float cost) { return static_cast<int>(cost); }
+  int listOf(float cost) const { return static_cast<int>(cost * per_list_); }
 
   const ClearanceMap* map_;
+  int stride_;
   int width_, height_;
+  std::array<int, 16> steps_;  ///< From a cell to the next of each move.
+  float per_list_;             ///< Lists per cost.
   double radius_m_;
-  float radius_, comfort_, crowding_;  ///< In cells.
-  std::vector<float> room_;            ///< Clearance of a cell's place, in cells.
+  float radius_, comfort_, crowding_;  ///< In the map's cells.
+  std::vector<float> room_;            ///< Clearance of a cell's place, in the map's cells.
   std::vector<float> half_price_;      ///< Of a cell's length there; infinite where not free.
-  std::vector<std::uint8_t> spot_;     ///< Which point the cell stands for; 0 is its middle.
-  std::vector<int> spotted_;           ///< Cells that stand for another.
+  std::uint8_t middle_ = 0;            ///< The spot of most cells.
+  std::vector<std::uint8_t> spot_;     ///< Which point the cell stands for.
+  std::vector<int> spotted_;           ///< Cells that stand for a point on a rim.
+  std::vector<std::uint16_t> known_;   ///< A bit for each move, whether it is known if ...
+  std::vector<std::uint16_t> clear_;   ///< ... the body can make it.
   std::vector<float> cost_;
   std::vector<int> parent_;
+  std::vector<std::uint8_t> by_;  ///< The move that a cell was reached by.
   std::vector<std::uint8_t> state_;
   std::vector<std::uint8_t> mark_;    ///< While mending: whether a cell's way back still holds.
   std::vector<int> next_, previous_;  ///< In a cell's list; -1 ends it.
