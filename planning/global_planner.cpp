@@ -163,13 +163,16 @@ bool GlobalPlanner::beginAt(Search& search, const Eigen::Vector2d& start) {
 bool GlobalPlanner::findPath(Search& search, const Eigen::Vector2d& start,
                              const Eigen::Vector2d& goal, GlobalPlan& plan) {
   GridWave& wave = search.wave;
+  wave.headFor(goal);
   if (isClear(goal, goal)) {
     freeCellsNear(map_, wave, goal, kJoinCells * wave.cell_size_m(), near_goal_);
     int best = -1;
     double least = 0.0;
     for (const int near : near_goal_) {
       const Eigen::Vector2d place = wave.placeOf(near);
-      if (!isClear(place, goal) || !wave.reach(near)) continue;
+      if (!isClear(place, goal)) continue;
+      // With the first, all are reached that are on as short a way.
+      if (best < 0 && !wave.reach(near)) continue;
       const double cost = wave.cost(near) * map_.cell_size_m() + (goal - place).norm();
       if (best >= 0 && cost >= least) continue;
       best = near;

@@ -29,13 +29,7 @@ constexpr float kAmple = 0.5F;
 constexpr int kRim[8][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
 
 constexpr int kMostStride = 7;
-/// A spot is a point of a cell, in halves of the map's cells from its lower corner.
-std::uint8_t spotAt(int half_x, int half_y) {
-  return static_cast<std::uint8_t>(half_x + 16 * half_y);
-}
-
-/// Of the move that leads back: the moves are in groups of four quarter turns, the last of eight
-/// turned alternately.
+/// The move that leads back: they are in groups of four quarter turns, the last two alternate.
 unsigned opposite(unsigned move) { return move < 8 ? move ^ 2U : move ^ 4U; }
 
 /// Moves that turn by at most a right angle from a move; the rest lead back to where the way came
@@ -60,7 +54,6 @@ GridWave::GridWave(const ClearanceMap& map, const GridWaveParams& params)
       stride_(params.stride),
       width_((map.width() + stride_ - 1) / std::max(1, stride_)),
       height_((map.height() + stride_ - 1) / std::max(1, stride_)),
-      per_list_(1.0F / static_cast<float>(stride_)),
       radius_m_(params.radius_m),
       radius_(static_cast<float>(params.radius_m / map.cell_size_m())),
       comfort_(static_cast<float>(params.comfort_m / map.cell_size_m())),
@@ -76,6 +69,7 @@ GridWave::GridWave(const ClearanceMap& map, const GridWaveParams& params)
     throw std::invalid_argument("a wave's stride must be from 1 to 7");
   }
   const auto size = index(width_ * height_);
+  list_of_.assign(size, 0);
   next_.assign(size, -1);
   previous_.assign(size, -1);
   lists_.assign(index(2 * (width_ + height_)), -1);
@@ -84,9 +78,7 @@ GridWave::GridWave(const ClearanceMap& map, const GridWaveParams& params)
   by_.assign(size, kNoMove);
   state_.assign(size, kNew);
   mark_.assign(size, kUnknownYet);
-  const int middle = 2 * (stride_ / 2) + 1;
-  middle_ = spotAt(middle, middle);
-  spot_.assign(size, middle_);
+  place_.assign(size, {0, 0});
   known_.assign(size, 0);
   clear_.assign(size, 0);
   room_.assign(size, 0.0F);
@@ -105,17 +97,15 @@ int GridWave::cellOfMaps(int map_cell) const {
 }
 
 Eigen::Vector2d GridWave::placeOf(int cell) const {
-  const int spot = spot_[index(cell)];
-  const Eigen::Vector2d halves(2 * stride_ * (cell % width_) + spot % 16 - 1,
-                               2 * stride_ * (cell / width_) + spot / 16 - 1);
-  return map_->centerOf(0) + 0.5 * map_->cell_size_m() * halves;
+  const Place place = place_[index(cell)];
+  return map_->centerOf(0) + 0.5 * map_->cell_size_m() * Eigen::Vector2d(place.x - 1, place.y - 1);
 }
 
 /// Chooses the cell's place and what it costs there.
 /// @return  whether anything has changed.
 bool GridWave::measure(int cell) {
   const std::size_t i = index(cell);
-  const std::uint8_t old_spot = spot_[i];
+  const Place old = place_[i];
   const float old_room = room_[i];
   choosePlace(cell);
   half_price_[i] = kFar;
@@ -123,7 +113,7 @@ bool GridWave::measure(int cell) {
     const float share = (room_[i] - radius_) / comfort_;
     half_price_[i] = 0.5F * (1.0F + crowding_ * std::max(0.0F, 1.0F - share));
   }
-  return spot_[i] != old_spot || room_[i] != old_room;
+  return old.x != place_[i].x || old.y != place_[i].y || room_[i] != old_room;
 }
 
 void GridWave::choosePlace(int cell) {
@@ -131,27 +121,29 @@ void GridWave::choosePlace(int cell) {
   const int x0 = stride_ * (cell % width_), x1 = std::min(x0 + stride_, map_->width());
   const int y0 = stride_ * (cell / width_), y1 = std::min(y0 + stride_, map_->height());
   const auto room = [&](int x, int y) { return map_->clearanceInCells(y * map_->width() + x); };
-  spot_[i] = middle_;
-  room_[i] = room(std::min(x0 + stride_ / 2, x1 - 1), std::min(y0 + stride_ / 2, y1 - 1));
+  const int middle_x = std::min(x0 + stride_ / 2, x1 - 1);
+  const int middle_y = std::min(y0 + stride_ / 2, y1 - 1);
+  place_[i] = {2 * middle_x + 1, 2 * middle_y + 1};
+  room_[i] = room(middle_x, middle_y);
   const float ample = radius_ + (stride_ > 1 ? kAmple : 0.0F);
   if (room_[i] >= ample) return;
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; ++x) {
       if (room(x, y) <= room_[i]) continue;
       room_[i] = room(x, y);
-      spot_[i] = spotAt(2 * (x - x0) + 1, 2 * (y - y0) + 1);
+      place_[i] = {2 * x + 1, 2 * y + 1};
     }
   }
   if (room_[i] >= ample || room_[i] <= radius_ - 0.5F * kRoot2) return;
   for (int y = std::max(1, y0); y < std::min(y1, map_->height() - 1); ++y) {
-    for (int x = std::max(1, x0); x < std::min(x1, map_->width() - 1); ++x) chooseSpot(cell, x, y);
+    for (int x = std::max(1, x0); x < std::min(x1, map_->width() - 1); ++x) chooseRim(cell, x, y);
   }
-  if (spot_[i] % 2 == 0 || spot_[i] / 16 % 2 == 0) spotted_.push_back(cell);
+  if (place_[i].x % 2 == 0 || place_[i].y % 2 == 0) rimmed_.push_back(cell);
 }
 
 /// Looks for a place on the rim of one of the map's cells, if that lies on the middle line of a
 /// passage: nowhere else does the search need it.
-void GridWave::chooseSpot(int cell, int x, int y) {
+void GridWave::chooseRim(int cell, int x, int y) {
   const int across_y = map_->width(), map_cell = y * across_y + x;
   const float here = map_->clearanceInCells(map_cell);
   if (here <= radius_ - 0.5F * kRoot2) return;
@@ -164,15 +156,13 @@ void GridWave::chooseSpot(int cell, int x, int y) {
     return;
   }
   const Eigen::Vector2d middle = map_->centerOf(map_cell);
-  const int half_x = 2 * (x - stride_ * (cell % width_)) + 1;
-  const int half_y = 2 * (y - stride_ * (cell / width_)) + 1;
   for (const auto& rim : kRim) {
     const Eigen::Vector2d place =
         middle + 0.5 * map_->cell_size_m() * Eigen::Vector2d(rim[0], rim[1]);
     const auto room = static_cast<float>(map_->clearance(place) / map_->cell_size_m());
     if (room < radius_ || room <= room_[index(cell)]) continue;
     room_[index(cell)] = room;
-    spot_[index(cell)] = spotAt(half_x + rim[0], half_y + rim[1]);
+    place_[index(cell)] = {2 * x + 1 + rim[0], 2 * y + 1 + rim[1]};
   }
 }
 
@@ -214,6 +204,8 @@ void GridWave::begin(const std::vector<WaveSeed>& seeds) {
   }
   std::fill(lists_.begin(), lists_.end(), -1);
   list_ = 0;
+  last_list_ = -1;
+  heads_for_goal_ = false;
   touched_.clear();
   seeds_.clear();
   for (const WaveSeed& seed : seeds) {
@@ -224,17 +216,48 @@ void GridWave::begin(const std::vector<WaveSeed>& seeds) {
   }
 }
 
-bool GridWave::reach(int goal) {
-  if (isFree(goal)) run(goal);
-  return isFree(goal) && cost_[index(goal)] < kFar;
+void GridWave::headFor(const Eigen::Vector2d& goal) {
+  const Eigen::Vector2d halves = (goal - map_->centerOf(0)) * (2.0 / map_->cell_size_m());
+  const Place place = {static_cast<int>(std::lround(halves.x())) + 1,
+                       static_cast<int>(std::lround(halves.y())) + 1};
+  if (heads_for_goal_ && place.x == goal_.x && place.y == goal_.y) return;
+  heads_for_goal_ = true;
+  goal_ = place;
+  open_.clear();
+  for (; list_ <= last_list_; ++list_) {
+    for (int cell = lists_[index(list_)]; cell >= 0; cell = next_[index(cell)]) {
+      open_.push_back(cell);
+    }
+    lists_[index(list_)] = -1;
+  }
+  list_ = static_cast<int>(lists_.size());
+  last_list_ = -1;
+  for (const int cell : open_) link(cell);
+}
+
+/// By the 16 moves, if nothing is in the way.
+float GridWave::toGo(int cell) const {
+  if (!heads_for_goal_) return 0.0F;
+  const int dx = std::abs(place_[index(cell)].x - goal_.x);
+  const int dy = std::abs(place_[index(cell)].y - goal_.y);
+  const auto more = static_cast<float>(std::max(dx, dy));
+  const auto less = static_cast<float>(std::min(dx, dy));
+  return 0.5F * std::max(more + (kRoot5 - 2.0F) * less,
+                         (kRoot5 - kRoot2) * more + (2.0F * kRoot2 - kRoot5) * less);
+}
+
+bool GridWave::reach(int cell) {
+  if (!isFree(cell)) return false;
+  run(cell);
+  return cost_[index(cell)] < kFar;
 }
 
 void GridWave::reachAll() { run(-1); }
 
-void GridWave::run(int goal) {
-  for (; list_ < static_cast<int>(lists_.size()); ++list_) {
-    // All that is open costs as much as the list at least.
-    if (goal >= 0 && cost_[index(goal)] <= static_cast<float>(list_ * stride_)) return;
+void GridWave::run(int until) {
+  for (; list_ <= last_list_; ++list_) {
+    // Whatever way goes through what is open costs as much as the list at least.
+    if (until >= 0 && cost_[index(until)] + toGo(until) <= static_cast<float>(list_)) return;
     for (int cell = lists_[index(list_)]; cell >= 0; cell = lists_[index(list_)]) {
       unlink(cell);
       state_[index(cell)] = kDone;
@@ -249,9 +272,16 @@ void GridWave::open(int cell, float cost, int parent) {
   cost_[index(cell)] = cost;
   parent_[index(cell)] = parent;
   state_[index(cell)] = kOpen;
-  const int list = listOf(cost);
+  link(cell);
+}
+
+/// Puts a cell in its list.
+void GridWave::link(int cell) {
+  const int list = static_cast<int>(cost_[index(cell)] + toGo(cell));
   if (index(list) >= lists_.size()) lists_.resize(2 * index(list), -1);
+  list_of_[index(cell)] = list;
   list_ = std::min(list_, list);
+  last_list_ = std::max(last_list_, list);
   const int first = lists_[index(list)];
   next_[index(cell)] = first;
   previous_[index(cell)] = -1;
@@ -262,7 +292,7 @@ void GridWave::open(int cell, float cost, int parent) {
 void GridWave::unlink(int cell) {
   const int next = next_[index(cell)], previous = previous_[index(cell)];
   if (next >= 0) previous_[index(next)] = previous;
-  (previous >= 0 ? next_[index(previous)] : lists_[index(listOf(cost_[index(cell)]))]) = next;
+  (previous >= 0 ? next_[index(previous)] : lists_[index(list_of_[index(cell)])]) = next;
 }
 
 /// Relaxes the moves out of a cell.
@@ -293,7 +323,7 @@ bool GridWave::canMove(int from, unsigned move) {
     known_[index(from)] = static_cast<std::uint16_t>(known_[index(from)] | bit);
     const int to = from + steps_[move];
     const float room = room_[index(from)] + room_[index(to)];
-    const float length = lengthOf(from, to, move);
+    const float length = lengthOf(from, to);
     if (isFree(to) &&
         (room >= 2.0F * radius_ + length || map_->isClear(placeOf(from), placeOf(to), radius_m_))) {
       clear_[index(from)] = static_cast<std::uint16_t>(clear_[index(from)] | bit);
@@ -302,19 +332,16 @@ bool GridWave::canMove(int from, unsigned move) {
   return (clear_[index(from)] & bit) != 0;
 }
 
-float GridWave::lengthOf(int from, int to, unsigned move) const {
-  const int a = spot_[index(from)], b = spot_[index(to)];
-  const float straight = kMoves[move].length * static_cast<float>(stride_);
-  if (a == b) return straight;
-  const int dx = 2 * stride_ * kMoves[move].x + b % 16 - a % 16;
-  const int dy = 2 * stride_ * kMoves[move].y + b / 16 - a / 16;
+float GridWave::lengthOf(int from, int to) const {
+  const Place a = place_[index(from)], b = place_[index(to)];
+  const int dx = b.x - a.x, dy = b.y - a.y;
   return 0.5F * std::sqrt(static_cast<float>(dx * dx + dy * dy));
 }
 
 void GridWave::relax(int from, unsigned move) {
   const int to = from + steps_[move];
   const float price = half_price_[index(from)] + half_price_[index(to)];
-  const float cost = cost_[index(from)] + lengthOf(from, to, move) * price;
+  const float cost = cost_[index(from)] + lengthOf(from, to) * price;
   if (cost < cost_[index(to)] && canMove(from, move)) {
     by_[index(to)] = static_cast<std::uint8_t>(move);
     open(to, cost, from);
@@ -323,8 +350,8 @@ void GridWave::relax(int from, unsigned move) {
 
 bool GridWave::mend(const std::vector<int>& changed) {
   // A point on a rim may have lost its room though the middle of its cell has not.
-  broken_.assign(spotted_.begin(), spotted_.end());
-  spotted_.clear();
+  broken_.assign(rimmed_.begin(), rimmed_.end());
+  rimmed_.clear();
   for (const int map_cell : changed) broken_.push_back(cellOfMaps(map_cell));
   for (const int cell : broken_) {
     if (mark_[index(cell)] != kUnknownYet) continue;

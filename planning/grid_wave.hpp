@@ -29,14 +29,14 @@ struct WaveSeed {
   float cost = 0.0F;  ///< In the map's cells.
 };
 
-/// Dijkstra's search on cells with 16 moves (a straight line is at most 2.8 % longer by them), from
-/// its seeds outwards until the goal is reached. Every move is exact: the body clears all of it,
-/// which is found out once. A cell stands for its middle; where the body can't stand there, for the
-/// middle of that of the map's cells in it which has the most room, and in a narrow place whose
-/// middle line falls between the map's cells, for the point on a rim that has the most room. As
-/// hardly a move is shorter than a cell, the order among cells whose costs differ by less hardly
-/// matters: the queue is a row of lists, threaded through flat memory, and a cell that was finished
-/// too early is opened again.
+/// A search (Dijkstra's, or A* towards a goal) on cells with 16 moves (a straight line is at
+/// most 2.8 % longer by them), from its seeds outwards until the goal is reached. Every move is
+/// exact: the body clears all of it, which is found out once. A cell stands for its middle; where
+/// the body can't stand there, for the middle of that of the map's cells in it which has the most
+/// room, and in a narrow place whose middle line falls between the map's cells, for the point on a
+/// rim that has the most room. As hardly a move is shorter than a cell, the order among cells whose
+/// costs differ by less hardly matters: the queue is a row of lists, threaded through flat memory,
+/// and a cell that was finished too early is opened again.
 class GridWave {
  public:
   static constexpr float kFar = std::numeric_limits<float>::infinity();
@@ -58,9 +58,12 @@ class GridWave {
   void learnMoves();
   /// Forgets everything and begins at the seeds, which must be free.
   void begin(const std::vector<WaveSeed>& seeds);
-  /// Goes on until the least cost of `goal` is known.
+  /// Looks first where the way to this point is short from now on (A*); until begin(), all ways are
+  /// alike.
+  void headFor(const Eigen::Vector2d& goal);
+  /// Goes on until the least cost of a cell is known, or another's of as short a way to the goal.
   /// @return  false if it can't be reached.
-  bool reach(int goal);
+  bool reach(int cell);
   /// Goes on to all that can be reached.
   void reachAll();
   /// Takes in that the clearance of these cells of the map has changed.
@@ -76,46 +79,53 @@ class GridWave {
 
  private:
   enum State : std::uint8_t { kNew, kOpen, kDone };
+  /// A point in halves of the map's cells, from its lower corner.
+  struct Place {
+    int x, y;
+  };
   static std::size_t index(int cell) { return static_cast<std::size_t>(cell); }
-  void run(int goal);
+  void run(int until);
   void open(int cell, float cost, int parent);
+  void link(int cell);
   void unlink(int cell);
   void relax(int from, unsigned move);
   bool canMove(int from, unsigned move);
-  float lengthOf(int from, int to, unsigned move) const;
+  float lengthOf(int from, int to) const;
+  float toGo(int cell) const;
   bool measure(int cell);
   void choosePlace(int cell);
-  void chooseSpot(int cell, int x, int y);
+  void chooseRim(int cell, int x, int y);
   int cellOfMaps(int map_cell) const;
   void forgetMoves(int cell);
   void forgetMovesAround(int cell);
   void spreadFrom(int cell);
   void spreadInto(int cell);
-  int listOf(float cost) const { return static_cast<int>(cost * per_list_); }
 
   const ClearanceMap* map_;
   int stride_;
   int width_, height_;
   std::array<int, 16> steps_;  ///< From a cell to the next of each move.
-  float per_list_;             ///< Lists per cost.
   double radius_m_;
   float radius_, comfort_, crowding_;  ///< In the map's cells.
   std::vector<float> room_;            ///< Clearance of a cell's place, in the map's cells.
   std::vector<float> half_price_;      ///< Of a cell's length there; infinite where not free.
-  std::uint8_t middle_ = 0;            ///< The spot of most cells.
-  std::vector<std::uint8_t> spot_;     ///< Which point the cell stands for.
-  std::vector<int> spotted_;           ///< Cells that stand for a point on a rim.
+  std::vector<Place> place_;           ///< Which point the cell stands for.
+  std::vector<int> rimmed_;            ///< Cells that stand for a point on a rim.
   std::vector<std::uint16_t> known_;   ///< A bit for each move, whether it is known if ...
   std::vector<std::uint16_t> clear_;   ///< ... the body can make it.
   std::vector<float> cost_;
   std::vector<int> parent_;
   std::vector<std::uint8_t> by_;  ///< The move that a cell was reached by.
   std::vector<std::uint8_t> state_;
-  std::vector<std::uint8_t> mark_;    ///< While mending: whether a cell's way back still holds.
+  std::vector<std::uint8_t> mark_;  ///< While mending: whether a cell's way back still holds.
+  bool heads_for_goal_ = false;
+  Place goal_{0, 0};
+  std::vector<int> list_of_;          ///< Which list an open cell is in.
   std::vector<int> next_, previous_;  ///< In a cell's list; -1 ends it.
-  std::vector<int> lists_;            ///< First open cell of each cost in whole cells.
-  int list_ = 0;                      ///< No open cell is in a list before this one.
-  std::vector<int> touched_, seeds_, chain_, lost_, broken_;
+  std::vector<int> lists_;  ///< First open cell of each cost, with what is to go, in whole cells.
+  int list_ = 0;            ///< No open cell is in a list before this one ...
+  int last_list_ = -1;      ///< ... nor after this one.
+  std::vector<int> touched_, seeds_, chain_, lost_, broken_, open_;
 };
 
 }  // namespace heel
