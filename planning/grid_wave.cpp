@@ -44,8 +44,6 @@ std::array<unsigned, 16> movesOnward() {
 }
 
 constexpr unsigned kAllMoves = 0xFFFF;
-constexpr std::uint8_t kNoMove = 16;
-constexpr std::uint8_t kUnknownYet = 0, kHolds = 1, kBroken = 2;
 
 }  // namespace
 
@@ -68,21 +66,8 @@ GridWave::GridWave(const ClearanceMap& map, const GridWaveParams& params)
   if (stride_ < 1 || stride_ > kMostStride) {
     throw std::invalid_argument("a wave's stride must be from 1 to 7");
   }
-  const auto size = index(width_ * height_);
-  list_of_.assign(size, 0);
-  next_.assign(size, -1);
-  previous_.assign(size, -1);
+  cells_.resize(index(width_ * height_));
   lists_.assign(index(2 * (width_ + height_)), -1);
-  cost_.assign(size, kFar);
-  parent_.assign(size, -1);
-  by_.assign(size, kNoMove);
-  state_.assign(size, kNew);
-  mark_.assign(size, kUnknownYet);
-  place_.assign(size, {0, 0});
-  known_.assign(size, 0);
-  clear_.assign(size, 0);
-  room_.assign(size, 0.0F);
-  half_price_.assign(size, kFar);
   std::transform(std::begin(kMoves), std::end(kMoves), steps_.begin(),
                  [&](const Move& move) { return move.y * width_ + move.x; });
   for (int cell = 0; cell < width_ * height_; ++cell) {
@@ -97,48 +82,48 @@ int GridWave::cellOfMaps(int map_cell) const {
 }
 
 Eigen::Vector2d GridWave::placeOf(int cell) const {
-  const Place place = place_[index(cell)];
+  const Place place = at(cell).place;
   return map_->centerOf(0) + 0.5 * map_->cell_size_m() * Eigen::Vector2d(place.x - 1, place.y - 1);
 }
 
 /// Chooses the cell's place and what it costs there.
 /// @return  whether anything has changed.
-bool GridWave::measure(int cell) {
-  const std::size_t i = index(cell);
-  const Place old = place_[i];
-  const float old_room = room_[i];
-  choosePlace(cell);
-  half_price_[i] = kFar;
-  if (room_[i] >= radius_) {
-    const float share = (room_[i] - radius_) / comfort_;
-    half_price_[i] = 0.5F * (1.0F + crowding_ * std::max(0.0F, 1.0F - share));
+bool GridWave::measure(int index) {
+  Cell& cell = at(index);
+  const Place old = cell.place;
+  const float old_room = cell.room;
+  choosePlace(index);
+  cell.half_price = kFar;
+  if (cell.room >= radius_) {
+    const float share = (cell.room - radius_) / comfort_;
+    cell.half_price = 0.5F * (1.0F + crowding_ * std::max(0.0F, 1.0F - share));
   }
-  return old.x != place_[i].x || old.y != place_[i].y || room_[i] != old_room;
+  return old.x != cell.place.x || old.y != cell.place.y || cell.room != old_room;
 }
 
 void GridWave::choosePlace(int cell) {
-  const std::size_t i = index(cell);
+  Cell& chosen = at(cell);
   const int x0 = stride_ * (cell % width_), x1 = std::min(x0 + stride_, map_->width());
   const int y0 = stride_ * (cell / width_), y1 = std::min(y0 + stride_, map_->height());
   const auto room = [&](int x, int y) { return map_->clearanceInCells(y * map_->width() + x); };
   const int middle_x = std::min(x0 + stride_ / 2, x1 - 1);
   const int middle_y = std::min(y0 + stride_ / 2, y1 - 1);
-  place_[i] = {2 * middle_x + 1, 2 * middle_y + 1};
-  room_[i] = room(middle_x, middle_y);
+  chosen.place = {2 * middle_x + 1, 2 * middle_y + 1};
+  chosen.room = room(middle_x, middle_y);
   const float ample = radius_ + (stride_ > 1 ? kAmple : 0.0F);
-  if (room_[i] >= ample) return;
+  if (chosen.room >= ample) return;
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; ++x) {
-      if (room(x, y) <= room_[i]) continue;
-      room_[i] = room(x, y);
-      place_[i] = {2 * x + 1, 2 * y + 1};
+      if (room(x, y) <= chosen.room) continue;
+      chosen.room = room(x, y);
+      chosen.place = {2 * x + 1, 2 * y + 1};
     }
   }
-  if (room_[i] >= ample || room_[i] <= radius_ - 0.5F * kRoot2) return;
+  if (chosen.room >= ample || chosen.room <= radius_ - 0.5F * kRoot2) return;
   for (int y = std::max(1, y0); y < std::min(y1, map_->height() - 1); ++y) {
     for (int x = std::max(1, x0); x < std::min(x1, map_->width() - 1); ++x) chooseRim(cell, x, y);
   }
-  if (place_[i].x % 2 == 0 || place_[i].y % 2 == 0) rimmed_.push_back(cell);
+  if (chosen.place.x % 2 == 0 || chosen.place.y % 2 == 0) rimmed_.push_back(cell);
 }
 
 /// Looks for a place on the rim of one of the map's cells, if that lies on the middle line of a
@@ -160,9 +145,9 @@ void GridWave::chooseRim(int cell, int x, int y) {
     const Eigen::Vector2d place =
         middle + 0.5 * map_->cell_size_m() * Eigen::Vector2d(rim[0], rim[1]);
     const auto room = static_cast<float>(map_->clearance(place) / map_->cell_size_m());
-    if (room < radius_ || room <= room_[index(cell)]) continue;
-    room_[index(cell)] = room;
-    place_[index(cell)] = {2 * x + 1 + rim[0], 2 * y + 1 + rim[1]};
+    if (room < radius_ || room <= at(cell).room) continue;
+    at(cell).room = room;
+    at(cell).place = {2 * x + 1 + rim[0], 2 * y + 1 + rim[1]};
   }
 }
 
@@ -176,8 +161,8 @@ void GridWave::forgetMoves(int cell) {
       if (nx < 0 || ny < 0 || nx >= width_ || ny >= height_) known |= 1U << k;
     }
   }
-  known_[index(cell)] = static_cast<std::uint16_t>(known);
-  clear_[index(cell)] = 0;
+  at(cell).known = static_cast<std::uint16_t>(known);
+  at(cell).clear = 0;
 }
 
 /// What a move sweeps has come near to, or gone from, a point of the move: that is near by.
@@ -199,8 +184,8 @@ void GridWave::learnMoves() {
 
 void GridWave::begin(const std::vector<WaveSeed>& seeds) {
   for (const int cell : touched_) {
-    cost_[index(cell)] = kFar;
-    state_[index(cell)] = kNew;
+    at(cell).cost = kFar;
+    at(cell).state = kNew;
   }
   std::fill(lists_.begin(), lists_.end(), -1);
   list_ = 0;
@@ -210,7 +195,7 @@ void GridWave::begin(const std::vector<WaveSeed>& seeds) {
   seeds_.clear();
   for (const WaveSeed& seed : seeds) {
     if (!isFree(seed.cell)) throw std::invalid_argument("a wave must begin on free cells");
-    by_[index(seed.cell)] = kNoMove;
+    at(seed.cell).by = kNoMove;
     open(seed.cell, seed.cost, -1);
     seeds_.push_back(seed.cell);
   }
@@ -225,7 +210,7 @@ void GridWave::headFor(const Eigen::Vector2d& goal) {
   goal_ = place;
   open_.clear();
   for (; list_ <= last_list_; ++list_) {
-    for (int cell = lists_[index(list_)]; cell >= 0; cell = next_[index(cell)]) {
+    for (int cell = lists_[index(list_)]; cell >= 0; cell = at(cell).next) {
       open_.push_back(cell);
     }
     lists_[index(list_)] = -1;
@@ -238,8 +223,8 @@ void GridWave::headFor(const Eigen::Vector2d& goal) {
 /// By the 16 moves, if nothing is in the way.
 float GridWave::toGo(int cell) const {
   if (!heads_for_goal_) return 0.0F;
-  const int dx = std::abs(place_[index(cell)].x - goal_.x);
-  const int dy = std::abs(place_[index(cell)].y - goal_.y);
+  const int dx = std::abs(at(cell).place.x - goal_.x);
+  const int dy = std::abs(at(cell).place.y - goal_.y);
   const auto more = static_cast<float>(std::max(dx, dy));
   const auto less = static_cast<float>(std::min(dx, dy));
   return 0.5F * std::max(more + (kRoot5 - 2.0F) * less,
@@ -249,7 +234,7 @@ float GridWave::toGo(int cell) const {
 bool GridWave::reach(int cell) {
   if (!isFree(cell)) return false;
   run(cell);
-  return cost_[index(cell)] < kFar;
+  return at(cell).cost < kFar;
 }
 
 void GridWave::reachAll() { run(-1); }
@@ -257,49 +242,49 @@ void GridWave::reachAll() { run(-1); }
 void GridWave::run(int until) {
   for (; list_ <= last_list_; ++list_) {
     // Whatever way goes through what is open costs as much as the list at least.
-    if (until >= 0 && cost_[index(until)] + toGo(until) <= static_cast<float>(list_)) return;
+    if (until >= 0 && at(until).cost + toGo(until) <= static_cast<float>(list_)) return;
     for (int cell = lists_[index(list_)]; cell >= 0; cell = lists_[index(list_)]) {
       unlink(cell);
-      state_[index(cell)] = kDone;
+      at(cell).state = kDone;
       spreadFrom(cell);
     }
   }
 }
 
 void GridWave::open(int cell, float cost, int parent) {
-  if (state_[index(cell)] == kOpen) unlink(cell);
-  if (cost_[index(cell)] == kFar) touched_.push_back(cell);
-  cost_[index(cell)] = cost;
-  parent_[index(cell)] = parent;
-  state_[index(cell)] = kOpen;
+  if (at(cell).state == kOpen) unlink(cell);
+  if (at(cell).cost == kFar) touched_.push_back(cell);
+  at(cell).cost = cost;
+  at(cell).parent = parent;
+  at(cell).state = kOpen;
   link(cell);
 }
 
 /// Puts a cell in its list.
 void GridWave::link(int cell) {
-  const int list = static_cast<int>(cost_[index(cell)] + toGo(cell));
+  const int list = static_cast<int>(at(cell).cost + toGo(cell));
   if (index(list) >= lists_.size()) lists_.resize(2 * index(list), -1);
-  list_of_[index(cell)] = list;
+  at(cell).list = list;
   list_ = std::min(list_, list);
   last_list_ = std::max(last_list_, list);
   const int first = lists_[index(list)];
-  next_[index(cell)] = first;
-  previous_[index(cell)] = -1;
-  if (first >= 0) previous_[index(first)] = cell;
+  at(cell).next = first;
+  at(cell).previous = -1;
+  if (first >= 0) at(first).previous = cell;
   lists_[index(list)] = cell;
 }
 
 void GridWave::unlink(int cell) {
-  const int next = next_[index(cell)], previous = previous_[index(cell)];
-  if (next >= 0) previous_[index(next)] = previous;
-  (previous >= 0 ? next_[index(previous)] : lists_[index(list_of_[index(cell)])]) = next;
+  const int next = at(cell).next, previous = at(cell).previous;
+  if (next >= 0) at(next).previous = previous;
+  (previous >= 0 ? at(previous).next : lists_[index(at(cell).list)]) = next;
 }
 
 /// Relaxes the moves out of a cell.
 void GridWave::spreadFrom(int cell) {
   static const std::array<unsigned, 16> kOnward = movesOnward();
-  const unsigned shut = known_[index(cell)] & ~unsigned{clear_[index(cell)]};
-  const std::uint8_t by = by_[index(cell)];
+  const unsigned shut = at(cell).known & ~unsigned{at(cell).clear};
+  const std::uint8_t by = at(cell).by;
   for (unsigned moves = (by != kNoMove ? kOnward[by] : kAllMoves) & ~shut; moves != 0;
        moves &= moves - 1) {
     relax(cell, static_cast<unsigned>(__builtin_ctz(moves)));
@@ -308,42 +293,41 @@ void GridWave::spreadFrom(int cell) {
 
 /// Relaxes the moves into a cell from finished ones.
 void GridWave::spreadInto(int cell) {
-  const unsigned shut = known_[index(cell)] & ~unsigned{clear_[index(cell)]};
+  const unsigned shut = at(cell).known & ~unsigned{at(cell).clear};
   for (unsigned k = 0; k < 16; ++k) {
     const int from = cell + steps_[k];
-    if ((shut >> k & 1U) == 0 && state_[index(from)] == kDone) relax(from, opposite(k));
+    if ((shut >> k & 1U) == 0 && at(from).state == kDone) relax(from, opposite(k));
   }
 }
 
 /// Whether the body clears a move. Clearance changes by no more than the way: with enough at both
 /// ends there is enough between.
 bool GridWave::canMove(int from, unsigned move) {
-  const unsigned bit = 1U << move;
-  if ((known_[index(from)] & bit) == 0) {
-    known_[index(from)] = static_cast<std::uint16_t>(known_[index(from)] | bit);
+  Cell& cell = at(from);
+  const auto bit = static_cast<std::uint16_t>(1U << move);
+  if ((cell.known & bit) == 0) {
+    cell.known = static_cast<std::uint16_t>(cell.known | bit);
     const int to = from + steps_[move];
-    const float room = room_[index(from)] + room_[index(to)];
-    const float length = lengthOf(from, to);
-    if (isFree(to) &&
-        (room >= 2.0F * radius_ + length || map_->isClear(placeOf(from), placeOf(to), radius_m_))) {
-      clear_[index(from)] = static_cast<std::uint16_t>(clear_[index(from)] | bit);
+    const bool has_room = cell.room + at(to).room >= 2.0F * radius_ + lengthOf(from, to);
+    if (isFree(to) && (has_room || map_->isClear(placeOf(from), placeOf(to), radius_m_))) {
+      cell.clear = static_cast<std::uint16_t>(cell.clear | bit);
     }
   }
-  return (clear_[index(from)] & bit) != 0;
+  return (cell.clear & bit) != 0;
 }
 
 float GridWave::lengthOf(int from, int to) const {
-  const Place a = place_[index(from)], b = place_[index(to)];
+  const Place a = at(from).place, b = at(to).place;
   const int dx = b.x - a.x, dy = b.y - a.y;
   return 0.5F * std::sqrt(static_cast<float>(dx * dx + dy * dy));
 }
 
 void GridWave::relax(int from, unsigned move) {
   const int to = from + steps_[move];
-  const float price = half_price_[index(from)] + half_price_[index(to)];
-  const float cost = cost_[index(from)] + lengthOf(from, to) * price;
-  if (cost < cost_[index(to)] && canMove(from, move)) {
-    by_[index(to)] = static_cast<std::uint8_t>(move);
+  const float price = at(from).half_price + at(to).half_price;
+  const float cost = at(from).cost + lengthOf(from, to) * price;
+  if (cost < at(to).cost && canMove(from, move)) {
+    at(to).by = static_cast<std::uint8_t>(move);
     open(to, cost, from);
   }
 }
@@ -354,43 +338,43 @@ bool GridWave::mend(const std::vector<int>& changed) {
   rimmed_.clear();
   for (const int map_cell : changed) broken_.push_back(cellOfMaps(map_cell));
   for (const int cell : broken_) {
-    if (mark_[index(cell)] != kUnknownYet) continue;
-    mark_[index(cell)] = measure(cell) ? kBroken : kHolds;
+    if (at(cell).mark != kUnknownYet) continue;
+    at(cell).mark = measure(cell) ? kBroken : kHolds;
     forgetMovesAround(cell);
   }
   for (const int cell : broken_) {
-    if (mark_[index(cell)] == kHolds) mark_[index(cell)] = kUnknownYet;
+    if (at(cell).mark == kHolds) at(cell).mark = kUnknownYet;
   }
   bool holds = true;
-  for (const int cell : seeds_) holds = holds && mark_[index(cell)] != kBroken;
+  for (const int cell : seeds_) holds = holds && at(cell).mark != kBroken;
 
   // A cell's cost holds if nothing has changed on its way back to a seed.
   lost_.clear();
   std::size_t kept = 0;
   for (const int cell : touched_) {
-    int at = cell;
+    int way = cell;
     chain_.clear();
-    while (at >= 0 && mark_[index(at)] == kUnknownYet) {
-      chain_.push_back(at);
-      at = parent_[index(at)];
+    while (way >= 0 && at(way).mark == kUnknownYet) {
+      chain_.push_back(way);
+      way = at(way).parent;
     }
-    const std::uint8_t mark = at < 0 ? kHolds : mark_[index(at)];
-    for (const int link : chain_) mark_[index(link)] = mark;
-    if (mark_[index(cell)] == kHolds) {
+    const Mark mark = way < 0 ? kHolds : at(way).mark;
+    for (const int link : chain_) at(link).mark = mark;
+    if (at(cell).mark == kHolds) {
       touched_[kept++] = cell;
     } else {
       lost_.push_back(cell);
     }
   }
   touched_.resize(kept);
-  for (const int cell : touched_) mark_[index(cell)] = kUnknownYet;
+  for (const int cell : touched_) at(cell).mark = kUnknownYet;
   for (const int cell : lost_) {
-    mark_[index(cell)] = kUnknownYet;
-    if (state_[index(cell)] == kOpen) unlink(cell);
-    cost_[index(cell)] = kFar;
-    state_[index(cell)] = kNew;
+    at(cell).mark = kUnknownYet;
+    if (at(cell).state == kOpen) unlink(cell);
+    at(cell).cost = kFar;
+    at(cell).state = kNew;
   }
-  for (const int cell : broken_) mark_[index(cell)] = kUnknownYet;
+  for (const int cell : broken_) at(cell).mark = kUnknownYet;
   if (!holds) return false;
   for (const int cell : lost_) {
     if (isFree(cell)) spreadInto(cell);

@@ -50,7 +50,7 @@ class GridWave {
   /// Index of the cell that holds a point which is on the map.
   int cellOf(const Eigen::Vector2d& point) const { return cellOfMaps(map_->cellOf(point)); }
   /// Whether the body can stand on the cell's place.
-  bool isFree(int cell) const { return half_price_[index(cell)] < kFar; }
+  bool isFree(int cell) const { return at(cell).half_price < kFar; }
   /// The point that the cell stands for [m].
   Eigen::Vector2d placeOf(int cell) const;
 
@@ -71,19 +71,38 @@ class GridWave {
   bool mend(const std::vector<int>& changed);
 
   /// Least cost of a cell that was reached, in the map's cells; else an upper bound or kFar.
-  float cost(int cell) const { return cost_[index(cell)]; }
+  float cost(int cell) const { return at(cell).cost; }
   /// The cell before this one; -1 for a seed.
-  int parent(int cell) const { return parent_[index(cell)]; }
+  int parent(int cell) const { return at(cell).parent; }
   /// Cells that have a cost.
   const std::vector<int>& touched() const { return touched_; }
 
  private:
-  enum State : std::uint8_t { kNew, kOpen, kDone };
   /// A point in halves of the map's cells, from its lower corner.
   struct Place {
     int x, y;
   };
+  enum State : std::uint8_t { kNew, kOpen, kDone };
+  enum Mark : std::uint8_t { kUnknownYet, kHolds, kBroken };
+  static constexpr std::uint8_t kNoMove = 16;
+  /// All of a cell is used together, so it lies together.
+  struct Cell {
+    Place place{0, 0};        ///< Which point the cell stands for.
+    float room = 0.0F;        ///< Clearance there, in the map's cells.
+    float half_price = kFar;  ///< Of a cell's length there; infinite where not free.
+    std::uint16_t known = 0;  ///< A bit for each move, whether it is known if ...
+    std::uint16_t clear = 0;  ///< ... the body can make it.
+    float cost = kFar;
+    int parent = -1;
+    int next = -1, previous = -1;  ///< In its list; -1 ends it.
+    int list = 0;                  ///< Which an open cell is in.
+    State state = kNew;
+    Mark mark = kUnknownYet;    ///< While mending: whether the way back still holds.
+    std::uint8_t by = kNoMove;  ///< The move that it was reached by.
+  };
   static std::size_t index(int cell) { return static_cast<std::size_t>(cell); }
+  Cell& at(int cell) { return cells_[index(cell)]; }
+  const Cell& at(int cell) const { return cells_[index(cell)]; }
   void run(int until);
   void open(int cell, float cost, int parent);
   void link(int cell);
@@ -92,7 +111,7 @@ class GridWave {
   bool canMove(int from, unsigned move);
   float lengthOf(int from, int to) const;
   float toGo(int cell) const;
-  bool measure(int cell);
+  bool measure(int index);
   void choosePlace(int cell);
   void chooseRim(int cell, int x, int y);
   int cellOfMaps(int map_cell) const;
@@ -107,21 +126,10 @@ class GridWave {
   std::array<int, 16> steps_;  ///< From a cell to the next of each move.
   double radius_m_;
   float radius_, comfort_, crowding_;  ///< In the map's cells.
-  std::vector<float> room_;            ///< Clearance of a cell's place, in the map's cells.
-  std::vector<float> half_price_;      ///< Of a cell's length there; infinite where not free.
-  std::vector<Place> place_;           ///< Which point the cell stands for.
-  std::vector<int> rimmed_;            ///< Cells that stand for a point on a rim.
-  std::vector<std::uint16_t> known_;   ///< A bit for each move, whether it is known if ...
-  std::vector<std::uint16_t> clear_;   ///< ... the body can make it.
-  std::vector<float> cost_;
-  std::vector<int> parent_;
-  std::vector<std::uint8_t> by_;  ///< The move that a cell was reached by.
-  std::vector<std::uint8_t> state_;
-  std::vector<std::uint8_t> mark_;  ///< While mending: whether a cell's way back still holds.
+  std::vector<Cell> cells_;
+  std::vector<int> rimmed_;  ///< Cells that stand for a point on a rim.
   bool heads_for_goal_ = false;
   Place goal_{0, 0};
-  std::vector<int> list_of_;          ///< Which list an open cell is in.
-  std::vector<int> next_, previous_;  ///< In a cell's list; -1 ends it.
   std::vector<int> lists_;  ///< First open cell of each cost, with what is to go, in whole cells.
   int list_ = 0;            ///< No open cell is in a list before this one ...
   int last_list_ = -1;      ///< ... nor after this one.
