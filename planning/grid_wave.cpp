@@ -43,6 +43,10 @@ std::array<unsigned, 16> movesOnward() {
   return onward;
 }
 
+/// What is to go counts for more than it is: costs come out greater by up to this, hardly ever are,
+/// and far fewer cells are looked at.
+constexpr float kHaste = 1.05F;
+
 constexpr unsigned kAllMoves = 0xFFFF;
 
 }  // namespace
@@ -220,15 +224,16 @@ void GridWave::headFor(const Eigen::Vector2d& goal) {
   for (const int cell : open_) link(cell);
 }
 
-/// By the 16 moves, if nothing is in the way.
+/// By the 16 moves, if nothing is in the way; with haste.
 float GridWave::toGo(int cell) const {
   if (!heads_for_goal_) return 0.0F;
   const int dx = std::abs(at(cell).place.x - goal_.x);
   const int dy = std::abs(at(cell).place.y - goal_.y);
   const auto more = static_cast<float>(std::max(dx, dy));
   const auto less = static_cast<float>(std::min(dx, dy));
-  return 0.5F * std::max(more + (kRoot5 - 2.0F) * less,
-                         (kRoot5 - kRoot2) * more + (2.0F * kRoot2 - kRoot5) * less);
+  return 0.5F * kHaste *
+         std::max(more + (kRoot5 - 2.0F) * less,
+                  (kRoot5 - kRoot2) * more + (2.0F * kRoot2 - kRoot5) * less);
 }
 
 bool GridWave::reach(int cell) {

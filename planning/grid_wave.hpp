@@ -58,8 +58,8 @@ class GridWave {
   void learnMoves();
   /// Forgets everything and begins at the seeds, which must be free.
   void begin(const std::vector<WaveSeed>& seeds);
-  /// Looks first where the way to this point is short from now on (A*); until begin(), all ways are
-  /// alike.
+  /// From now on, looks first where the way to this point is short (A*), and takes 5 % longer ways
+  /// for as good; until begin().
   void headFor(const Eigen::Vector2d& goal);
   /// Goes on until the least cost of a cell is known, or another's of as short a way to the goal.
   /// @return  false if it can't be reached.
