@@ -13,7 +13,7 @@ namespace heel {
 namespace {
 
 /// The free cells that a point joins the grid by are within so many cells.
-constexpr double kJoinCells = 2.5;
+constexpr double kJoinCells = 1.6;
 /// A kept search is good enough if its path is at most this much longer than it could be.
 constexpr double kKeptMayBeLonger = 1.02;
 /// How many of the map's cells one of the quick search's is wide.

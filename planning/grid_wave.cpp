@@ -45,7 +45,7 @@ std::array<unsigned, 16> movesOnward() {
 
 /// What is to go counts for more than it is: costs come out greater by up to this, hardly ever are,
 /// and far fewer cells are looked at.
-constexpr float kHaste = 1.05F;
+constexpr float kHaste = 1.06F;
 
 constexpr unsigned kAllMoves = 0xFFFF;
 

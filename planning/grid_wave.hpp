@@ -58,7 +58,7 @@ class GridWave {
   void learnMoves();
   /// Forgets everything and begins at the seeds, which must be free.
   void begin(const std::vector<WaveSeed>& seeds);
-  /// From now on, looks first where the way to this point is short (A*), and takes 5 % longer ways
+  /// From now on, looks first where the way to this point is short (A*), and takes 6 % longer ways
   /// for as good; until begin().
   void headFor(const Eigen::Vector2d& goal);
   /// Goes on until the least cost of a cell is known, or another's of as short a way to the goal.
