@@ -68,7 +68,8 @@ struct GlobalPlan {
 /// reached), a thorough one on the map's cells.
 ///
 /// A passage that is narrower than the robot with its safety by less than a cell more may be
-/// missed: the search stands on cells' middles. No allocation once warm.
+/// missed: the search stands on cells' middles. Where there is another way, so may one that is
+/// wider by less than two cells and winds. No allocation once warm.
 class GlobalPlanner {
  public:
   /// @throws std::invalid_argument  if the map is empty or a parameter is out of its range.
