@@ -251,6 +251,10 @@ bool ClearanceMap::isClear(const Eigen::Vector2d& from, const Eigen::Vector2d& t
   if (!(std::min(a.x(), b.x()) - radius >= 0.0 && std::max(a.x(), b.x()) + radius <= width_)) {
     return false;
   }
+  // A short way in the open: clearance changes by no more than the way.
+  constexpr double kHalfDiagonal = 0.708;
+  const double room = clearanceInCells(cellOf(from)) + clearanceInCells(cellOf(to));
+  if (room >= 2.0 * (radius + kHalfDiagonal) + (b - a).norm()) return true;
   const SweptSide right(a, b, radius);
   const SweptSide left({-a.x(), a.y()}, {-b.x(), b.y()}, radius);
   const int last_row = std::min(height_ - 1, static_cast<int>(std::ceil(high)) - 1);

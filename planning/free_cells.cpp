@@ -11,11 +11,11 @@ void freeCellsNear(const ClearanceMap& map, const GridWave& wave, const Eigen::V
                    double within_m, std::vector<int>& cells) {
   cells.clear();
   if (!map.isInside(point)) return;
-  const int middle = map.cellOf(point), width = map.width();
-  const int reach = static_cast<int>(std::min(within_m / map.cell_size_m() + 1.0, 1e6));
+  const int middle = wave.cellOf(point), width = wave.width();
+  const int reach = static_cast<int>(std::min(within_m / wave.cell_size_m() + 1.0, 1e6));
   const int mx = middle % width, my = middle / width;
   const auto distance = [&](int cell) { return (wave.placeOf(cell) - point).squaredNorm(); };
-  for (int y = std::max(0, my - reach); y <= std::min(map.height() - 1, my + reach); ++y) {
+  for (int y = std::max(0, my - reach); y <= std::min(wave.height() - 1, my + reach); ++y) {
     for (int x = std::max(0, mx - reach); x <= std::min(width - 1, mx + reach); ++x) {
       const int cell = y * width + x;
       if (wave.isFree(cell) && distance(cell) <= within_m * within_m) cells.push_back(cell);

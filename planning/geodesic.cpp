@@ -12,7 +12,7 @@ namespace heel {
 
 GeodesicField::GeodesicField(const OccupancyGrid& map, double radius_m, bool unknown_is_free)
     : map_(map, radius_m + 2.0 * map.cell_size_m(), unknown_is_free),
-      wave_(map_, {radius_m, 1.0, 0.0}),
+      wave_(map_, {1, radius_m, 1.0, 0.0}),
       distances_m_(map.cells().size(), GridWave::kFar) {}
 
 void GeodesicField::setObstacles(const std::vector<FloorDisc>& discs, const OccupancyGrid* cells) {

@@ -62,8 +62,14 @@ struct GlobalPlan {
 /// obstacles have come or gone, what still holds of it is used. Its path is then pulled taut, which
 /// undoes the grid's few directions. Every piece of the path is exactly clear.
 ///
+/// There are two such searches: a quick one on cells three times as wide, all of whose moves are
+/// looked at when the map is taken; and where that finds no way (through a very narrow passage,
+/// away from a wall that the robot is too near to, or to a place beside a goal that can't be
+/// reached), a thorough one on the map's cells.
+///
 /// A passage that is narrower than the robot with its safety by less than a cell more may be
-/// missed: the search stands on cells' middles. No allocation once warm.
+/// missed: the search stands on cells' middles. Where there is another way, so may one that is
+/// wider by less than two cells and winds. No allocation once warm.
 class GlobalPlanner {
  public:
   /// @throws std::invalid_argument  if the map is empty or a parameter is out of its range.
@@ -81,7 +87,7 @@ class GlobalPlanner {
   GlobalPlan plan(const Eigen::Vector2d& start, const Eigen::Vector2d& goal);
 
   /// Forgets the kept search; the next plan is made anew.
-  void forget() { has_root_ = false; }
+  void forget() { quick_.has_root = thorough_.has_root = false; }
 
   const ClearanceMap& clearance() const { return map_; }
   const GlobalPlannerParams& params() const { return params_; }
@@ -90,21 +96,31 @@ class GlobalPlanner {
   bool isClear(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
     return map_.isClear(a, b, radius_m_);
   }
-  bool beginAt(const Eigen::Vector2d& start);
-  bool canKeepRoot(const Eigen::Vector2d& start) const;
-  bool search(const Eigen::Vector2d& start, const Eigen::Vector2d& goal, GlobalPlan& plan);
-  bool findPath(const Eigen::Vector2d& start, const Eigen::Vector2d& goal, GlobalPlan& plan);
-  bool trace(int cell, const Eigen::Vector2d& start, const Eigen::Vector2d& goal, GlobalPlan& plan);
+  /// A search that is kept.
+  struct Search {
+    GridWave wave;
+    bool is_quick;
+    bool has_root = false;
+    bool mended = false;                             ///< Since it began.
+    Eigen::Vector2d root = Eigen::Vector2d::Zero();  ///< Where it began.
+  };
+  Search makeSearch(int stride, bool is_quick) const;
+  void mend(Search& search, const std::vector<int>& changed);
+  void planBy(Search& search, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
+              GlobalPlan& plan);
+  bool beginAt(Search& search, const Eigen::Vector2d& start);
+  bool canKeepRoot(const Search& search, const Eigen::Vector2d& start) const;
+  bool findPath(Search& search, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
+                GlobalPlan& plan);
+  bool trace(const Search& search, int cell, const Eigen::Vector2d& start,
+             const Eigen::Vector2d& goal, GlobalPlan& plan);
   void finish(PlanStatus status, GlobalPlan& plan);
 
   GlobalPlannerParams params_;
   double radius_m_;
   ClearanceMap map_;
-  GridWave wave_;
+  Search quick_, thorough_;
   TautPath taut_;
-  bool has_root_ = false;
-  bool mended_ = false;                             ///< Since the kept search began.
-  Eigen::Vector2d root_ = Eigen::Vector2d::Zero();  ///< Where the kept search began.
   std::vector<WaveSeed> seeds_;
   std::vector<int> near_goal_, near_start_;
 };

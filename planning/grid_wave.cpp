@@ -22,18 +22,34 @@ constexpr Move kMoves[16] = {{1, 0, 1.0F},     {0, 1, 1.0F},     {-1, 0, 1.0F}, 
                              {2, 1, kRoot5},   {1, 2, kRoot5},   {-1, 2, kRoot5},  {-2, 1, kRoot5},
                              {-2, -1, kRoot5}, {-1, -2, kRoot5}, {1, -2, kRoot5},  {2, -1, kRoot5}};
 
-/// The points that a cell may stand for: its middle and those of its rim, in half cells from it.
-constexpr int kSpots[9][2] = {{0, 0}, {1, 0},  {0, 1},   {-1, 0}, {0, -1},
-                              {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+constexpr int kMostStride = 7;
+/// The move that leads back: they are in groups of four quarter turns, the last two alternate.
+unsigned opposite(unsigned move) { return move < 8 ? move ^ 2U : move ^ 4U; }
 
-constexpr std::uint8_t kUnknownYet = 0, kHolds = 1, kBroken = 2;
+/// Moves that turn by at most a right angle from a move; the rest lead back to where the way came
+/// by.
+std::array<unsigned, 16> movesOnward() {
+  std::array<unsigned, 16> onward{};
+  for (unsigned k = 0; k < 256; ++k) {
+    const Move &a = kMoves[k / 16], &b = kMoves[k % 16];
+    if (a.x * b.x + a.y * b.y >= 0) onward[k / 16] |= 1U << k % 16;
+  }
+  return onward;
+}
+
+/// What is to go counts for more than it is: costs come out greater by up to this, hardly ever are,
+/// and far fewer cells are looked at.
+constexpr float kHaste = 1.06F;
+
+constexpr unsigned kAllMoves = 0xFFFF;
 
 }  // namespace
 
 GridWave::GridWave(const ClearanceMap& map, const GridWaveParams& params)
     : map_(&map),
-      width_(map.width()),
-      height_(map.height()),
+      stride_(params.stride),
+      width_((map.width() + stride_ - 1) / std::max(1, stride_)),
+      height_((map.height() + stride_ - 1) / std::max(1, stride_)),
       radius_m_(params.radius_m),
       radius_(static_cast<float>(params.radius_m / map.cell_size_m())),
       comfort_(static_cast<float>(params.comfort_m / map.cell_size_m())),
@@ -45,201 +61,249 @@ GridWave::GridWave(const ClearanceMap& map, const GridWaveParams& params)
   if (params.radius_m > map.reach_m()) {
     throw std::invalid_argument("a wave's radius must be within the reach of the clearances");
   }
-  const auto size = index(width_ * height_);
-  next_.assign(size, -1);
-  previous_.assign(size, -1);
+  if (stride_ < 1 || stride_ > kMostStride) {
+    throw std::invalid_argument("a wave's stride must be from 1 to 7");
+  }
+  cells_.resize(index(width_ * height_));
   lists_.assign(index(2 * (width_ + height_)), -1);
-  cost_.assign(size, kFar);
-  parent_.assign(size, -1);
-  state_.assign(size, kNew);
-  mark_.assign(size, kUnknownYet);
-  spot_.assign(size, 0);
-  room_.assign(size, 0.0F);
-  half_price_.assign(size, kFar);
-  for (int cell = 0; cell < width_ * height_; ++cell) measure(cell);
-}
-
-Eigen::Vector2d GridWave::placeOf(int cell) const {
-  const int* spot = kSpots[spot_[index(cell)]];
-  return map_->centerOf(cell) + 0.5 * map_->cell_size_m() * Eigen::Vector2d(spot[0], spot[1]);
-}
-
-/// Chooses the cell's place and what it costs there.
-/// @return  whether anything has changed.
-bool GridWave::measure(int cell) {
-  const std::size_t i = index(cell);
-  const std::uint8_t old_spot = spot_[i];
-  const float old_room = room_[i];
-  spot_[i] = 0;
-  room_[i] = map_->clearanceInCells(cell);
-  if (room_[i] < radius_ && room_[i] > radius_ - 0.5F * kRoot2) chooseSpot(cell);
-  half_price_[i] = kFar;
-  if (room_[i] >= radius_) {
-    const float share = (room_[i] - radius_) / comfort_;
-    half_price_[i] = 0.5F * (1.0F + crowding_ * std::max(0.0F, 1.0F - share));
+  std::transform(std::begin(kMoves), std::end(kMoves), steps_.begin(),
+                 [&](const Move& move) { return move.y * width_ + move.x; });
+  for (int cell = 0; cell < width_ * height_; ++cell) {
+    measure(cell);
+    forgetMoves(cell);
   }
-  return spot_[i] != old_spot || room_[i] != old_room;
 }
 
-/// Looks for a place on the rim, if the cell lies on the middle line of a passage: nowhere else
-/// does the search need it.
-void GridWave::chooseSpot(int cell) {
+int GridWave::cellOfMaps(int map_cell) const {
+  const int x = map_cell % map_->width(), y = map_cell / map_->width();
+  return y / stride_ * width_ + x / stride_;
+}
+
+/// No move leads off the map; that is always known.
+void GridWave::forgetMoves(int cell) {
   const int x = cell % width_, y = cell / width_;
-  if (x == 0 || y == 0 || x == width_ - 1 || y == height_ - 1) return;
-  const float here = room_[index(cell)];
-  const auto is_ridge = [&](int across) {
-    const float a = map_->clearanceInCells(cell - across),
-                b = map_->clearanceInCells(cell + across);
-    return here >= a && here >= b && here > std::min(a, b);
-  };
-  if (!is_ridge(1) && !is_ridge(width_) && !is_ridge(width_ + 1) && !is_ridge(width_ - 1)) return;
-  const Eigen::Vector2d middle = map_->centerOf(cell);
-  for (std::uint8_t k = 1; k < 9; ++k) {
-    const Eigen::Vector2d offset(kSpots[k][0], kSpots[k][1]);
-    const Eigen::Vector2d place = middle + 0.5 * map_->cell_size_m() * offset;
-    const auto room = static_cast<float>(map_->clearance(place) / map_->cell_size_m());
-    if (room < radius_ || room <= room_[index(cell)]) continue;
-    room_[index(cell)] = room;
-    spot_[index(cell)] = k;
+  unsigned known = 0;
+  if (x < 2 || y < 2 || x >= width_ - 2 || y >= height_ - 2) {
+    for (unsigned k = 0; k < 16; ++k) {
+      const int nx = x + kMoves[k].x, ny = y + kMoves[k].y;
+      if (nx < 0 || ny < 0 || nx >= width_ || ny >= height_) known |= 1U << k;
+    }
   }
-  if (spot_[index(cell)] != 0) spotted_.push_back(cell);
+  at(cell).known = static_cast<std::uint16_t>(known);
+  at(cell).clear = 0;
+}
+
+/// What a move sweeps has come near to, or gone from, a point of the move: that is near by.
+void GridWave::forgetMovesAround(int cell) {
+  const int x0 = cell % width_, y0 = cell / width_;
+  for (int y = std::max(0, y0 - 2); y <= std::min(height_ - 1, y0 + 2); ++y) {
+    for (int x = std::max(0, x0 - 2); x <= std::min(width_ - 1, x0 + 2); ++x) {
+      forgetMoves(y * width_ + x);
+    }
+  }
+}
+
+void GridWave::learnMoves() {
+  for (int cell = 0; cell < width_ * height_; ++cell) {
+    if (!isFree(cell)) continue;
+    for (unsigned k = 0; k < 16; ++k) canMove(cell, k);
+  }
 }
 
 void GridWave::begin(const std::vector<WaveSeed>& seeds) {
   for (const int cell : touched_) {
-    cost_[index(cell)] = kFar;
-    state_[index(cell)] = kNew;
+    at(cell).cost = kFar;
+    at(cell).state = kNew;
   }
   std::fill(lists_.begin(), lists_.end(), -1);
   list_ = 0;
+  last_list_ = -1;
+  heads_for_goal_ = false;
   touched_.clear();
   seeds_.clear();
   for (const WaveSeed& seed : seeds) {
     if (!isFree(seed.cell)) throw std::invalid_argument("a wave must begin on free cells");
+    at(seed.cell).by = kNoMove;
     open(seed.cell, seed.cost, -1);
     seeds_.push_back(seed.cell);
   }
 }
 
-bool GridWave::reach(int goal) {
-  if (isFree(goal)) run(goal);
-  return isFree(goal) && cost_[index(goal)] < kFar;
+void GridWave::headFor(const Eigen::Vector2d& goal) {
+  const Eigen::Vector2d halves = (goal - map_->centerOf(0)) * (2.0 / map_->cell_size_m());
+  const Place place = {static_cast<int>(std::lround(halves.x())) + 1,
+                       static_cast<int>(std::lround(halves.y())) + 1};
+  if (heads_for_goal_ && place.x == goal_.x && place.y == goal_.y) return;
+  heads_for_goal_ = true;
+  goal_ = place;
+  open_.clear();
+  for (; list_ <= last_list_; ++list_) {
+    for (int cell = lists_[index(list_)]; cell >= 0; cell = at(cell).next) {
+      open_.push_back(cell);
+    }
+    lists_[index(list_)] = -1;
+  }
+  list_ = static_cast<int>(lists_.size());
+  last_list_ = -1;
+  for (const int cell : open_) link(cell);
+}
+
+/// By the 16 moves, if nothing is in the way; with haste.
+float GridWave::toGo(int cell) const {
+  if (!heads_for_goal_) return 0.0F;
+  const int dx = std::abs(at(cell).place.x - goal_.x);
+  const int dy = std::abs(at(cell).place.y - goal_.y);
+  const auto more = static_cast<float>(std::max(dx, dy));
+  const auto less = static_cast<float>(std::min(dx, dy));
+  return 0.5F * kHaste *
+         std::max(more + (kRoot5 - 2.0F) * less,
+                  (kRoot5 - kRoot2) * more + (2.0F * kRoot2 - kRoot5) * less);
+}
+
+bool GridWave::reach(int cell) {
+  if (!isFree(cell)) return false;
+  run(cell);
+  return at(cell).cost < kFar;
 }
 
 void GridWave::reachAll() { run(-1); }
 
-void GridWave::run(int goal) {
-  for (; list_ < static_cast<int>(lists_.size()); ++list_) {
-    // All that is open costs as much as the list at least.
-    if (goal >= 0 && cost_[index(goal)] <= static_cast<float>(list_)) return;
+void GridWave::run(int until) {
+  for (; list_ <= last_list_; ++list_) {
+    // Whatever way goes through what is open costs as much as the list at least.
+    if (until >= 0 && at(until).cost + toGo(until) <= static_cast<float>(list_)) return;
     for (int cell = lists_[index(list_)]; cell >= 0; cell = lists_[index(list_)]) {
       unlink(cell);
-      state_[index(cell)] = kDone;
+      at(cell).state = kDone;
       spreadFrom(cell);
     }
   }
 }
 
 void GridWave::open(int cell, float cost, int parent) {
-  if (state_[index(cell)] == kOpen) unlink(cell);
-  if (cost_[index(cell)] == kFar) touched_.push_back(cell);
-  cost_[index(cell)] = cost;
-  parent_[index(cell)] = parent;
-  state_[index(cell)] = kOpen;
-  const int list = listOf(cost);
+  if (at(cell).state == kOpen) unlink(cell);
+  if (at(cell).cost == kFar) touched_.push_back(cell);
+  at(cell).cost = cost;
+  at(cell).parent = parent;
+  at(cell).state = kOpen;
+  link(cell);
+}
+
+/// Puts a cell in its list.
+void GridWave::link(int cell) {
+  const int list = static_cast<int>(at(cell).cost + toGo(cell));
   if (index(list) >= lists_.size()) lists_.resize(2 * index(list), -1);
+  at(cell).list = list;
   list_ = std::min(list_, list);
+  last_list_ = std::max(last_list_, list);
   const int first = lists_[index(list)];
-  next_[index(cell)] = first;
-  previous_[index(cell)] = -1;
-  if (first >= 0) previous_[index(first)] = cell;
+  at(cell).next = first;
+  at(cell).previous = -1;
+  if (first >= 0) at(first).previous = cell;
   lists_[index(list)] = cell;
 }
 
 void GridWave::unlink(int cell) {
-  const int next = next_[index(cell)], previous = previous_[index(cell)];
-  if (next >= 0) previous_[index(next)] = previous;
-  (previous >= 0 ? next_[index(previous)] : lists_[index(listOf(cost_[index(cell)]))]) = next;
+  const int next = at(cell).next, previous = at(cell).previous;
+  if (next >= 0) at(next).previous = previous;
+  (previous >= 0 ? at(previous).next : lists_[index(at(cell).list)]) = next;
 }
 
 /// Relaxes the moves out of a cell.
 void GridWave::spreadFrom(int cell) {
-  const int x = cell % width_, y = cell / width_;
-  for (const Move& move : kMoves) {
-    const int nx = x + move.x, ny = y + move.y;
-    if (nx < 0 || ny < 0 || nx >= width_ || ny >= height_) continue;
-    relax(cell, ny * width_ + nx, move.length);
+  static const std::array<unsigned, 16> kOnward = movesOnward();
+  const unsigned shut = at(cell).known & ~unsigned{at(cell).clear};
+  const std::uint8_t by = at(cell).by;
+  for (unsigned moves = (by != kNoMove ? kOnward[by] : kAllMoves) & ~shut; moves != 0;
+       moves &= moves - 1) {
+    relax(cell, static_cast<unsigned>(__builtin_ctz(moves)));
   }
 }
 
 /// Relaxes the moves into a cell from finished ones.
 void GridWave::spreadInto(int cell) {
-  const int x = cell % width_, y = cell / width_;
-  for (const Move& move : kMoves) {
-    const int nx = x + move.x, ny = y + move.y;
-    if (nx < 0 || ny < 0 || nx >= width_ || ny >= height_) continue;
-    const int neighbour = ny * width_ + nx;
-    if (state_[index(neighbour)] == kDone) relax(neighbour, cell, move.length);
+  const unsigned shut = at(cell).known & ~unsigned{at(cell).clear};
+  for (unsigned k = 0; k < 16; ++k) {
+    const int from = cell + steps_[k];
+    if ((shut >> k & 1U) == 0 && at(from).state == kDone) relax(from, opposite(k));
   }
 }
 
-/// Clearance changes by no more than the way: with enough at both ends there is enough between.
-bool GridWave::canMove(int from, int to, float length) const {
-  const float room = room_[index(from)] + room_[index(to)];
-  return room >= 2.0F * radius_ + length || map_->isClear(placeOf(from), placeOf(to), radius_m_);
+/// Whether the body clears a move. Clearance changes by no more than the way: with enough at both
+/// ends there is enough between.
+bool GridWave::canMove(int from, unsigned move) {
+  Cell& cell = at(from);
+  const auto bit = static_cast<std::uint16_t>(1U << move);
+  if ((cell.known & bit) == 0) {
+    cell.known = static_cast<std::uint16_t>(cell.known | bit);
+    const int to = from + steps_[move];
+    const bool has_room = cell.room + at(to).room >= 2.0F * radius_ + lengthOf(from, to);
+    if (isFree(to) && (has_room || map_->isClear(placeOf(from), placeOf(to), radius_m_))) {
+      cell.clear = static_cast<std::uint16_t>(cell.clear | bit);
+    }
+  }
+  return (cell.clear & bit) != 0;
 }
 
-void GridWave::relax(int from, int to, float length) {
-  if ((spot_[index(from)] | spot_[index(to)]) != 0) {
-    length = static_cast<float>((placeOf(to) - placeOf(from)).norm() / map_->cell_size_m());
+float GridWave::lengthOf(int from, int to) const {
+  const Place a = at(from).place, b = at(to).place;
+  const int dx = b.x - a.x, dy = b.y - a.y;
+  return 0.5F * std::sqrt(static_cast<float>(dx * dx + dy * dy));
+}
+
+void GridWave::relax(int from, unsigned move) {
+  const int to = from + steps_[move];
+  const float price = at(from).half_price + at(to).half_price;
+  const float cost = at(from).cost + lengthOf(from, to) * price;
+  if (cost < at(to).cost && canMove(from, move)) {
+    at(to).by = static_cast<std::uint8_t>(move);
+    open(to, cost, from);
   }
-  const float price = half_price_[index(from)] + half_price_[index(to)];
-  const float cost = cost_[index(from)] + length * price;
-  if (cost >= cost_[index(to)] || !canMove(from, to, length)) return;
-  open(to, cost, from);
 }
 
 bool GridWave::mend(const std::vector<int>& changed) {
   // A point on a rim may have lost its room though the middle of its cell has not.
-  broken_.assign(spotted_.begin(), spotted_.end());
-  spotted_.clear();
-  broken_.insert(broken_.end(), changed.begin(), changed.end());
+  broken_.assign(rimmed_.begin(), rimmed_.end());
+  rimmed_.clear();
+  for (const int map_cell : changed) broken_.push_back(cellOfMaps(map_cell));
   for (const int cell : broken_) {
-    if (mark_[index(cell)] == kUnknownYet) mark_[index(cell)] = measure(cell) ? kBroken : kHolds;
+    if (at(cell).mark != kUnknownYet) continue;
+    at(cell).mark = measure(cell) ? kBroken : kHolds;
+    forgetMovesAround(cell);
   }
   for (const int cell : broken_) {
-    if (mark_[index(cell)] == kHolds) mark_[index(cell)] = kUnknownYet;
+    if (at(cell).mark == kHolds) at(cell).mark = kUnknownYet;
   }
   bool holds = true;
-  for (const int cell : seeds_) holds = holds && mark_[index(cell)] != kBroken;
+  for (const int cell : seeds_) holds = holds && at(cell).mark != kBroken;
 
   // A cell's cost holds if nothing has changed on its way back to a seed.
   lost_.clear();
   std::size_t kept = 0;
   for (const int cell : touched_) {
-    int at = cell;
+    int way = cell;
     chain_.clear();
-    while (at >= 0 && mark_[index(at)] == kUnknownYet) {
-      chain_.push_back(at);
-      at = parent_[index(at)];
+    while (way >= 0 && at(way).mark == kUnknownYet) {
+      chain_.push_back(way);
+      way = at(way).parent;
     }
-    const std::uint8_t mark = at < 0 ? kHolds : mark_[index(at)];
-    for (const int link : chain_) mark_[index(link)] = mark;
-    if (mark_[index(cell)] == kHolds) {
+    const Mark mark = way < 0 ? kHolds : at(way).mark;
+    for (const int link : chain_) at(link).mark = mark;
+    if (at(cell).mark == kHolds) {
       touched_[kept++] = cell;
     } else {
       lost_.push_back(cell);
     }
   }
   touched_.resize(kept);
-  for (const int cell : touched_) mark_[index(cell)] = kUnknownYet;
+  for (const int cell : touched_) at(cell).mark = kUnknownYet;
   for (const int cell : lost_) {
-    mark_[index(cell)] = kUnknownYet;
-    if (state_[index(cell)] == kOpen) unlink(cell);
-    cost_[index(cell)] = kFar;
-    state_[index(cell)] = kNew;
+    at(cell).mark = kUnknownYet;
+    if (at(cell).state == kOpen) unlink(cell);
+    at(cell).cost = kFar;
+    at(cell).state = kNew;
   }
-  for (const int cell : broken_) mark_[index(cell)] = kUnknownYet;
+  for (const int cell : broken_) at(cell).mark = kUnknownYet;
   if (!holds) return false;
   for (const int cell : lost_) {
     if (isFree(cell)) spreadInto(cell);

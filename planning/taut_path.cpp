@@ -10,7 +10,7 @@ namespace heel {
 namespace {
 
 /// Halvings when a tangent is looked for, and rounds of pulling.
-constexpr int kHalvings = 7, kRounds = 2;
+constexpr int kHalvings = 6, kRounds = 1;
 /// Bends below this (cosine) are as good as straight.
 constexpr double kStraight = 0.995;
 

@@ -112,7 +112,7 @@ TEST_F(WallGate, AllowsForTheErrorOfDepth) {
   EXPECT_EQ(depthErrorOf(camera), 0.0);
   camera.left.fx = 250.0;
   camera.baseline_m = 0.1;
-  EXPECT_DOUBLE_EQ(depthErrorOf(camera), 0.01);
+  EXPECT_DOUBLE_EQ(depthErrorOf(camera), 0.02);
 }
 
 TEST_F(WallGate, TheMarginGrowsWithTheCovarianceOfTheViewpoint) {

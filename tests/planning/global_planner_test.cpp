@@ -125,6 +125,29 @@ TEST(GlobalPlanner, IsNearlyTheShortestClearWayOnRandomMaps) {
   EXPECT_GT(compared, 60);
 }
 
+TEST(GlobalPlanner, GoesThroughANarrowDoorwayWhereverItsCellsLie) {
+  for (int shift = 0; shift < 3; ++shift) {
+    const double s = 0.05 * shift;
+    const DrawnMap map{{6.1 + s, 4 + s},
+                       0.05,
+                       {{{3 + s, 0}, {3.1 + s, 1.65 + s}}, {{3 + s, 2.35 + s}, {3.1 + s, 4 + s}}}};
+    const GlobalPlan plan = GlobalPlanner(map.grid(), kRobot).plan({1, 1}, {5, 1});
+    ASSERT_EQ(plan.status, PlanStatus::kFound);
+    EXPECT_LE(plan.length_m, 1.05 * test::shortestWay(map, kBody_m, {1, 1}, {5, 1}));
+  }
+}
+
+TEST(GlobalPlanner, IsTheSameEachTime) {
+  std::mt19937 random(10);
+  const DrawnMap map = test::randomMap(random, 15);
+  FloorPath places;
+  for (int i = 0; i < 30; ++i) places.push_back(test::randomPlace(random, map, kBody_m));
+  GlobalPlanner one(map.grid(), kRobot), other(map.grid(), kRobot);
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    EXPECT_EQ(one.plan(places[i - 1], places[i]).path, other.plan(places[i - 1], places[i]).path);
+  }
+}
+
 TEST(GlobalPlanner, FollowsAMovingGoalAsIfItPlannedAnew) {
   std::mt19937 random(6);
   int kept = 0;
@@ -138,7 +161,8 @@ TEST(GlobalPlanner, FollowsAMovingGoalAsIfItPlannedAnew) {
       fresh.forget();
       const GlobalPlan a = planner.plan(start, goal), b = fresh.plan(start, goal);
       ASSERT_EQ(a.status, b.status);
-      EXPECT_EQ(a.path, b.path);
+      EXPECT_NEAR(a.length_m, b.length_m, 0.03 * b.length_m);
+      if (a.found()) expectClear(map, a.path, kBody_m);
       kept += a.found() && !a.searched_anew ? 1 : 0;
     }
   }
