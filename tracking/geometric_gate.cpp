@@ -23,6 +23,8 @@ const char* toText(GateVerdict verdict) {
       return "behind a wall";
     case GateVerdict::kInsideWall:
       return "inside a wall";
+    case GateVerdict::kNoLegs:
+      return "without legs";
   }
   return "unknown";
 }

@@ -29,6 +29,11 @@ LocalPlannerParams driveOf(const RobotDescription& robot, LocalPlannerParams par
   return params;
 }
 
+LaserGateParams legsOf(const RobotDescription& robot, LaserGateParams params) {
+  params.depth_error_pm = depthErrorOf(robot.camera.camera);
+  return params;
+}
+
 constexpr double kFullTurn_rad = 6.283185307179586;
 
 }  // namespace
@@ -82,6 +87,9 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
       layer_(layerOf(robot, params.obstacles)),
       obstacle_points_(robot.camera, params.obstacle_points),
       people_around_(params.people),
+      laser_gate_(std::make_shared<LaserGate>(
+          [this](const Vector2d& p) { return localization_.field().distance_m(p); },
+          legsOf(robot, params.legs))),
       learner_(std::in_place, robot.camera, params.learn),
       runner_(std::move(plan)),
       planner_(floor_, pathsOf(robot, params.paths)),
@@ -139,6 +147,7 @@ void Follower::localize(const RobotReadings& readings) {
     localization_.update(*readings.scan, masked_);
   }
   step_.robot = localization_.estimate();
+  laser_gate_->step(readings.scan, step_.robot.pose * robot_.T_base_scanner, dt_s_);
 }
 
 // What stands and moves around the robot that no map shows.
@@ -217,7 +226,9 @@ void Follower::learn(const Frame& frame) {
   WallGateParams gate = params_.gate;
   gate.eye_height_m = robot_.camera.T_base_camera.translation().z();
   gate.depth_error_pm = depthErrorOf(robot_.camera.camera);
-  params.gate = wallGate(walls_, gate);
+  params.gate = allOf({wallGate(walls_, gate), [legs = laser_gate_](const auto& seen, const auto&) {
+                         return legs->judge(seen);
+                       }});
   perception_.emplace(robot_.camera, learner_->learn(), params);
   const Vector2d place = step_.robot.pose * learner_->result().last_place_m;
   perception_->startAt(place);

@@ -5,6 +5,7 @@
 /// The robot's mind: readings in, a velocity out. The paper's system as one step.
 #pragma once
 
+#include "apps/follower/laser_gate.hpp"
 #include "apps/follower/learn_person.hpp"
 #include "apps/follower/obstacle_points.hpp"
 #include "apps/follower/people_around.hpp"
@@ -46,6 +47,7 @@ struct FollowerParams {
   LearnPersonParams learn;
   PerceptionParams perception;
   WallGateParams gate;
+  LaserGateParams legs;
   LocalizationParams localization;
   ObstacleLayerParams obstacles;
   ObstaclePointsParams obstacle_points;
@@ -173,6 +175,7 @@ class Follower {
   ObstacleLayer layer_;
   ObstaclePoints obstacle_points_;
   PeopleAround people_around_;
+  std::shared_ptr<LaserGate> laser_gate_;  // shared with perception's gate
   std::optional<PersonLearner> learner_;
   std::optional<Perception> perception_;
   PlanRunner runner_;

@@ -24,12 +24,12 @@ using testing::Field;
 /// Ida is learned by now, and on her way with the robot behind her.
 constexpr double kOnTheWay_s = 8.0;
 
-FollowLog follow(const Scene& scene, const std::vector<Fault>& faults = {},
-                 std::uint64_t seed = 1) {
+FollowLog follow(const Scene& scene, const std::vector<Fault>& faults = {}, std::uint64_t seed = 1,
+                 double limit_s = 30.0) {
   ClosedLoopParams params;
   params.seed = seed;
   params.threads = 1;
-  params.limit_s = 30.0;
+  params.limit_s = limit_s;
   params.faults = faults;
   params.follower.learn.acquisition.background_s = 1.0;
   params.follower.learn.acquisition.person_s = 3.0;
@@ -135,6 +135,55 @@ TEST(ClosedLoop, LearnsAPersonAndReachesThem) {
   }
   ASSERT_GT(seen, 50);
   EXPECT_LT(error_m / seen, 0.3) << "on average; small images make it coarse";
+}
+
+/// Ida walks on into an aisle without another end, and out again when the robot has come after her.
+Scene deadEnd() {
+  Scene scene = test::smallHome();
+  scene.robot.laser.view_rad = 6.283;
+  scene.robot.laser.beams = 361;
+  for (const double y : {0.725, 3.275}) {  // from wall to aisle
+    FurniturePart shelf;
+    shelf.base = {5.75, y, 0.0};
+    shelf.size_m = {2.5, 1.45, 1.6};
+    shelf.surface = {"wood", Rgb(0.4F, 0.35F, 0.3F)};
+    Furniture furniture;
+    furniture.name = "shelf";
+    furniture.parts = {shelf};
+    scene.furniture.push_back(furniture);
+  }
+  std::vector<PathStep>& path = scene.people[0].path;
+  const auto walk = [&path](double x, double y) {
+    PathStep step;
+    step.kind = PathStep::Kind::kWalk;
+    step.to = {x, y};
+    step.speed_mps = 0.5;
+    path.push_back(step);
+  };
+  const auto awaitRobot = [&path](double within_m) {
+    PathStep step;
+    step.kind = PathStep::Kind::kWaitForRobot;
+    step.robot_within_m = within_m;
+    path.push_back(step);
+  };
+  walk(6.4, 2.0);
+  awaitRobot(1.3);
+  walk(4.0, 2.0);
+  walk(2.0, 1.2);
+  awaitRobot(1.4);
+  return scene;
+}
+
+TEST(ClosedLoop, LetsThePersonOutOfADeadEnd) {
+  const FollowLog log = follow(deadEnd(), {}, 1, 70.0);
+  EXPECT_EQ(log.outcome, "reached");
+  double deepest_m = 0.0;
+  for (const FollowSample& sample : log.samples) {
+    ASSERT_FALSE(sample.contact) << "at " << sample.stamp_s << " s";
+    deepest_m = std::max(deepest_m, sample.robot_true.position.x());
+  }
+  EXPECT_GT(deepest_m, 4.7) << "it stood in the aisle";
+  EXPECT_LT(log.samples.back().person_true->x(), 2.5) << "and she came out";
 }
 
 TEST(ClosedLoop, IsTheSameToTheLastBitForTheSameSeedAndNoOther) {

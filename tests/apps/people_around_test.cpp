@@ -175,6 +175,15 @@ TEST_F(PeopleAroundTest, WhatComesIntoViewFromBehindSomethingDoesNotWalk) {
   }
 }
 
+TEST_F(PeopleAroundTest, WhatSomebodyPassesCloselyStaysAThing) {
+  boxes = {{{2.0, -0.15}, {2.3, 0.15}}};
+  discs = {{Vector2d(1.75, -2.0), 0.15}};
+  walk({0.0, 0.0}, 3.0);
+  walk({0.0, 0.7}, 6.0);  // a hand's breadth past it, and on
+  ASSERT_EQ(people.people().size(), 1U);
+  EXPECT_GT(people.people()[0].position.y(), 1.5);
+}
+
 TEST_F(PeopleAroundTest, NothingThatTheMapShowsIsAPerson) {
   for (int i = 0; i < 60; ++i) {  // The walls' ends move over the walls as the robot drives.
     scanner.position.x() = 0.03 * i;
