@@ -124,6 +124,9 @@ const TargetEstimate& TargetTracker::step(double stamp_s,
     estimate_.last_seen = seen_before_;
     target = nullptr;
   }
+  if (target == nullptr && had_target_ && expected_m_) {
+    estimate_.last_seen = LastSeen{stamp_s, *expected_m_, Eigen::Vector2d::Zero()};
+  }
   if (target == nullptr && search()) {
     target = tracker_.findTrack(estimate_.track_id);
   }

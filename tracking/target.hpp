@@ -119,7 +119,8 @@ class TargetTracker {
   /// @throws std::invalid_argument  if the place is not finite.
   void startAt(const Eigen::Vector2d& position_m);
 
-  /// Says where another sensor has the target, for the next steps; nothing where none has.
+  /// Says where another sensor has the target, for the next steps; nothing where none has. That
+  /// counts as seen there: nobody is the target who can't have walked to where they are from it.
   void expectAt(const std::optional<Eigen::Vector2d>& position_m) { expected_m_ = position_m; }
 
   /// Takes in the observations made at `stamp_s`.

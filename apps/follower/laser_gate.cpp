@@ -3,17 +3,21 @@
 
 #include "apps/follower/laser_gate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
 
 namespace heel {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+}  // namespace
 
 LaserGate::LaserGate(Clearance clearance, const LaserGateParams& params)
-    : clearance_(std::move(clearance)),
-      params_(params),
-      age_s_(std::numeric_limits<double>::infinity()) {
+    : clearance_(std::move(clearance)), params_(params), age_s_(kInfinite) {
   if (!clearance_) throw std::invalid_argument("LaserGate: there is no map");
   for (const double value : {params.half_width_m, params.reach_m, params.off_map_m,
                              params.depth_error_pm, params.sigmas, params.max_age_s}) {
@@ -29,6 +33,37 @@ void LaserGate::step(const LaserScan* scan, const FloorPose& T_world_scanner, do
   scan_ = *scan;
   T_world_scanner_ = T_world_scanner;
   age_s_ = 0.0;
+  measureThings();
+}
+
+// Runs of neighbouring ends that the map does not show.
+void LaserGate::measureThings() {
+  const std::size_t count = scan_.ranges_m.size();
+  ends_m_.resize(count);
+  widths_m_.assign(count, kInfinite);
+  std::size_t first = 0;  // of the run at hand
+  const auto endRun = [&](std::size_t end) {
+    if (first < end) {
+      const double width_m = (ends_m_[end - 1] - ends_m_[first]).norm();
+      std::fill(&widths_m_[first], &widths_m_[first] + (end - first), width_m);
+    }
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto range_m = static_cast<double>(scan_.ranges_m[i]);
+    const double angle = scan_.angle(i);
+    ends_m_[i] = range_m * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    // Also where it is not a number, nowhere, or not known.
+    const bool is_unmapped = range_m > 0.0 && std::isfinite(range_m) &&
+                             !(clearance_(T_world_scanner_ * ends_m_[i]) <= params_.off_map_m);
+    const bool goes_on =
+        is_unmapped && first < i && (ends_m_[i] - ends_m_[i - 1]).norm() <= params_.max_gap_m;
+    if (!goes_on) {
+      endRun(i);
+      first = i;
+    }
+    if (!is_unmapped) first = i + 1;
+  }
+  endRun(count);
 }
 
 GateVerdict LaserGate::judge(const Observation& seen) const {
@@ -45,11 +80,9 @@ GateVerdict LaserGate::judge(const Observation& seen) const {
     if (ahead_m <= 0.0 || aside_m > params_.half_width_m) continue;
     const auto range_m = static_cast<double>(scan_.ranges_m[i]);
     if (!(range_m > 0.0)) continue;  // NaN too
-    if (range_m < ahead_m - reach_m) return GateVerdict::kAccepted;
-    const bool ends_there = range_m < ahead_m + reach_m;
-    if (ends_there && !(clearance_(T_world_scanner_ * (range_m * along)) <= params_.off_map_m)) {
-      return GateVerdict::kAccepted;
-    }
+    const bool is_hidden = range_m < ahead_m - reach_m;
+    const bool is_person = range_m < ahead_m + reach_m && widths_m_[i] <= params_.max_width_m;
+    if (is_hidden || is_person) return GateVerdict::kAccepted;
     ++beams;
   }
   return beams < params_.least_beams ? GateVerdict::kAccepted : GateVerdict::kNoLegs;

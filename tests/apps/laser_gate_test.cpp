@@ -89,6 +89,17 @@ TEST_F(LaserGateTest, AcceptsAPersonWhereverTheyStand) {
   }
 }
 
+TEST_F(LaserGateTest, RejectsAWideThingThatTheMapDoesNotShow) {
+  for (double y = 2.4; y < 3.7; y += 0.1) discs.push_back({{3.5, y}, 0.1});  // a shelf
+  LaserScan seen = scan();
+  gate.step(&seen, scanner, 0.1);
+  EXPECT_EQ(judge({3.5, 3.0}), GateVerdict::kNoLegs);
+  person({2.9, 3.0});
+  seen = scan();
+  gate.step(&seen, scanner, 0.1);
+  EXPECT_EQ(judge({2.9, 3.0}), GateVerdict::kAccepted) << "before the shelf";
+}
+
 TEST_F(LaserGateTest, SaysNothingOfWhatItDoesNotSee) {
   discs.push_back({{2.5, 3.0}, 0.4});  // a tub; somebody may stand behind it
   LaserScan seen = scan();

@@ -177,6 +177,18 @@ TEST(TargetTracker, TakesWhoIsWhereAnotherSensorHasItThoughTheyLookLittleLikeIt)
       << "but not somebody in other clothes";
 }
 
+TEST(TargetTracker, TakesNobodyWhoIsFarFromWhereAnotherSensorHasIt) {
+  Scene run;
+  run.target().startAt({0.0, 0.0});
+  run.see({seen(0.0, 0.0)}, 3);
+  run.target().expectAt(Eigen::Vector2d(0.5, 0.0));
+  run.see({}, 60);
+  EXPECT_EQ(run.see({seen(4.0, 0.0)}, 3).reason, TargetReason::kOutOfReach);
+  run.target().expectAt(std::nullopt);
+  EXPECT_EQ(run.see({seen(4.0, 0.0)}, 30).status, TargetStatus::kFollowed)
+      << "after a while it can have walked there";
+}
+
 TEST(TargetTracker, CoastsThenIsLostAtItsLastPlace) {
   Scene run;
   run.target().startAt({0.0, 0.0});
