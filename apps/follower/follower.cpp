@@ -39,7 +39,8 @@ constexpr double kFullTurn_rad = 6.283185307179586;
 }  // namespace
 
 FollowerParams::FollowerParams() {
-  paths.bend_room_m = 0.12;  // round a corner with some room one sees further behind it
+  learn.appearance.bands = wholeBody();  // a robot that keeps its distance sees trousers, too
+  paths.bend_room_m = 0.12;              // round a corner with some room one sees further behind it
   paths.safety_m = 0.08;  // more than the local planner's margin, or it stops where the path goes
   goal.ahead_cost = 0.0;  // people who are followed turn and stop; round them is out of their view
   goal.lead_s = 0.2;      // they turn often
