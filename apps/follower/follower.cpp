@@ -13,24 +13,16 @@ namespace {
 
 using Eigen::Vector2d;
 
-ObstacleLayerParams layerOf(const RobotDescription& robot, ObstacleLayerParams params) {
-  params.max_height_m = robot.height_m;
-  params.laser_height_m = robot.scanner_height_m;
-  return params;
-}
-
-GlobalPlannerParams pathsOf(const RobotDescription& robot, GlobalPlannerParams params) {
-  params.robot_radius_m = robot.drive.radius_m;
-  return params;
-}
-
-LocalPlannerParams driveOf(const RobotDescription& robot, LocalPlannerParams params) {
-  params.limits = robot.drive;
-  return params;
-}
-
-LaserGateParams legsOf(const RobotDescription& robot, LaserGateParams params) {
-  params.depth_error_pm = depthErrorOf(robot.camera.camera);
+/// What the parts must know of the robot.
+FollowerParams fitted(FollowerParams params, const RobotDescription& robot) {
+  params.obstacles.max_height_m = robot.height_m;
+  params.obstacles.laser_height_m = robot.scanner_height_m;
+  params.gate.eye_height_m = robot.camera.T_base_camera.translation().z();
+  params.gate.depth_error_pm = params.legs.depth_error_pm = depthErrorOf(robot.camera.camera);
+  params.paths.robot_radius_m = robot.drive.radius_m;
+  params.goal.radius_m = robot.drive.radius_m;
+  params.wayside.radius_m = robot.drive.radius_m;
+  params.drive.limits = robot.drive;
   return params;
 }
 
@@ -77,27 +69,26 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
                    PetriPlan plan, const std::optional<FloorPose>& start,
                    const FollowerParams& params)
     : robot_(robot),
-      params_(params),
+      params_(fitted(params, robot)),
       walls_(std::move(walls)),
       floor_(walls_->floorGrid({0.05, robot.height_m})),
       to_walls_(floor_, 1.0),
-      watch_(params.watch),
+      watch_(params_.watch),
       localization_(
           walls_->floorGrid({robot.scanner_height_m - 0.05, robot.scanner_height_m + 0.05}),
-          robot.T_base_scanner, params.localization),
-      layer_(layerOf(robot, params.obstacles)),
-      obstacle_points_(robot.camera, params.obstacle_points),
-      people_around_(params.people),
+          robot.T_base_scanner, params_.localization),
+      layer_(params_.obstacles),
+      obstacle_points_(robot.camera, params_.obstacle_points),
+      people_around_(params_.people),
       laser_gate_(std::make_shared<LaserGate>(
-          [this](const Vector2d& p) { return localization_.field().distance_m(p); },
-          legsOf(robot, params.legs))),
-      learner_(std::in_place, robot.camera, params.learn),
+          [this](const Vector2d& p) { return localization_.field().distance_m(p); }, params_.legs)),
+      learner_(std::in_place, robot.camera, params_.learn),
       runner_(std::move(plan)),
-      planner_(floor_, pathsOf(robot, params.paths)),
-      local_planner_(driveOf(robot, params.drive)),
-      goal_chooser_(params.goal),
-      target_place_(params.place),
-      search_(floor_, walls_->floorGrid({1.1, 1.4}), params.search),
+      planner_(floor_, params_.paths),
+      local_planner_(params_.drive),
+      goal_chooser_(params_.goal),
+      target_place_(params_.place),
+      search_(floor_, walls_->floorGrid({1.1, 1.4}), params_.search),
       doorways_(findDoorways(floor_)) {
   if (start) localization_.startAt(*start);
 }
@@ -224,12 +215,9 @@ void Follower::learn(const Frame& frame) {
     throw NobodyLearned("nobody entered to be learned, or several did together");
   }
   PerceptionParams params = params_.perception;
-  WallGateParams gate = params_.gate;
-  gate.eye_height_m = robot_.camera.T_base_camera.translation().z();
-  gate.depth_error_pm = depthErrorOf(robot_.camera.camera);
-  params.gate = allOf({wallGate(walls_, gate), [legs = laser_gate_](const auto& seen, const auto&) {
-                         return legs->judge(seen);
-                       }});
+  params.gate =
+      allOf({wallGate(walls_, params_.gate),
+             [legs = laser_gate_](const auto& seen, const auto&) { return legs->judge(seen); }});
   perception_.emplace(robot_.camera, learner_->learn(), params);
   const Vector2d place = step_.robot.pose * learner_->result().last_place_m;
   perception_->startAt(place);
