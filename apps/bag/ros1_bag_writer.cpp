@@ -56,7 +56,7 @@ void Ros1BagWriter::writeBagHeader(std::uint64_t index_at) {
   Ros1Bytes header;
   fields.append(header);
   Ros1Bytes record;
-  appendRecord(record, fields, Ros1Bytes(kBagHeaderSize - 8 - header.size(), ' '));
+  appendRecord(record, fields, Ros1Bytes(kBagHeaderSize - header.size(), ' '));
   write(record);
 }
 

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 fs::path find(const std::string& name, const fs::path& folder, const std::string& extension,
               const std::string& what) {
-  if (fs::exists(name)) return name;
+  if (fs::is_regular_file(name)) return name;  // a folder of this name is none
   const fs::path shipped = folder / (name + extension);
   if (fs::exists(shipped)) return shipped;
   throw std::runtime_error(name + ": there is no such " + what + ", neither as a file nor in " +
@@ -35,7 +35,7 @@ fs::path sceneFile(const std::string& scene) {
 
 fs::path mapSource(const std::string& map) {
   const bool is_path = fs::path(map).has_extension() || fs::path(map).has_parent_path();
-  return is_path ? fs::path(map) : sceneFile(map);
+  return is_path || fs::exists(map) ? fs::path(map) : sceneFile(map);
 }
 
 fs::path planFolder() { return shippedFolder("plans"); }

@@ -88,6 +88,28 @@ TYPED_TEST(AgainstRos, RosReadsOurBytesAndWritesTheSame) {
   EXPECT_EQ(again, bytes);
 }
 
+TEST(Rosbag, AppendsToWhatWeWrite) {
+  const test::TempFolder folder;
+  const auto path = folder / "a.bag";
+  const auto writer = createBag(path);
+  for (int i = 1; i <= 50; ++i) {
+    writer->write("/odom", i * 1000000000LL, test::filled<OdometryMsg>());
+  }
+  writer->commit();
+  {
+    rosbag::Bag bag(path.string(), rosbag::bagmode::Append);
+    bag.write("/odom", ros::Time(60.0), nav_msgs::Odometry());
+  }
+  rosbag::Bag bag(path.string());
+  int count = 0;
+  rosbag::View view(bag);
+  for (const rosbag::MessageInstance& m : view) {
+    EXPECT_NE(m.instantiate<nav_msgs::Odometry>(), nullptr);
+    ++count;
+  }
+  EXPECT_EQ(count, 51);
+}
+
 TEST(Rosbag, ReadsWhatWeWrite) {
   const test::TempFolder folder;
   const auto path = folder / "a.bag";
