@@ -3,6 +3,7 @@
 
 #include "cloud/ground_plane.hpp"
 
+#include <pcl/memory.h>
 #include <pcl/sample_consensus/ransac.h>
 #include <pcl/sample_consensus/sac_model_perpendicular_plane.h>
 
@@ -93,7 +94,8 @@ std::optional<GroundPlane> GroundPlaneEstimator::estimate() const {
 
   // RANSAC gives the planes from the largest down: the first with nothing below it is the floor.
   for (int k = 0; k < kMaxPlanes && remaining.size() >= std::max(needed, kFewestPoints); ++k) {
-    pcl::shared_ptr<PlaneModel> model(new PlaneModel(points_, remaining));
+    // Not by `new`: PCL is C++14 and would free by its own means what C++17 allocates by others.
+    const auto model = pcl::make_shared<PlaneModel>(points_, remaining);
     model->setAxis(up_.cast<float>());
     model->setEpsAngle(params_.max_tilt_rad);
     pcl::RandomSampleConsensus<pcl::PointXYZ> ransac(model, params_.inlier_distance_m);
