@@ -143,7 +143,7 @@ void makeColorCloud(const cv::Mat& depth_m, const cv::Mat& image_bgr, const cv::
   fill(depth_m, image_bgr, spans, Rays(camera, T_base_camera), cloud, indices);
 }
 
-MaskedCloud::MaskedCloud() : cloud_(new ColorCloud) {}
+MaskedCloud::MaskedCloud() : cloud_(pcl::make_shared<ColorCloud>()) {}
 
 void MaskedCloud::update(const cv::Mat& depth_m, const cv::Mat& image_bgr, const cv::Mat& mask,
                          const PinholeCamera& camera, const Eigen::Isometry3d& T_base_camera) {

@@ -60,7 +60,7 @@ Mounting mountingOver(const Eigen::Vector4d& plane) {
 
 GroundPlaneEstimator::GroundPlaneEstimator(const GroundPlaneParams& params,
                                            const Eigen::Vector3d& up_in_camera)
-    : params_(params), up_(up_in_camera.normalized()), points_(new Points) {
+    : params_(params), up_(up_in_camera.normalized()), points_(pcl::make_shared<Points>()) {
   const bool positive = params.max_range_m > 0.0 && params.inlier_distance_m > 0.0 &&
                         params.max_tilt_rad > 0.0 && params.min_inlier_share > 0.0 &&
                         params.points_per_frame > 0 && params.max_points > 0;
@@ -94,7 +94,6 @@ std::optional<GroundPlane> GroundPlaneEstimator::estimate() const {
 
   // RANSAC gives the planes from the largest down: the first with nothing below it is the floor.
   for (int k = 0; k < kMaxPlanes && remaining.size() >= std::max(needed, kFewestPoints); ++k) {
-    // Not by `new`: PCL is C++14 and would free by its own means what C++17 allocates by others.
     const auto model = pcl::make_shared<PlaneModel>(points_, remaining);
     model->setAxis(up_.cast<float>());
     model->setEpsAngle(params_.max_tilt_rad);

@@ -87,7 +87,9 @@ void empty(Blob& cloud) {
 }  // namespace
 
 AppearanceFilter<Blob>::AppearanceFilter(bool extract_removed_indices)
-    : Base(extract_removed_indices), typed_(true), points_(new pcl::PointCloud<pcl::PointXYZRGBA>) {
+    : Base(extract_removed_indices),
+      typed_(true),
+      points_(pcl::make_shared<pcl::PointCloud<pcl::PointXYZRGBA>>()) {
   filter_name_ = "AppearanceFilter";
 }
 

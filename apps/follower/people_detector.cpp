@@ -15,7 +15,7 @@ PeopleDetector::PeopleDetector(const PinholeCamera& camera, const Eigen::Isometr
       plan_view_(params.plan_view, {T_base_camera.translation(), camera.fx}),
       finder_(params.blobs),
       person_(params.person) {
-  view_.cloud.reset(new ColorCloud);
+  view_.cloud = pcl::make_shared<ColorCloud>();
   view_.candidates.reset(new pcl::Indices);
 }
 
