@@ -19,14 +19,6 @@ constexpr double kRing_m = 0.2;
 /// Cosine of the least angle between the way to a place and the direction of the person.
 constexpr double kTowards = 0.3;
 
-template <typename Visit>
-void aboutIt(const Vector2d& middle, double radius_m, Visit visit) {
-  for (int i = 0; i < kBearings; ++i) {
-    const double bearing = 2.0 * kPi * i / kBearings;
-    visit(Vector2d(middle + radius_m * Vector2d(std::cos(bearing), std::sin(bearing))));
-  }
-}
-
 }  // namespace
 
 bool leavesRoom(const Vector2d& place, const Vector2d& person, Clearance clearance,
@@ -62,12 +54,14 @@ void findWaysides(const Vector2d& robot, const Vector2d& person, Clearance clear
            leavesRoom(place, person, clearance, params);
   };
   for (double ring_m = kRing_m; ring_m <= params.reach_m; ring_m += kRing_m) {
-    aboutIt(robot, ring_m, [&](const Vector2d& place) {
+    for (int i = 0; i < kBearings; ++i) {
+      const double bearing = 2.0 * kPi * i / kBearings;
+      const Vector2d place = robot + ring_m * Vector2d(std::cos(bearing), std::sin(bearing));
       const bool is_new = std::none_of(out.begin(), out.end(), [&](const Vector2d& other) {
         return (other - place).norm() < params.apart_m;
       });
       if (is_new && isGood(place)) out.push_back(place);
-    });
+    }
   }
 }
 

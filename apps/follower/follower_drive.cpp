@@ -42,10 +42,10 @@ void Follower::drive() {
     case FollowingAction::kStop:
       break;
     case FollowingAction::kFollow:
-      follow();
+      if (!makesRoom()) follow();
       break;
     case FollowingAction::kFace:
-      face();
+      if (!makesRoom()) face();
       break;
     case FollowingAction::kGoToLastSeen:
       goToLastSeen();
@@ -61,7 +61,6 @@ void Follower::drive() {
 
 // Stands off the person, in view of them and in nobody's way.
 void Follower::follow() {
-  if (makesRoom()) return;
   if (!target_place_.now()) return driveTo(target_place_.last().position);
   const MovingPerson& target = *target_place_.now();
   const auto clearance = [this](const Vector2d& p) { return planner_.clearance().clearance(p); };
@@ -113,7 +112,6 @@ double Follower::sideOf(const Vector2d& place) const {
 // Stays where it is, turned to the person, unless it must make room: nobody waits at a doorway
 // that the robot stands in.
 void Follower::face() {
-  if (makesRoom()) return;
   if (standsInDoorway()) {
     looks_away_ = true;  // The person waits: making room goes before keeping them in view.
     follow();

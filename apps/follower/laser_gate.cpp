@@ -39,6 +39,7 @@ void LaserGate::step(const LaserScan* scan, const FloorPose& T_world_scanner, do
 // Runs of neighbouring ends that the map does not show.
 void LaserGate::measureThings() {
   const std::size_t count = scan_.ranges_m.size();
+  directions_.resize(count);
   ends_m_.resize(count);
   widths_m_.assign(count, kInfinite);
   std::size_t first = 0;  // of the run at hand
@@ -51,7 +52,8 @@ void LaserGate::measureThings() {
   for (std::size_t i = 0; i < count; ++i) {
     const auto range_m = static_cast<double>(scan_.ranges_m[i]);
     const double angle = scan_.angle(i);
-    ends_m_[i] = range_m * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    directions_[i] = {std::cos(angle), std::sin(angle)};
+    ends_m_[i] = range_m * directions_[i];
     // Also where it is not a number, nowhere, or not known.
     const bool is_unmapped = range_m > 0.0 && std::isfinite(range_m) &&
                              !(clearance_(T_world_scanner_ * ends_m_[i]) <= params_.off_map_m);
@@ -74,7 +76,7 @@ GateVerdict LaserGate::judge(const Observation& seen) const {
       params_.reach_m + params_.sigmas * params_.depth_error_pm * away_m * away_m;
   int beams = 0;
   for (std::size_t i = 0; i < scan_.ranges_m.size(); ++i) {
-    const Eigen::Vector2d along(std::cos(scan_.angle(i)), std::sin(scan_.angle(i)));
+    const Eigen::Vector2d& along = directions_[i];
     const double ahead_m = along.dot(place);
     const double aside_m = std::abs(along.x() * place.y() - along.y() * place.x());
     if (ahead_m <= 0.0 || aside_m > params_.half_width_m) continue;

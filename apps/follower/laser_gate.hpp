@@ -51,7 +51,8 @@ class LaserGate {
   LaserGateParams params_;
   LaserScan scan_;
   FloorPose T_world_scanner_;
-  std::vector<Eigen::Vector2d> ends_m_;  // of the beams, in the scanner's frame
+  std::vector<Eigen::Vector2d> directions_;  // of the beams, in the scanner's frame
+  std::vector<Eigen::Vector2d> ends_m_;
   std::vector<double> widths_m_;  // of the things that they end at; infinite if the map shows it
   double age_s_;
 };
