@@ -9,6 +9,8 @@
 #include "segmentation/color_profile.hpp"
 #include "segmentation/stature.hpp"
 
+#include <opencv2/core/matx.hpp>
+
 #include <optional>
 #include <vector>
 
@@ -17,7 +19,10 @@ namespace heel {
 struct BodyMatchParams {
   BodyAppearanceParams body;  ///< Its prior_points count for a band's colours here too.
   /// The affinity of a band of which nothing is seen.
-  double prior_affinity = 0.6;
+  double prior_affinity = 0.8;
+  /// The light may be so much brighter or darker than where the person was learned, as a natural
+  /// logarithm: all bands of a body are compared as they would look in that light.
+  double max_light_change = 1.2;
   /// An affinity counts to this power. It brings the scale of bodyAppearance(): 0.41 parted people
   /// best on simulated wardrobes.
   double sharpness = 2.0;
@@ -49,8 +54,10 @@ class BodyMatcher {
   struct Band {
     BodyBand body;
     ColorProfile profile;
+    std::vector<cv::Vec3b> pixels;  // of the body at hand
   };
 
+  float lightChange() const;
   template <typename ForEachPixel>
   double matchPixels(const ForEachPixel& for_each);
 

@@ -16,21 +16,17 @@ constexpr int kChroma = ColorProfile::kChromaBins;
 constexpr int kBrightness = ColorProfile::kBrightnessBins;
 constexpr std::size_t kBins = std::size_t{kChroma} * kChroma * kBrightness;
 
-/// Logarithms of all channel values in bins of chroma, and the bin of each sum of three channels.
+/// Logarithms of all channel values in bins of chroma, and of each sum of three channels.
 struct Tables {
   std::array<float, 256> chroma{};
-  std::array<int, 766> brightness{};
+  std::array<float, 766> light{};
 
   Tables() {
     for (std::size_t v = 0; v < chroma.size(); ++v) {
       chroma[v] = std::log(static_cast<float>(v) + kDarkOffset) * (kChroma / (2.0F * kChromaLimit));
     }
-    const float darkest = std::log(kDarkOffset), brightest = std::log(255.0F + kDarkOffset);
-    for (std::size_t sum = 0; sum < brightness.size(); ++sum) {
-      const float light = std::log(static_cast<float>(sum) / 3.0F + kDarkOffset);
-      const auto bin =
-          static_cast<int>((light - darkest) / (brightest - darkest) * float{kBrightness});
-      brightness[sum] = std::clamp(bin, 0, kBrightness - 1);
+    for (std::size_t sum = 0; sum < light.size(); ++sum) {
+      light[sum] = std::log(static_cast<float>(sum) / 3.0F + kDarkOffset);
     }
   }
 };
@@ -46,11 +42,18 @@ int chromaBin(float chroma) {
 
 }  // namespace
 
-std::size_t ColorProfile::binOf(std::uint8_t b, std::uint8_t g, std::uint8_t r) {
+float ColorProfile::lightOf(std::uint8_t b, std::uint8_t g, std::uint8_t r) {
+  return tables().light[std::size_t{b} + g + r];
+}
+
+std::size_t ColorProfile::binOf(std::uint8_t b, std::uint8_t g, std::uint8_t r, float lighter) {
+  static const float kDarkest = std::log(kDarkOffset);
+  static const float kBinsPerLog = kBrightness / (std::log(255.0F + kDarkOffset) - kDarkest);
   const Tables& t = tables();
   const int i = chromaBin(t.chroma[r] - t.chroma[g]);
   const int j = chromaBin(t.chroma[b] - t.chroma[g]);
-  const int k = t.brightness[std::size_t{b} + g + r];
+  const float light = (t.light[std::size_t{b} + g + r] + lighter - kDarkest) * kBinsPerLog;
+  const int k = std::clamp(static_cast<int>(light), 0, kBrightness - 1);
   return static_cast<std::size_t>((i * kChroma + j) * kBrightness + k);
 }
 
@@ -59,7 +62,9 @@ ColorProfile::ColorProfile(const ColorHistogram& colors) {
   ColorSample sample;
   colors.forEach([&](Bgr c, std::uint64_t count) {
     sample.add(binOf(c.b, c.g, c.r), static_cast<float>(count));
+    light_ += static_cast<double>(lightOf(c.b, c.g, c.r)) * static_cast<double>(count);
   });
+  light_ /= static_cast<double>(colors.total());
   sample.smooth();
   roots_.resize(kBins);
   const auto total = static_cast<float>(sample.total_);

@@ -14,16 +14,16 @@
 namespace heel {
 
 /// The joint histogram of log(r / g), log(b / g) and the log of the brightness, coarse and smoothed
-/// so that folds, noise and a little more or less light change it little. (Logarithms are of the
-/// channel + 12, for below that the camera's noise is all there is.)
+/// so that folds and noise change it little. (Logarithms are of the channel + 12, for below that
+/// the camera's noise is all there is.)
 ///
 /// A table of colours says whether a pixel's colour is one of the target's. A profile says whether
 /// all of them together are the target's in their proportions: a black jumper passes the table of
 /// checks in black and red, but it has not their profile.
 class ColorProfile {
  public:
-  static constexpr int kChromaBins = 18;
-  static constexpr int kBrightnessBins = 16;
+  static constexpr int kChromaBins = 24;
+  static constexpr int kBrightnessBins = 10;
 
   /// Empty: nothing is like it.
   ColorProfile() = default;
@@ -34,11 +34,18 @@ class ColorProfile {
   /// The square root of each bin's share.
   const std::vector<float>& roots() const { return roots_; }
 
-  /// The bin of a colour.
-  static std::size_t binOf(std::uint8_t b, std::uint8_t g, std::uint8_t r);
+  /// Mean natural logarithm of the brightness.
+  double light() const { return light_; }
+
+  /// The natural logarithm of a colour's brightness.
+  static float lightOf(std::uint8_t b, std::uint8_t g, std::uint8_t r);
+
+  /// The bin of a colour in a light that is brighter by `lighter`, a natural logarithm.
+  static std::size_t binOf(std::uint8_t b, std::uint8_t g, std::uint8_t r, float lighter = 0.0F);
 
  private:
   std::vector<float> roots_;
+  double light_ = 0.0;
 };
 
 /// The colours of one part of a body in one frame. Clear it and use it again: it allocates nothing
@@ -48,8 +55,9 @@ class ColorSample {
   ColorSample();
 
   void clear();
-  void add(std::uint8_t b, std::uint8_t g, std::uint8_t r) {
-    add(ColorProfile::binOf(b, g, r), 1.0F);
+  /// A pixel, as it would be in a light that is brighter by `lighter`, a natural logarithm.
+  void add(std::uint8_t b, std::uint8_t g, std::uint8_t r, float lighter = 0.0F) {
+    add(ColorProfile::binOf(b, g, r, lighter), 1.0F);
   }
   /// Pixels added.
   double total() const { return total_; }

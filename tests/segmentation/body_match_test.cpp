@@ -57,6 +57,25 @@ TEST(BodyMatcher, OneOtherGarmentIsEnough) {
   EXPECT_LT(matcher.match(personOf(test::kNavy, test::kWhite, test::kSkin), blobAt(2)), 0.1);
 }
 
+Bgr inLight(Bgr color, double share) {
+  return {test::toChannel(share * color.b), test::toChannel(share * color.g),
+          test::toChannel(share * color.r)};
+}
+
+TEST(BodyMatcher, AllowsForTheLightOfAnotherRoom) {
+  const ColorCloud dim =
+      personOf(inLight(test::kNavy, 0.5), inLight(test::kRed, 0.5), inLight(test::kSkin, 0.5));
+  EXPECT_GT(BodyMatcher(modelOf()).match(dim, blobAt(2)), 0.5);
+  BodyMatchParams strict;
+  strict.max_light_change = 0.0;
+  EXPECT_LT(BodyMatcher(modelOf(), strict).match(dim, blobAt(2)), 0.35);
+}
+
+TEST(BodyMatcher, KnowsADarkerGarmentFromADarkerRoom) {
+  const ColorCloud other = personOf(test::kNavy, inLight(test::kRed, 0.25), test::kSkin);
+  EXPECT_LT(BodyMatcher(modelOf()).match(other, blobAt(2)), 0.35);
+}
+
 TEST(BodyMatcher, TellsSizesApartWhereClothesAreTheSame) {
   BodyMatcher matcher(modelOf(Stature{1.74, 0.02, 30}));
   const auto match = [&](float top_m) {
@@ -94,6 +113,7 @@ TEST(BodyMatcher, SaysLittleWithoutEvidence) {
 TEST(BodyMatcher, RejectsBadParameters) {
   for (auto spoil : {+[](BodyMatchParams& p) { p.prior_affinity = 1.5; },
                      +[](BodyMatchParams& p) { p.sharpness = 0.0; },
+                     +[](BodyMatchParams& p) { p.max_light_change = -0.1; },
                      +[](BodyMatchParams& p) { p.stature_sigma_m = -1.0; }}) {
     BodyMatchParams params;
     spoil(params);
