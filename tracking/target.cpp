@@ -87,6 +87,9 @@ TargetTracker::TargetTracker(const TargetParams& params, const TrackerParams& tr
   require(params.release_share >= 0.0 && params.release_share <= 1.0,
           "release_share must be in [0, 1]");
   require(params.release_s >= 0.0, "release_s must not be negative");
+  require(params.takeover_ratio >= 1.0, "takeover_ratio must be at least 1");
+  require(isNotNegative(params.takeover_s), "takeover_s must not be negative");
+  require(isNotNegative(params.excluded_within_m), "excluded_within_m must not be negative");
   require(params.max_speed_mps > 0.0, "max_speed_mps must be positive");
   require(isNotNegative(params.reach_slack_m), "reach_slack_m must not be negative");
   require(params.coast_memory_s > 0.0, "coast_memory_s must be positive");
@@ -123,6 +126,12 @@ const TargetEstimate& TargetTracker::step(double stamp_s,
     estimate_.track_id = TargetEstimate::kNoTrack;
     estimate_.last_seen = seen_before_;
     target = nullptr;
+  }
+  if (target != nullptr) {
+    if (const Track* better = findBetter(*target)) {
+      take(*better, TargetReason::kRecognized);
+      target = better;
+    }
   }
   if (target == nullptr && had_target_ && expected_m_) {
     estimate_.last_seen = LastSeen{stamp_s, *expected_m_, Eigen::Vector2d::Zero()};
@@ -167,7 +176,7 @@ bool TargetTracker::search() {
   const Track *best = nullptr, *second = nullptr;
   bool somebody_in_view = false, out_of_reach = false;
   for (const Track& track : tracker_.tracks()) {
-    if (track.status != TrackStatus::kConfirmed) {
+    if (track.status != TrackStatus::kConfirmed || isExcluded(track)) {
       continue;
     }
     if (isExpected(track)) {
@@ -225,12 +234,30 @@ void TargetTracker::take(const Track& track, TargetReason reason) {
 /// Whether the target was taken by looks that it has not had for some time.
 bool TargetTracker::isMistaken(const Track& track) {
   if (track.status != TrackStatus::kConfirmed) return false;  // Unseen: its looks are old.
-  if (!taken_by_looks_ || track.appearance() >= params_.release_share * params_.min_appearance) {
+  const bool may_be_mistaken = taken_by_looks_ || params_.release_started;
+  if (!may_be_mistaken || track.appearance() >= params_.release_share * params_.min_appearance) {
     unlike_since_s_.reset();
     return false;
   }
   if (!unlike_since_s_) unlike_since_s_ = *tracker_.stamp_s();
   return *tracker_.stamp_s() - *unlike_since_s_ >= params_.release_s;
+}
+
+/// Who has looked so much more like the target for so long that they must be it; null if nobody.
+const Track* TargetTracker::findBetter(const Track& target) {
+  const Track* best = nullptr;
+  const double least =
+      std::max(params_.min_appearance, params_.takeover_ratio * target.appearance());
+  for (const Track& track : tracker_.tracks()) {
+    if (track.id == target.id || track.status != TrackStatus::kConfirmed || isExcluded(track) ||
+        track.appearance() <= least) {
+      continue;
+    }
+    if (best == nullptr || track.log_appearance > best->log_appearance) best = &track;
+  }
+  const int id = best != nullptr ? best->id : TargetEstimate::kNoTrack;
+  if (std::exchange(better_id_, id) != id) better_since_s_ = *tracker_.stamp_s();
+  return *tracker_.stamp_s() - better_since_s_ >= params_.takeover_s ? best : nullptr;
 }
 
 /// Fills the estimate from the target's track.
@@ -300,9 +327,16 @@ bool TargetTracker::isExpected(const Track& track) const {
          track.appearance() > params_.release_share * params_.min_appearance;
 }
 
+/// Whether somebody else is known to be where this track is.
+bool TargetTracker::isExcluded(const Track& track) const {
+  return std::any_of(excluded_m_.begin(), excluded_m_.end(), [&](const Eigen::Vector2d& place_m) {
+    return (track.motion.position_m() - place_m).norm() < params_.excluded_within_m;
+  });
+}
+
 /// Whether the target can have walked to where this track is.
 bool TargetTracker::canBeTarget(const Track& track) const {
-  if (!estimate_.last_seen) {
+  if (!estimate_.last_seen || track.appearance() > params_.sure_appearance) {
     return true;
   }
   const double away_m = (track.motion.position_m() - estimate_.last_seen->position_m).norm();

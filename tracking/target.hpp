@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -37,6 +38,14 @@ struct TargetParams {
   /// for so long: they were somebody else, taken on one good look. A target that was started at a
   /// place is kept, for its looks were not what it was chosen by.
   double release_s = 2.0;
+  bool release_started = false;  ///< Lets go of a target that was started at a place, too.
+  /// Somebody in view who for takeover_s looks so many times more like the target than whoever is
+  /// followed is the target; infinite: never. For an appearance that tells people well apart.
+  double takeover_ratio = std::numeric_limits<double>::infinity();
+  double takeover_s = 0.5;  ///< See takeover_ratio.
+  /// Over it nobody is out of reach: where the target was seen last was a mistake.
+  double sure_appearance = 1.0;
+  double excluded_within_m = 0.3;     ///< Who is so near to a place given to exclude() is excluded.
   double coast_memory_s = 1.0;        ///< Time unseen in which the confidence falls to 1/e.
   double confusion_distance_m = 0.8;  ///< Somebody nearer than this can be mistaken for the target.
   bool start_by_appearance = true;    ///< Find the target by looks when no start was given.
@@ -123,6 +132,9 @@ class TargetTracker {
   /// counts as seen there: nobody is the target who can't have walked to where they are from it.
   void expectAt(const std::optional<Eigen::Vector2d>& position_m) { expected_m_ = position_m; }
 
+  /// Says where others are known to be, for the next steps: nobody there is taken for the target.
+  void exclude(const std::vector<Eigen::Vector2d>& places_m) { excluded_m_ = places_m; }
+
   /// Takes in the observations made at `stamp_s`.
   /// @return The target, valid until the next call.
   /// @throws std::invalid_argument  if the stamp is not finite.
@@ -143,12 +155,15 @@ class TargetTracker {
   double confidenceOf(const Track& track) const;
   bool canBeTarget(const Track& track) const;
   bool isExpected(const Track& track) const;
+  bool isExcluded(const Track& track) const;
+  const Track* findBetter(const Track& target);
 
   TargetParams params_;
   Tracker tracker_;
   TargetEstimate estimate_;
   std::optional<Eigen::Vector2d> start_m_;
   std::optional<Eigen::Vector2d> expected_m_;
+  std::vector<Eigen::Vector2d> excluded_m_;
   bool had_target_ = false;
   bool taken_by_looks_ = false;
   std::optional<double>
@@ -156,6 +171,8 @@ class TargetTracker {
   std::optional<LastSeen> seen_before_;  // What was known when the target was taken by looks.
   int likely_id_ = TargetEstimate::kNoTrack;  ///< Who alone looked like the target last frame,
   int likely_frames_ = 0;                     ///< and in how many frames in a row.
+  int better_id_ = TargetEstimate::kNoTrack;  ///< Who looks more like the target than the target,
+  double better_since_s_ = 0.0;               ///< and since when.
 };
 
 }  // namespace heel

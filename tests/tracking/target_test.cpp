@@ -251,6 +251,57 @@ TEST(TargetTracker, KeepsWhoWasStartedAtAPlaceWhateverTheyLookLike) {
   EXPECT_EQ(run.see({seen(2, 0, kUnlike)}, 40).status, TargetStatus::kFollowed);
 }
 
+TEST(TargetTracker, LetsGoOfWhoWasStartedAtAPlaceWhenToldTo) {
+  TargetParams params;
+  params.release_started = true;
+  Scene run(params);
+  run.see({seen(2, 0, kUnlike)});
+  run.target().startAt({2, 0});
+  EXPECT_EQ(run.see({seen(2, 0, kUnlike)}, 20).status, TargetStatus::kLost);
+}
+
+TEST(TargetTracker, GoesOverToWhoLooksClearlyMoreLikeTheTarget) {
+  constexpr double kAlike = 0.45;  // Enough to be taken where nobody else is.
+  for (const bool goes_over : {false, true}) {
+    TargetParams params;
+    if (goes_over) params.takeover_ratio = 1.4;
+    Scene run(params);
+    ASSERT_EQ(run.see({seen(2, 0, kAlike)}, 3).status, TargetStatus::kFollowed);
+    run.see({seen(2, 0, kAlike), seen(2, 3)}, 2);
+    EXPECT_NEAR(run.target().estimate().motion.mean.y(), 0.0, 0.1) << "not on one look";
+    run.see({seen(2, 0, kAlike), seen(2, 3)}, 4);
+    EXPECT_NEAR(run.target().estimate().motion.mean.y(), goes_over ? 3.0 : 0.0, 0.1);
+  }
+}
+
+TEST(TargetTracker, IsNotTakenOverByWhoLooksALittleMoreAlike) {
+  TargetParams params;
+  params.takeover_ratio = 1.4;
+  Scene run(params);
+  run.target().startAt({2, 0});
+  run.see({seen(2, 0, 0.6), seen(2, 3, 0.8)}, 20);
+  EXPECT_NEAR(run.target().estimate().motion.mean.y(), 0.0, 0.1);
+}
+
+TEST(TargetTracker, TakesNobodyWhereAnotherIsKnownToBe) {
+  Scene run;
+  run.target().exclude({{2.1, 0.1}});
+  EXPECT_EQ(run.see({seen(2, 0)}, 5).status, TargetStatus::kNone);
+  run.target().exclude({});
+  EXPECT_EQ(run.see({seen(2, 0)}).status, TargetStatus::kFollowed);
+}
+
+TEST(TargetTracker, IsSureWhoLooksJustLikeItThoughTheyCannotHaveWalkedThere) {
+  TargetParams params;
+  params.sure_appearance = 0.7;
+  Scene run(params);
+  run.target().startAt({0.0, 0.0});
+  run.see({seen(0, 0)}, 3);
+  run.see({}, 6);
+  EXPECT_EQ(run.see({seen(8.1, 0, 0.6)}, 4).reason, TargetReason::kOutOfReach);
+  EXPECT_EQ(run.see({seen(8.1, 0, 0.8)}, 8).status, TargetStatus::kFollowed);
+}
+
 TEST(TargetTracker, IsNotFoundWhereItCannotHaveWalked) {
   Scene run;
   run.target().startAt({0.0, 0.0});
