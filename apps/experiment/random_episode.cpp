@@ -90,6 +90,7 @@ class Ways {
     step.kind = PathStep::Kind::kWaitForRobot;
     step.robot_within_m = within_m;
     step.patience_s = patience_s;
+    step.comes_back = true;
     person.path.push_back(step);
   }
 
@@ -150,7 +151,7 @@ Scene randomEpisode(std::uint64_t seed, const std::filesystem::path& scenes,
   const double speed_mps = random.uniform(0.4, 0.7);
   for (int visit = 0; visit < params.visits; ++visit) {
     ways.walk(person, at, ways.placeIn(ways.randomRoom(), at), speed_mps, true);
-    ways.waitForRobot(person, 1.35, 40.0);
+    ways.waitForRobot(person, 1.5, 40.0);
     ways.wait(person, random.uniform(0.5, 2.0));
   }
   home.scene.people.push_back(std::move(person));

@@ -21,7 +21,8 @@ struct RandomEpisodeParams {
 
 /// One home, one person in clothes of their own, who comes before the robot, is looked at for ten
 /// seconds, and then visits rooms at a walking pace of their own, waiting now and then for the
-/// robot to come near, as people do; and up to max_others in other clothes, who walk about.
+/// robot to come near and going back for it if it does not, as people do; and up to max_others in
+/// other clothes, who walk about.
 /// @param scenes  Folder of the scenes that come with Heel, for the furniture.
 /// @throws std::runtime_error  as loadScene().
 Scene randomEpisode(std::uint64_t seed, const std::filesystem::path& scenes,

@@ -114,8 +114,11 @@ struct PathStep {
   Eigen::Vector2d to = Eigen::Vector2d::Zero();  ///< Where to walk to, or what to turn to.
   double speed_mps = 1.0;                        ///< Of a walk.
   double wait_s = 0.0;                           ///< How long to wait.
-  double robot_within_m = 0.0;                   ///< Until the robot is as near as this ...
+  double robot_within_m = 0.0;                   ///< Until the robot is as near as this, in sight,
   double patience_s = 1e9;                       ///< ... or for as long as this.
+  /// After that goes back the way they came, until they see the robot as near, and begin again
+  /// from there; else goes on without it.
+  bool comes_back = false;
 };
 
 /// A person: body, clothes and what they do.

@@ -67,6 +67,7 @@ PathStep readStep(YamlMap& map, double speed_mps) {
     step.kind = PathStep::Kind::kWaitForRobot;
     step.robot_within_m = map.number("robot_within_m", kPositive);
     step.patience_s = map.number("patience_s", step.patience_s, {0.0, 1e9});
+    step.comes_back = map.flag("comes_back", false);
   } else {
     if (!map.has("face")) map.fail("to", "or 'wait_s', 'robot_within_m', 'face' is missing");
     step.kind = PathStep::Kind::kFace;

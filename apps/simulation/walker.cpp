@@ -26,6 +26,8 @@ constexpr double kMakesRoom_s = 6.0;  // ... for so long,
 constexpr double kHeldUp_m = 1.0;     // if it is this near;
 constexpr double kRoom_m = 1.4;       // this far is far enough.
 constexpr double kAside_mps = 0.4;
+constexpr double kHair_m = 0.01;     // Nobody comes nearer to the robot than this.
+constexpr double kMeets_s = 5.0;     // Who came back for the robot gives it so long to turn round.
 constexpr double kGivesUp_s = 10.0;  // Someone who can't get to a place goes to the next.
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * kPi); }
@@ -45,6 +47,17 @@ double timeToTouch(const Vector2d& offset, const Vector2d& approach, double reac
 double closing(const Vector2d& offset, const Vector2d& approach, double reach) {
   const double away = offset.norm();
   return away < reach ? std::max(-offset.dot(approach) / std::max(away, 1e-3), 0.0) : 0.0;
+}
+
+/// Whether nothing of a body's height stands between two places.
+bool isOpen(const FloorPlan& plan, const Vector2d& from, const Vector2d& to) {
+  constexpr double kStep_m = 0.05;
+  const Vector2d way = to - from;
+  const int steps = static_cast<int>(way.norm() / kStep_m);
+  for (int i = 1; i < steps; ++i) {
+    if (plan.clearance(from + (kStep_m * i / way.norm()) * way) < 0.0) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -77,10 +90,7 @@ void Walker::step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& 
         if (waited_s_ >= now.wait_s - 1e-9) finishStep();
         break;
       case PathStep::Kind::kWaitForRobot:
-        waited_s_ += dt_s;
-        if ((robot - pose_.position).norm() <= now.robot_within_m || waited_s_ >= now.patience_s) {
-          finishStep();
-        }
+        wanted = waitForRobot(dt_s, plan, robot);
         break;
       case PathStep::Kind::kFace: {
         const double yaw = std::atan2(way.y(), way.x());
@@ -102,12 +112,61 @@ void Walker::step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& 
   const bool walks = !wanted.isZero();
   const Vector2d way = wanted.normalized();
   if (walks) wanted = chooseVelocity(wanted, plan, others);
-  move(dt_s, wanted);
+  accelerate(dt_s, wanted);
+  for (const Mover& other : others) {
+    if (other.position == robot) keepOff(dt_s, other);
+  }
+  move(dt_s);
   stuck_s_ = walks && velocity_.dot(way) < 0.1 ? stuck_s_ + dt_s : std::max(stuck_s_ - dt_s, 0.0);
   if (stuck_s_ > kGivesUp_s) {
     stuck_s_ = 0.0;
     finishStep();
   }
+}
+
+Vector2d Walker::waitForRobot(double dt_s, const FloorPlan& plan, const Vector2d& robot) {
+  if (back_to_) return comeBack(dt_s, plan, robot);
+  const PathStep& now = person_->path[step_];
+  waited_s_ += dt_s;
+  if (isWithRobot(plan, robot)) {
+    finishStep();
+  } else if (waited_s_ >= now.patience_s) {
+    if (now.comes_back) back_to_ = walkBefore(step_);
+    if (!back_to_) finishStep();
+  }
+  return Vector2d::Zero();
+}
+
+bool Walker::isWithRobot(const FloorPlan& plan, const Vector2d& robot) const {
+  return (robot - pose_.position).norm() <= person_->path[step_].robot_within_m &&
+         isOpen(plan, pose_.position, robot);
+}
+
+// Corner by corner, to the beginning at most.
+Vector2d Walker::comeBack(double dt_s, const FloorPlan& plan, const Vector2d& robot) {
+  if (with_robot_s_ > 0.0 || isWithRobot(plan, robot)) {
+    with_robot_s_ += dt_s;
+    if (with_robot_s_ < kMeets_s) return Vector2d::Zero();
+    step_ = *back_to_;
+    back_to_.reset();
+    with_robot_s_ = 0.0;
+    finishStep();
+    return Vector2d::Zero();
+  }
+  const PathStep& back = person_->path[*back_to_];
+  const Vector2d way = back.to - pose_.position;
+  if (way.norm() >= std::max(kArrived_m, back.speed_mps * dt_s)) {
+    return way.normalized() * back.speed_mps;
+  }
+  if (const auto before = walkBefore(*back_to_)) back_to_ = before;
+  return Vector2d::Zero();
+}
+
+std::optional<std::size_t> Walker::walkBefore(std::size_t step) const {
+  while (step > 0) {
+    if (person_->path[--step].kind == PathStep::Kind::kWalk) return step;
+  }
+  return std::nullopt;
 }
 
 // Away from the robot, to where there is room.
@@ -164,10 +223,22 @@ Vector2d Walker::chooseVelocity(const Vector2d& wanted, const FloorPlan& plan,
   return best;
 }
 
-void Walker::move(double dt_s, const Vector2d& wanted) {
+void Walker::accelerate(double dt_s, const Vector2d& wanted) {
   const Vector2d change = wanted - velocity_;
   const double most = kAcceleration_mps2 * dt_s;
   velocity_ += change.norm() > most ? Vector2d(change.normalized() * most) : change;
+}
+
+// Nobody walks into a robot, however late they see it.
+void Walker::keepOff(double dt_s, const Mover& robot) {
+  const Vector2d to = robot.position - pose_.position;
+  const double room_m = to.norm() - robot.radius_m - kRadius_m - kHair_m;
+  const Vector2d way = to.normalized();
+  const double most_mps = std::max(room_m, 0.0) / dt_s;
+  if (velocity_.dot(way) > most_mps) velocity_ += (most_mps - velocity_.dot(way)) * way;
+}
+
+void Walker::move(double dt_s) {
   pose_.position += velocity_ * dt_s;
   const double speed = velocity_.norm();
   if (speed > 0.05) turnTo(std::atan2(velocity_.y(), velocity_.x()), dt_s);

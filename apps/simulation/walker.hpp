@@ -9,6 +9,7 @@
 #include "apps/simulation/floor_plan.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace heel {
@@ -41,10 +42,16 @@ class Walker {
   static constexpr double kRadius_m = 0.25;
 
   void finishStep();
+  Eigen::Vector2d waitForRobot(double dt_s, const FloorPlan& plan, const Eigen::Vector2d& robot);
+  bool isWithRobot(const FloorPlan& plan, const Eigen::Vector2d& robot) const;
+  Eigen::Vector2d comeBack(double dt_s, const FloorPlan& plan, const Eigen::Vector2d& robot);
+  std::optional<std::size_t> walkBefore(std::size_t step) const;
   Eigen::Vector2d wayAside(const FloorPlan& plan, const Eigen::Vector2d& robot) const;
   Eigen::Vector2d chooseVelocity(const Eigen::Vector2d& wanted, const FloorPlan& plan,
                                  const std::vector<Mover>& others) const;
-  void move(double dt_s, const Eigen::Vector2d& wanted);
+  void accelerate(double dt_s, const Eigen::Vector2d& wanted);
+  void keepOff(double dt_s, const Mover& robot);
+  void move(double dt_s);
   void turnTo(double yaw_rad, double dt_s);
 
   const ScenePerson* person_;
@@ -52,8 +59,10 @@ class Walker {
   Eigen::Vector2d velocity_ = Eigen::Vector2d::Zero();
   std::size_t step_ = 0;
   double waited_s_ = 0.0;
-  double makes_room_s_ = 0.0;  // still, for the robot
-  double stuck_s_ = 0.0;       // How long somebody has been in the way.
+  std::optional<std::size_t> back_to_;  // the walk to whose end they come back for the robot
+  double with_robot_s_ = 0.0;           // since they did
+  double makes_room_s_ = 0.0;           // still, for the robot
+  double stuck_s_ = 0.0;                // How long somebody has been in the way.
 };
 
 }  // namespace heel

@@ -56,6 +56,39 @@ TEST(Walker, WaitsUntilTheRobotIsNear) {
   EXPECT_TRUE(simulator.everyoneIsDone());
 }
 
+/// Eva has shown herself to the robot, gone ahead, and waits for it in vain.
+Scene robotStaysBehind(bool comes_back) {
+  Scene scene = test::squareRoom();
+  scene.robot.start = {-2.0, 0.0};
+  scene.people.push_back(test::standingPerson("eva", -0.5, 0.0));
+  PathStep wait;
+  wait.kind = PathStep::Kind::kWaitForRobot;
+  wait.robot_within_m = 1.2;
+  wait.patience_s = 2.0;
+  wait.comes_back = comes_back;
+  scene.people[0].path = {walkTo(-0.9, 0.0), walkTo(2.0, 0.0), wait, walkTo(2.0, 2.0)};
+  return scene;
+}
+
+TEST(Walker, ComesBackForARobotThatStaysBehind) {
+  Simulator simulator(robotStaysBehind(true), {1, 0, false});
+  live(simulator, 5.0, [](const WorldTruth&) {});
+  EXPECT_NEAR(simulator.step(0.0).truth.people[0].position.x(), 2.0, 0.3);
+  live(simulator, 6.0, [](const WorldTruth&) {});
+  EXPECT_NEAR(simulator.step(0.0).truth.people[0].position.x(), -0.85, 0.3);
+  EXPECT_FALSE(simulator.everyoneIsDone());
+  // It follows: they lead on, and are done when it has come.
+  for (int i = 0; i < 150; ++i) simulator.step(0.1, {0.3, 0.0});
+  live(simulator, 5.0, [](const WorldTruth&) {});
+  EXPECT_TRUE(simulator.everyoneIsDone());
+}
+
+TEST(Walker, GoesOnWithoutARobotThatStaysBehind) {
+  Simulator simulator(robotStaysBehind(false), {1, 0, false});
+  live(simulator, 10.0, [](const WorldTruth&) {});
+  EXPECT_TRUE(simulator.everyoneIsDone());
+}
+
 TEST(Walker, TurnsToWhatItFaces) {
   Scene scene = test::squareRoom();
   scene.people.push_back(test::standingPerson("eva", 1.0, 1.0));
