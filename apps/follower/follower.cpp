@@ -32,10 +32,20 @@ constexpr double kFullTurn_rad = 6.283185307179586;
 
 FollowerParams::FollowerParams() {
   learn.appearance.bands = wholeBody();  // a robot that keeps its distance sees trousers, too
-  paths.bend_room_m = 0.12;              // round a corner with some room one sees further behind it
+  learn.appearance.comparison = BodyComparison::kMatch;
+  perception.match.sharpness = 1.3;        // lenient: a home's rooms differ in their light
+  perception.match.unknown_stature = 1.0;  // close by, heads are above the picture
+  perception.target.min_appearance = 0.5;  // matching tells people well apart: few are in between
+  perception.target.appearance_frames = 2;
+  perception.target.release_share = 0.8;
+  perception.target.release_started = true;
+  perception.target.takeover_ratio = 1.4;
+  perception.target.sure_appearance = 0.6;
+  paths.bend_room_m = 0.12;  // round a corner with some room one sees further behind it
   paths.safety_m = 0.08;  // more than the local planner's margin, or it stops where the path goes
   goal.ahead_cost = 0.0;  // people who are followed turn and stop; round them is out of their view
   goal.lead_s = 0.2;      // they turn often
+  goal.most_standoff_m = 1.25;  // who is followed wants company, even behind a doorway
   goal.doorway_depth_m = 0.95;  // somebody who comes out of it must get past the robot
   drive.margin_m = 0.06;        // the map's walls are as far off as localization is
   drive.terms.weights[static_cast<std::size_t>(DriveTerm::kView)] = 4.0;  // or the target is lost
@@ -84,6 +94,7 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
           [this](const Vector2d& p) { return localization_.field().distance_m(p); }, params_.legs)),
       learner_(std::in_place, robot.camera, params_.learn),
       runner_(std::move(plan)),
+      room_(floor_, 1.0),
       planner_(floor_, params_.paths),
       local_planner_(params_.drive),
       goal_chooser_(params_.goal),
@@ -164,6 +175,7 @@ void Follower::lookAround(const RobotReadings& readings) {
   layer_.finish();
   notePeople();
   planner_.setObstacles(standing_, &layer_.window());
+  room_.setLayer({}, &layer_.window());
 }
 
 // Who walks is left to the local planner; around who stands leads another way.
@@ -230,16 +242,25 @@ void Follower::learn(const Frame& frame) {
 void Follower::see(const Frame& frame) {
   const RobotPlace place{step_.robot.pose, step_.robot.covariance.topLeftCorner<2, 2>()};
   perception_->expectAt(target_place_.isSure() ? step_.target : std::nullopt);
+  perception_->exclude(target_place_.others());
   step_.perception = &perception_->step(frame, place);
   target_ = step_.perception->target;
+  for (const Track& track : perception_->tracks()) {
+    if (track.status == TrackStatus::kConfirmed && track.hits >= params_.surely_seen_hits) {
+      people_around_.confirm(track.motion.position_m(), params_.place.legs_within_m);
+    }
+  }
 }
 
 // The Petri net plan (section 3.4).
 void Follower::decide(const RobotReadings& readings) {
   if (step_.is_learning) return;
   const bool was_known = step_.target.has_value();
-  target_place_.step(
-      target_, people_around_, [this](const Vector2d& p) { return isInView(p); }, dt_s_);
+  const auto is_in_view = [this](const Vector2d& p) { return isInView(p); };
+  const auto is_unlike = [this](const Vector2d& p) {
+    return step_.perception != nullptr && perception_->isUnlike(p, params_.place.legs_within_m);
+  };
+  target_place_.step(target_, people_around_, is_in_view, is_unlike, dt_s_);
   step_.target.reset();
   if (target_place_.now()) {
     step_.target = target_place_.now()->position;

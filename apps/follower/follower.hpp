@@ -19,6 +19,7 @@
 #include "mapping/obstacle_layer.hpp"
 #include "mapping/wall_distance.hpp"
 #include "mapping/wall_map.hpp"
+#include "planning/clearance_map.hpp"
 #include "planning/following_plan.hpp"
 #include "planning/global_planner.hpp"
 #include "planning/goal_chooser.hpp"
@@ -62,23 +63,24 @@ struct FollowerParams {
 
   FollowerParams();  ///< With what suits following where a part's own default is for other uses.
 
-  double near_m = 1.0;             ///< The paper's metre: nearer than this the robot stops ...
-  double far_m = 1.2;              ///< ... until the person is further than this.
-  double beside_m = 0.7;           ///< Somebody this near leaves the robot no room to drive.
-  double comes_mps = 0.15;         ///< Who comes nearer than far_m at this speed wants to get past.
-  double makes_room_s = 20.0;      ///< Leaves the way to them for so long at most, ...
-  double waits_aside_s = 6.0;      ///< ... and for so long once it is out of their way.
-  double sees_within_m = 4.0;      ///< Somebody this near, before the camera, is seen.
-  double lost_after_s = 0.5;       ///< Without the target's place for longer, it is lost.
-  double seek_radps = 0.9;         ///< Turn of a seek.
-  double ahead_rad = 0.3;          ///< What is within this of straight ahead is in view.
-  double lost_turn_radps = 0.4;    ///< Turn of a robot that does not know where it is.
-  double give_up_s = 4.0;          ///< Blocked for so long, it is as near as it can get.
-  double beside_s = 2.0;           ///< For so long a lost person is taken to walk on as they did.
-  double stands_mps = 0.15;        ///< Who is slower stands: paths go around them, ...
-  double beside_people_m = 0.05;   ///< ... with so much more room than around things.
-  double target_radius_m = 0.45;   ///< Readings this near to the target are the target's own.
-  double mapped_within_m = 0.15;   ///< What is seen this near to what the map shows is that.
+  double near_m = 1.0;            ///< The paper's metre: nearer than this the robot stops ...
+  double far_m = 1.2;             ///< ... until the person is further than this.
+  double beside_m = 0.7;          ///< Somebody this near leaves the robot no room to drive.
+  double comes_mps = 0.15;        ///< Who comes nearer than far_m at this speed wants to get past.
+  double makes_room_s = 20.0;     ///< Leaves the way to them for so long at most, ...
+  double waits_aside_s = 6.0;     ///< ... and for so long once it is out of their way.
+  int surely_seen_hits = 5;       ///< Whom the camera has seen so often is a person, if they stand.
+  double sees_within_m = 4.0;     ///< Somebody this near, before the camera, is seen.
+  double lost_after_s = 0.5;      ///< Without the target's place for longer, it is lost.
+  double seek_radps = 0.9;        ///< Turn of a seek.
+  double ahead_rad = 0.3;         ///< What is within this of straight ahead is in view.
+  double lost_turn_radps = 0.4;   ///< Turn of a robot that does not know where it is.
+  double give_up_s = 4.0;         ///< Blocked for so long, it is as near as it can get.
+  double beside_s = 2.0;          ///< For so long a lost person is taken to walk on as they did.
+  double stands_mps = 0.15;       ///< Who is slower stands: paths go around them, ...
+  double beside_people_m = 0.05;  ///< ... with so much more room than around things.
+  double target_radius_m = 0.45;  ///< Readings this near to the target are the target's own.
+  double mapped_within_m = 0.15;  ///< What is seen this near to what the map shows is that.
   double obstacles_every_s = 0.2;  ///< How often the camera looks for obstacles.
 };
 
@@ -154,7 +156,6 @@ class Follower {
   void face();
   bool standsInDoorway() const;
   bool makesRoom();
-  double roomAt(const Eigen::Vector2d& place) const;
   bool isInTheWay() const;
   void goAside();
   bool hasPassed() const;
@@ -179,6 +180,7 @@ class Follower {
   std::optional<PersonLearner> learner_;
   std::optional<Perception> perception_;
   PlanRunner runner_;
+  ClearanceMap room_;  // to what stands, people apart
   GlobalPlanner planner_;
   LocalPlanner local_planner_;
   GoalChooser goal_chooser_;

@@ -151,11 +151,6 @@ bool Follower::makesRoom() {
   return true;
 }
 
-// Distance to what stands, people apart.
-double Follower::roomAt(const Vector2d& place) const {
-  return std::min(to_walls_.at(place), layer_.distance(place));
-}
-
 bool Follower::isInTheWay() const {
   if (!target_place_.now()) return false;
   const MovingPerson& person = *target_place_.now();
@@ -163,14 +158,14 @@ bool Follower::isInTheWay() const {
   const Vector2d to_robot = here - person.position;
   const bool comes = person.velocity.dot(to_robot) > params_.comes_mps * to_robot.norm();
   if (to_robot.norm() > (comes ? params_.far_m : params_.beside_m)) return false;
-  const auto room = [this](const Vector2d& p) { return roomAt(p); };
+  const auto room = [this](const Vector2d& p) { return room_.clearance(p); };
   return standsInDoorway() || !leavesRoom(here, person.position, room, params_.wayside);
 }
 
 void Follower::goAside() {
   const Vector2d& here = step_.robot.pose.position;
   const Vector2d& person = target_place_.now()->position;
-  const auto room = [this](const Vector2d& p) { return roomAt(p); };
+  const auto room = [this](const Vector2d& p) { return room_.clearance(p); };
   findWaysides(here, person, room, doorways_, params_.wayside, waysides_);
   for (const Vector2d& place : waysides_) {
     planner_.plan(here, place, plan_);
@@ -212,9 +207,9 @@ void Follower::driveTo(const Vector2d& goal) {
 
 // Along the path, if there is one, without touching anything; in view of the target.
 VelocityCommand Follower::localCommand() {
-  const auto clearance = [this](const Vector2d& p) { return planner_.clearance().clearance(p); };
-  const LocalPlan now = local_planner_.step(step_.robot.pose, speed_, plan_.path, clearance,
-                                            people_, looks_away_ ? std::nullopt : step_.target);
+  const auto room = [this](const Vector2d& p) { return room_.clearance(p); };
+  const LocalPlan now = local_planner_.step(step_.robot.pose, speed_, plan_.path, room, people_,
+                                            looks_away_ ? std::nullopt : step_.target);
   has_arrived_ = now.status == DriveStatus::kArrived || now.blocked_s > params_.give_up_s;
   step_.reason += (step_.reason.empty() ? "" : "; ") + std::string(describe(now.reason));
   return now.command;

@@ -40,6 +40,21 @@ void PeopleAround::step(double stamp_s, const LaserScan& scan, const FloorPose& 
   }
 }
 
+void PeopleAround::confirm(const Eigen::Vector2d& place_m, double within_m) {
+  const int id = nearest(place_m, within_m);
+  const auto stride = std::find_if(strides_.begin(), strides_.end(),
+                                   [&](const Stride& s) { return s.track_id == id; });
+  if (stride == strides_.end()) return;
+  // As if they had just come to rest.
+  stride->stamp_s = std::max(stride->stamp_s, stride->since_s - params_.rests_after_s);
+  const Eigen::Vector2d legs_m = find(id)->motion.position_m();
+  const auto is_theirs = [&](const Eigen::Vector2d& thing) {
+    return (thing - legs_m).norm() < params_.thing_within_m;
+  };
+  standing_m_.erase(std::remove_if(standing_m_.begin(), standing_m_.end(), is_theirs),
+                    standing_m_.end());
+}
+
 int PeopleAround::nearest(const Eigen::Vector2d& place_m, double within_m) const {
   int id = 0;
   for (const Track& track : tracker_.tracks()) {
@@ -81,7 +96,7 @@ double PeopleAround::restsFor_s(const Track& track, double stamp_s) {
     stride->since_s = stamp_s;
   }
   const double rests_s = stamp_s - stride->stamp_s;
-  const bool stood = std::isinf(rests_s) && stamp_s - stride->born_s > params_.rests_after_s;
+  const bool stood = std::isinf(rests_s) && stamp_s - stride->born_s > params_.thing_after_s;
   if (stood && !isThing(place_m)) standing_m_.push_back(place_m);
   return rests_s;
 }

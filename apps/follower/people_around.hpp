@@ -25,6 +25,7 @@ struct PeopleAroundParams {
   double stride_m = 0.3;
   double rests_after_s = 2.0;  ///< Who has not done so for as long stands, ...
   double stays_s = 30.0;  ///< ... and is a person, with more around them than legs, for so long.
+  double thing_after_s = 8.0;   ///< What has stood for so long since it was first seen is a thing.
   double thing_within_m = 0.3;  ///< What is this near to where a thing always stood is that thing.
   double person_radius_m = 0.25;
   double max_speed_mps = 2.0;  ///< Nobody indoors is faster; what seems so is two things.
@@ -43,10 +44,15 @@ class PeopleAround {
   void step(double stamp_s, const LaserScan& scan, const FloorPose& T_world_scanner,
             const Clearance& clearance);
 
+  /// The camera sees somebody there: whatever the laser has seen there so far is no thing.
+  void confirm(const Eigen::Vector2d& place_m, double within_m);
+
   /// Whoever or whatever is nearest to a place, walking or not; 0 if nobody is within reach.
   int nearest(const Eigen::Vector2d& place_m, double within_m) const;
   /// Whether another thing of a person's size is this near to one.
   bool hasOtherNear(int id, double within_m) const;
+  /// All that are of a person's size.
+  const std::vector<Track>& tracks() const { return tracker_.tracks(); }
   /// Their track, or null if it has ended.
   const Track* find(int id) const { return tracker_.findTrack(id); }
 

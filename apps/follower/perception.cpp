@@ -193,6 +193,14 @@ double Perception::appearanceOf(const WorldBlob& blob, const Frame& frame) {
                        : bodyAppearance(view, blob, bands_, params_.body);
 }
 
+bool Perception::isUnlike(const Eigen::Vector2d& place_m, double within_m) const {
+  const double least = params_.target.release_share * params_.target.min_appearance;
+  return std::any_of(tracks().begin(), tracks().end(), [&](const Track& track) {
+    return track.status == TrackStatus::kConfirmed && track.appearance() < least &&
+           (track.motion.position_m() - place_m).norm() < within_m;
+  });
+}
+
 // Silence is what users of trackers complain of most: name the first stage that left nothing.
 const char* Perception::whyNotSeen() const {
   if (step_.target.reason == TargetReason::kFrameSkipped) return toText(step_.target.reason);

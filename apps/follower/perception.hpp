@@ -95,6 +95,12 @@ class Perception {
   /// Another sensor has the target there, from the next frame on; or nowhere.
   void expectAt(const std::optional<Eigen::Vector2d>& position_m) { tracker_.expectAt(position_m); }
 
+  /// Others are known to be there, from the next frame on: none of them is the target.
+  void exclude(const std::vector<Eigen::Vector2d>& places_m) { tracker_.exclude(places_m); }
+
+  /// Whether somebody is seen there who does not look like the target.
+  bool isUnlike(const Eigen::Vector2d& place_m, double within_m) const;
+
   /// Stamps need not be regular; one that is not later than the last is skipped by the tracker.
   /// @throws std::invalid_argument  if the frame has not what the sensor gives, or its images do
   ///                                not fit each other.

@@ -14,7 +14,7 @@ namespace heel {
 
 struct PersonSearchParams {
   SearchMapParams map;
-  double budget_s = 60.0;   ///< Of one search.
+  double budget_s = 240.0;  ///< Of one search.
   double new_view_s = 3.0;  ///< So often it thinks again where to look.
 };
 

@@ -8,16 +8,17 @@
 namespace heel {
 
 void TargetPlace::step(const TargetEstimate& seen, const PeopleAround& around,
-                       FunctionRef<bool(const Eigen::Vector2d&)> is_in_view, double elapsed_s) {
+                       FunctionRef<bool(const Eigen::Vector2d&)> is_in_view,
+                       FunctionRef<bool(const Eigen::Vector2d&)> is_unlike, double elapsed_s) {
   now_.reset();
   bool is_seen = false;
   if (seen.status == TargetStatus::kFollowed) {
     now_ = MovingPerson{seen.motion.position_m(), seen.motion.velocity_mps()};
     legs_ = around.nearest(now_->position, params_.legs_within_m);
-    doubt_ = 0.0;
+    doubt_ = isSureLook(seen) ? 0.0 : std::min(doubt_, params_.weak_look_doubt);
     mixed_ = false;
     is_seen = true;
-  } else if (const Track* legs = believedLegs(around, is_in_view, elapsed_s)) {
+  } else if (const Track* legs = believedLegs(around, is_in_view, is_unlike, elapsed_s)) {
     now_ = MovingPerson{legs->motion.position_m(), legs->motion.velocity_mps()};
     is_seen = legs->status == TrackStatus::kConfirmed;
   } else if (seen.status == TargetStatus::kCoasting) {
@@ -25,7 +26,31 @@ void TargetPlace::step(const TargetEstimate& seen, const PeopleAround& around,
   }
   unseen_s_ = is_seen ? 0.0 : unseen_s_ + elapsed_s;
   if (is_seen) last_ = *now_;
+  noteOthers(around,
+             seen.status == TargetStatus::kFollowed && seen.appearance > params_.sure_appearance);
   findSuspect(around, is_in_view);
+}
+
+void TargetPlace::noteOthers(const PeopleAround& around, bool is_sure) {
+  const Eigen::Vector2d place = now_ ? now_->position : last_.position;
+  const auto isApart = [&](const Track& track) {
+    return (track.motion.position_m() - place).norm() > params_.legs_apart_m;
+  };
+  // Close by, the laser may take one for the other.
+  const auto isDoubtful = [&](int id) {
+    const Track* track = around.find(id);
+    return track == nullptr || !isApart(*track);
+  };
+  others_.erase(std::remove_if(others_.begin(), others_.end(), isDoubtful), others_.end());
+  if (is_sure) {
+    for (const Track& track : around.tracks()) {
+      const bool is_known = std::find(others_.begin(), others_.end(), track.id) != others_.end();
+      const bool is_other = track.status == TrackStatus::kConfirmed && isApart(track);
+      if (track.id != legs_ && is_other && !is_known) others_.push_back(track.id);
+    }
+  }
+  others_m_.clear();
+  for (const int id : others_) others_m_.push_back(around.find(id)->motion.position_m());
 }
 
 void TargetPlace::findSuspect(const PeopleAround& around,
@@ -35,7 +60,10 @@ void TargetPlace::findSuspect(const PeopleAround& around,
   double nearest_m = params_.legs_within_m + unseen_s_ * params_.max_speed_mps;
   for (const MovingPerson& person : around.people()) {
     const double away_m = (person.position - last_.position).norm();
-    if (away_m > nearest_m || is_in_view(person.position)) continue;
+    const bool is_other = std::any_of(others_m_.begin(), others_m_.end(), [&](const auto& other) {
+      return (person.position - other).norm() < params_.legs_within_m;
+    });
+    if (away_m > nearest_m || is_other || is_in_view(person.position)) continue;
     nearest_m = away_m;
     suspect_ = person;
   }
@@ -50,6 +78,7 @@ MovingPerson TargetPlace::expected() const {
 
 const Track* TargetPlace::believedLegs(const PeopleAround& around,
                                        FunctionRef<bool(const Eigen::Vector2d&)> is_in_view,
+                                       FunctionRef<bool(const Eigen::Vector2d&)> is_unlike,
                                        double elapsed_s) {
   const Track* legs = around.find(legs_);
   if (legs == nullptr) return nullptr;
@@ -58,6 +87,7 @@ const Track* TargetPlace::believedLegs(const PeopleAround& around,
   if (is_in_view(place)) patience_s = params_.legs_in_view_s;
   mixed_ = mixed_ || around.hasOtherNear(legs_, params_.legs_apart_m);
   if (mixed_) patience_s = params_.legs_mixed_s;
+  if (is_unlike(place)) patience_s = params_.legs_unlike_s;
   doubt_ += elapsed_s / patience_s;
   return doubt_ < 1.0 ? legs : nullptr;
 }

@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 
 #include <optional>
+#include <vector>
 
 namespace heel {
 
@@ -23,8 +24,13 @@ struct TargetPlaceParams {
   // Without the camera, legs are doubted more and more, until they are taken for anybody's.
   double legs_alone_s = 12.0;   ///< Where only the laser sees, they are believed for so long,
   double legs_in_view_s = 2.0;  ///< where the camera should see the person, for so long,
-  double legs_mixed_s = 1.5;    ///< and for so long where another thing stands beside them.
+  double legs_mixed_s = 1.5;    ///< for so long where another thing stands beside them,
+  double legs_unlike_s = 0.4;   ///< and for so long where the camera sees somebody else.
   double legs_apart_m = 0.6;    ///< That is, nearer than this.
+  /// Who looks so much like the target surely is: their legs are believed, and all others are
+  /// others.
+  double sure_appearance = 0.55;
+  double weak_look_doubt = 0.75;  ///< What a weaker look leaves: 1 is not to believe the legs.
 };
 
 /// Holds on to one person's place with both sensors. Whoever the camera sees as the target lends
@@ -40,14 +46,19 @@ class TargetPlace {
   /// @param seen        What the camera's tracker says now.
   /// @param around      What the laser sees now.
   /// @param is_in_view  Whether the camera sees a person at a place if there is one.
+  /// @param is_unlike   Whether the camera sees somebody else at a place.
   void step(const TargetEstimate& seen, const PeopleAround& around,
-            FunctionRef<bool(const Eigen::Vector2d&)> is_in_view, double elapsed_s);
+            FunctionRef<bool(const Eigen::Vector2d&)> is_in_view,
+            FunctionRef<bool(const Eigen::Vector2d&)> is_unlike, double elapsed_s);
 
   /// Where they are; nothing where no sensor tells.
   const std::optional<MovingPerson>& now() const { return now_; }
   /// Whether nobody else can be taken for them: no thing was beside these legs since the camera saw
   /// whose they are.
   bool isSure() const { return now_ && !mixed_; }
+  /// Where others are: who the laser saw apart from the target while the camera saw the target, and
+  /// has not lost since.
+  const std::vector<Eigen::Vector2d>& others() const { return others_m_; }
   /// Where they were when last seen.
   const MovingPerson& last() const { return last_; }
   /// Who walks where they can be by now, out of the camera's view; nothing while they are known.
@@ -59,8 +70,12 @@ class TargetPlace {
 
  private:
   const Track* believedLegs(const PeopleAround& around,
-                            FunctionRef<bool(const Eigen::Vector2d&)> is_in_view, double elapsed_s);
-
+                            FunctionRef<bool(const Eigen::Vector2d&)> is_in_view,
+                            FunctionRef<bool(const Eigen::Vector2d&)> is_unlike, double elapsed_s);
+  bool isSureLook(const TargetEstimate& seen) const {
+    return seen.appearance > params_.sure_appearance;
+  }
+  void noteOthers(const PeopleAround& around, bool is_sure);
   void findSuspect(const PeopleAround& around,
                    FunctionRef<bool(const Eigen::Vector2d&)> is_in_view);
 
@@ -69,7 +84,9 @@ class TargetPlace {
   std::optional<MovingPerson> suspect_;
   MovingPerson last_;
   double unseen_s_ = 0.0;
-  int legs_ = 0;  // the target's, among the people around
+  int legs_ = 0;             // the target's, among the people around
+  std::vector<int> others_;  // things around that are not the target
+  std::vector<Eigen::Vector2d> others_m_;
   bool mixed_ = false;
   double doubt_ =
       0.0;  // of these legs: 0 when the camera sees whose they are, none believed from 1

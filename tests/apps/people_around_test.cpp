@@ -178,10 +178,23 @@ TEST_F(PeopleAroundTest, WhatComesIntoViewFromBehindSomethingDoesNotWalk) {
 TEST_F(PeopleAroundTest, WhatSomebodyPassesCloselyStaysAThing) {
   boxes = {{{2.0, -0.15}, {2.3, 0.15}}};
   discs = {{Vector2d(1.75, -2.0), 0.15}};
-  walk({0.0, 0.0}, 3.0);
+  walk({0.0, 0.0}, PeopleAroundParams().thing_after_s + 1.0);
   walk({0.0, 0.7}, 6.0);  // a hand's breadth past it, and on
   ASSERT_EQ(people.people().size(), 1U);
   EXPECT_GT(people.people()[0].position.y(), 1.5);
+}
+
+TEST_F(PeopleAroundTest, WhoTheCameraSeesStandingIsAPerson) {
+  discs = {{Vector2d(2.0, 0.0), 0.15}};
+  walk({0.0, 0.0}, PeopleAroundParams().thing_after_s + 1.0);
+  ASSERT_TRUE(people.people().empty()) << "the laser alone can't know";
+  people.confirm({2.1, 0.1}, 0.4);
+  see();
+  ASSERT_EQ(people.people().size(), 1U);
+  EXPECT_EQ(people.people()[0].velocity, Vector2d(0.0, 0.0));
+  people.confirm({5.0, 0.0}, 0.4);
+  see();
+  EXPECT_EQ(people.people().size(), 1U) << "where the laser sees nothing there is nobody to add";
 }
 
 TEST_F(PeopleAroundTest, NothingThatTheMapShowsIsAPerson) {

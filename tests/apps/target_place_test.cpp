@@ -38,9 +38,11 @@ class TargetPlaceTest : public testing::Test {
     around.step(stamp_s, scan, {}, [](const Vector2d&) { return kFar; });
     TargetEstimate seen;
     seen.status = camera_sees ? TargetStatus::kFollowed : TargetStatus::kLost;
+    seen.appearance = 0.8;
     seen.motion.mean.head<2>() = legs.empty() ? Vector2d(0.0, 0.0) : legs[0];
     place.step(
-        seen, around, [this](const Vector2d&) { return in_view; }, 0.1);
+        seen, around, [this](const Vector2d&) { return in_view; },
+        [this](const Vector2d&) { return unlike; }, 0.1);
   }
   void steps(int count) {
     for (int i = 0; i < count; ++i) step();
@@ -55,6 +57,7 @@ class TargetPlaceTest : public testing::Test {
   std::vector<Vector2d> legs{{2.0, 0.0}};
   bool camera_sees = true;
   bool in_view = false;
+  bool unlike = false;
   double stamp_s = 20.0;
   PeopleAround around;
   TargetPlace place;
@@ -97,6 +100,37 @@ TEST_F(TargetPlaceTest, DoubtsLegsWhereTheCameraSeesNobody) {
   in_view = true;
   steps(static_cast<int>(TargetPlaceParams().legs_in_view_s * 10.0) + 2);
   EXPECT_FALSE(place.now());
+}
+
+TEST_F(TargetPlaceTest, DoubtsLegsOfWhoTheCameraSeesToBeSomebodyElse) {
+  steps(5);
+  camera_sees = false;
+  unlike = true;
+  steps(static_cast<int>(TargetPlaceParams().legs_unlike_s * 10.0) + 2);
+  EXPECT_FALSE(place.now());
+}
+
+TEST_F(TargetPlaceTest, KnowsOthersFromWhenTheTargetWasSeen) {
+  legs.push_back({0.0, 3.0});
+  steps(8);
+  ASSERT_EQ(place.others().size(), 1U);
+  camera_sees = false;
+  legs.erase(legs.begin());
+  steps(20);
+  ASSERT_EQ(place.others().size(), 1U) << "whom the laser has not lost since";
+  EXPECT_LT((place.others()[0] - legs[0]).norm(), 0.3);
+  legs.push_back({-2.0, 0.0});
+  steps(10);
+  EXPECT_EQ(place.others().size(), 1U) << "but not who came later";
+}
+
+TEST_F(TargetPlaceTest, KnowsNoOthersOnceTheyHaveBeenBesideTheTarget) {
+  legs.push_back({2.0, 2.0});
+  steps(8);
+  ASSERT_EQ(place.others().size(), 1U);
+  camera_sees = false;
+  walk({0.0, 0.5}, 30);
+  EXPECT_TRUE(place.others().empty());
 }
 
 TEST_F(TargetPlaceTest, DoubtsLegsBesideOthers) {
