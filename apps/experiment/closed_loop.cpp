@@ -36,6 +36,10 @@ FollowSample sampleOf(const Readings& readings, const FollowStep& step,
   sample.person_distance_m = (person.position - readings.truth.robot.position).norm();
   sample.clearance_m = std::max(readings.truth.clearance_m, 0.0);
   sample.contact = readings.truth.contact;
+  if (step.perception != nullptr) {
+    const auto pixels = static_cast<double>(step.perception->mask.total());
+    if (pixels > 0.0) sample.candidate_share = step.perception->color_pixels / pixels;
+  }
   if (step.target && !step.is_learning) {
     sample.target_estimate = step.target;
     sample.wrong_person =

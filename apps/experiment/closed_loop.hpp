@@ -20,9 +20,9 @@ namespace heel {
 struct ClosedLoopParams {
   std::uint64_t seed = 1;
   int threads = 0;             ///< Of the simulator; 0 = as many as the machine has.
-  double limit_s = 300.0;      ///< The run ends here, whatever comes.
+  double limit_s = 600.0;      ///< The run ends here, whatever comes.
   double period_s = 0.1;       ///< From one command to the next.
-  double reached_m = 1.35;     ///< So near to the person at the end of their way, ...
+  double reached_m = 1.5;      ///< So near to the person at the end of their way, ...
   double reached_s = 1.0;      ///< ... for so long, and they are reached.
   double wrong_apart_m = 0.5;  ///< See isWrongPerson().
   std::vector<Fault> faults;

@@ -26,7 +26,7 @@ struct Job {
 std::vector<Job> jobsOf(const FollowExperimentParams& params,
                         const std::vector<std::string>& plans) {
   std::vector<Job> jobs;
-  for (int number = 1; number <= 3; ++number) {
+  for (int number = 1; params.table1 && number <= 3; ++number) {
     for (const std::string& plan : plans) {
       Job& job = jobs.emplace_back();
       job.episode.name = "Experiment " + std::to_string(number);

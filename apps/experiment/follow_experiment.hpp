@@ -19,9 +19,10 @@ namespace heel {
 struct FollowExperimentParams {
   std::filesystem::path scenes;  ///< Folder of the scenes that come with Heel.
   std::filesystem::path plans;   ///< Folder of the plans.
+  bool table1 = true;            ///< Whether to make the paper's three experiments.
   int episodes = 100;            ///< Random ones; with our plan.
   std::uint64_t first_seed = 1;  ///< Of the random episodes.
-  double limit_s = 240.0;        ///< Of each run.
+  double limit_s = 600.0;        ///< Of each run.
   int jobs = 0;                  ///< Runs at a time; 0: as many as the machine has threads.
 };
 

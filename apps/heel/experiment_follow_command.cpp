@@ -26,7 +26,7 @@ void printRow(const FollowEpisode& episode) {
   std::printf(
       "%-14s %-7s %-8s %6.2f m %6.1f s  seek %4.0f %%  %.2f m/s  contacts %d  wrong %.1f s%s%s\n",
       episode.name.c_str(), episode.plan.c_str(), s.outcome.c_str(), s.distance_m, s.elapsed_s,
-      100.0 * s.seekShare(), s.driving_speed_mps, s.contacts, s.wrong_person_s,
+      100.0 * s.seekShare(), s.moving_speed_mps, s.contacts, s.wrong_person_s,
       episode.cause.empty() ? "" : "  ", episode.cause.c_str());
   std::fflush(stdout);
 }
@@ -35,17 +35,18 @@ void run(Options& options) {
   options.params.scenes = sceneFolder();
   options.params.plans = planFolder();
   makeResultFolder(options.out);
-  ProgressBar progress("runs", static_cast<std::size_t>(6 + options.params.episodes));
+  const int runs = (options.params.table1 ? 6 : 0) + options.params.episodes;
+  ProgressBar progress("runs", static_cast<std::size_t>(runs));
   std::size_t count = 0;
   FollowExperiment experiment =
-      runFollowExperiment(options.params, [&](const FollowEpisode&) { progress.show(++count); });
+      runFollowExperiment(options.params, [&](const FollowEpisode& episode) {
+        printRow(episode);
+        progress.show(++count);
+      });
   experiment.command = "heel experiment follow --episodes " +
                        std::to_string(options.params.episodes) + " --seed " +
                        std::to_string(options.params.first_seed);
-  for (const FollowEpisode& episode : experiment.table1) printRow(episode);
-  for (const FollowEpisode& episode : experiment.episodes) {
-    if (isFailure(episode)) printRow(episode);
-  }
+  if (!options.params.table1) experiment.command += " --no-table1";
   const EpisodeCounts all = countEpisodes(experiment.episodes, experiment.plans.back());
   std::printf(
       "%d random episodes: %d reached, %d with a contact, wrong person %.2f %% of the time, "
@@ -68,6 +69,7 @@ void addFollowExperiment(CLI::App& experiment) {
       "  heel experiment follow --out out/follow_experiment\n"
       "Every failure is listed with the command that shows it again.");
   verb->add_option("--episodes", options->params.episodes, "random homes")->capture_default_str();
+  verb->add_flag("!--no-table1", options->params.table1, "the random homes only");
   verb->add_option("--seed", options->params.first_seed, "of the first random home")
       ->capture_default_str();
   verb->add_option("--limit", options->params.limit_s, "a run ends after so long [s]")

@@ -12,6 +12,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -28,6 +29,8 @@ struct Options {
   std::filesystem::path out = "out/follow";
   std::filesystem::path bag;
   ClosedLoopParams loop;
+  std::string image_size;  // empty: the scene's
+  double rate_hz = 0.0;    // 0: the scene's camera's, and ten commands a second
   bool random = false;
   bool alone = false;
   bool no_film = false;
@@ -37,6 +40,15 @@ Scene sceneOf(const Options& options) {
   Scene scene = options.random ? randomEpisode(options.loop.seed, sceneFolder())
                                : loadScene(sceneFile(options.scene).string());
   if (options.alone && !scene.people.empty()) scene.people.resize(1);
+  CameraParams& camera = scene.robot.camera;
+  char end = '\0';
+  if (!options.image_size.empty() && (std::sscanf(options.image_size.c_str(), "%dx%d%c",
+                                                  &camera.width, &camera.height, &end) != 2 ||
+                                      std::min(camera.width, camera.height) < 64 ||
+                                      std::max(camera.width, camera.height) > 4096)) {
+    throw std::invalid_argument("--image-size must be WIDTHxHEIGHT, from 64 to 4096 pixels each");
+  }
+  if (options.rate_hz > 0.0) camera.rate_hz = 1.0 / options.loop.period_s;
   return scene;
 }
 
@@ -58,6 +70,9 @@ void print(const FollowSummary& summary, const Options& options, const FollowOut
 
 void run(Options& options) {
   if (!(options.loop.limit_s > 0.0)) throw std::invalid_argument("--limit must be positive");
+  if (options.rate_hz > 0.0) {  // The simulator's clock ticks in hundredths of a second.
+    options.loop.period_s = std::max(1.0, std::round(100.0 / options.rate_hz)) / 100.0;
+  }
   const Scene scene = sceneOf(options);
   const PetriPlan plan = loadPlan(planFile(options.plan), followingVocabulary());
   FollowOutput output(options.out, !options.no_film, options.bag);
@@ -103,6 +118,10 @@ void addFollow(CLI::App& app) {
   verb->add_option("--seed", options->loop.seed, "of all noise")->capture_default_str();
   verb->add_option("--limit", options->loop.limit_s, "the run ends after so long [s]")
       ->capture_default_str();
+  verb->add_option("--image-size", options->image_size,
+                   "of the camera, for instance 640x480, instead of the scene's");
+  verb->add_option("--rate", options->rate_hz,
+                   "pictures and commands a second, to a hundredth of a second's period");
   verb->add_flag("--no-film", options->no_film, "write no film");
   addResultBag(*verb, options->bag);
   verb->callback([options] { run(*options); });

@@ -38,6 +38,7 @@ struct FollowSample {
   std::vector<Eigen::Vector2d> others_true;
   double person_distance_m = kNotKnown;  ///< True distance of the person from the robot's middle.
   double clearance_m = kNotKnown;        ///< True gap between the robot and the nearest thing.
+  double candidate_share = kNotKnown;    ///< Of the picture's pixels: with the target's colours.
   bool contact = false;
   bool wrong_person = false;  ///< See isWrongPerson().
 };

@@ -108,6 +108,8 @@ FollowSummary summarize(const FollowLog& log) {
   for (const TargetEvent& event : targetEvents(log.samples)) sum.losses += event.is_found ? 0 : 1;
   MeanSquare position, yaw, person;
   double driven_m = 0.0, driven_s = 0.0;
+  double candidates = 0.0;
+  int pictures = 0;
   bool was_contact = false;
   for (std::size_t i = 0; i < log.samples.size(); ++i) {
     const FollowSample& s = log.samples[i];
@@ -132,6 +134,10 @@ FollowSummary summarize(const FollowLog& log) {
     sum.min_clearance_m = least(sum.min_clearance_m, s.contact ? 0.0 : s.clearance_m);
     sum.best_distance_m = least(sum.best_distance_m, s.person_distance_m);
     if (std::isfinite(s.person_distance_m)) sum.last_distance_m = s.person_distance_m;
+    if (std::isfinite(s.candidate_share)) {
+      candidates += s.candidate_share;
+      ++pictures;
+    }
     if (s.is_localized) {
       sum.localized_s += dt_s;
       position.add((s.robot_estimated.position - s.robot_true.position).norm(), dt_s);
@@ -147,6 +153,7 @@ FollowSummary summarize(const FollowLog& log) {
   sum.position_rms_m = position.root();
   sum.yaw_rms_rad = yaw.root();
   sum.person_error_rms_m = person.root();
+  if (pictures > 0) sum.candidate_share = candidates / pictures;
   return sum;
 }
 
@@ -174,6 +181,7 @@ nlohmann::ordered_json followJson(const FollowLog& log, const FollowSummary& sum
   json["position_rms_m"] = numberOrNull(sum.position_rms_m, 4);
   json["yaw_rms_deg"] = numberOrNull(sum.yaw_rms_rad * 180.0 / M_PI, 3);
   json["person_error_rms_m"] = numberOrNull(sum.person_error_rms_m, 4);
+  json["candidate_share"] = numberOrNull(sum.candidate_share, 4);
   return json;
 }
 

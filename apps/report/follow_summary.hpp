@@ -38,6 +38,7 @@ struct FollowSummary {
   double position_rms_m = kNotKnown;   ///< Of the estimated against the true pose.
   double yaw_rms_rad = kNotKnown;
   double person_error_rms_m = kNotKnown;  ///< Of the target's estimate, while it is the person's.
+  double candidate_share = kNotKnown;  ///< Mean over the pictures: pixels of the target's colours.
 
   double seekShare() const { return elapsed_s > 0.0 ? seek_s / elapsed_s : 0.0; }
   double wrongShare() const { return elapsed_s > 0.0 ? wrong_person_s / elapsed_s : 0.0; }
