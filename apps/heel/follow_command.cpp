@@ -121,7 +121,8 @@ void addFollow(CLI::App& app) {
   verb->add_option("--image-size", options->image_size,
                    "of the camera, for instance 640x480, instead of the scene's");
   verb->add_option("--rate", options->rate_hz,
-                   "pictures and commands a second, to a hundredth of a second's period");
+                   "pictures and commands a second, to a hundredth of a second's period")
+      ->check(CLI::Range(1.0, 100.0));
   verb->add_flag("--no-film", options->no_film, "write no film");
   addResultBag(*verb, options->bag);
   verb->callback([options] { run(*options); });

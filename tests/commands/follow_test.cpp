@@ -63,6 +63,14 @@ TEST_F(Follow, WritesAReportOfAsLongAsItMay) {
   }
 }
 
+TEST_F(Follow, TakesAnotherImageSizeAndRate) {
+  const HeelRun run = follow(folder_ / "room.yaml", {"--limit", "0.5", "--no-film", "--image-size",
+                                                     "160x120", "--rate", "20"});
+  ASSERT_TRUE(succeeds(run));
+  const std::string rows = readText(folder_ / "out/follow.csv");
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 1 + 11);
+}
+
 TEST_F(Follow, NamesASceneThatIsNone) {
   EXPECT_TRUE(failsWith(follow("attic"), {"attic", "no such scene"}));
   EXPECT_TRUE(failsWith(follow(folder_ / "none.yaml"), {"none.yaml", "no such scene"}));
@@ -104,6 +112,9 @@ TEST_F(Follow, RefusesNumbersThatAreNone) {
   EXPECT_TRUE(failsWith(follow(room, {"--limit", "soon"}), {"--limit", "soon"}));
   EXPECT_TRUE(failsWith(follow(room, {"--limit", "-1"}), {"--limit"}));
   EXPECT_TRUE(failsWith(follow(room, {"--limit", "nan"}), {"--limit"}));
+  EXPECT_TRUE(failsWith(follow(room, {"--image-size", "640"}), {"--image-size"}));
+  EXPECT_TRUE(failsWith(follow(room, {"--image-size", "640x8"}), {"--image-size"}));
+  EXPECT_TRUE(failsWith(follow(room, {"--rate", "0"}), {"--rate"}));
 }
 
 }  // namespace
