@@ -20,6 +20,8 @@ constexpr std::size_t kBins = std::size_t{kChroma} * kChroma * kBrightness;
 struct Tables {
   std::array<float, 256> chroma{};
   std::array<float, 766> light{};
+  const float darkest = std::log(kDarkOffset);
+  const float bins_per_log = kBrightness / (std::log(255.0F + kDarkOffset) - darkest);
 
   Tables() {
     for (std::size_t v = 0; v < chroma.size(); ++v) {
@@ -47,12 +49,10 @@ float ColorProfile::lightOf(std::uint8_t b, std::uint8_t g, std::uint8_t r) {
 }
 
 std::size_t ColorProfile::binOf(std::uint8_t b, std::uint8_t g, std::uint8_t r, float lighter) {
-  static const float kDarkest = std::log(kDarkOffset);
-  static const float kBinsPerLog = kBrightness / (std::log(255.0F + kDarkOffset) - kDarkest);
   const Tables& t = tables();
   const int i = chromaBin(t.chroma[r] - t.chroma[g]);
   const int j = chromaBin(t.chroma[b] - t.chroma[g]);
-  const float light = (t.light[std::size_t{b} + g + r] + lighter - kDarkest) * kBinsPerLog;
+  const float light = (t.light[std::size_t{b} + g + r] + lighter - t.darkest) * t.bins_per_log;
   const int k = std::clamp(static_cast<int>(light), 0, kBrightness - 1);
   return static_cast<std::size_t>((i * kChroma + j) * kBrightness + k);
 }

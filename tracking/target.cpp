@@ -224,7 +224,7 @@ bool TargetTracker::search() {
 void TargetTracker::take(const Track& track, TargetReason reason) {
   estimate_.track_id = track.id;
   estimate_.reason = reason;
-  likely_id_ = TargetEstimate::kNoTrack;
+  likely_id_ = better_id_ = TargetEstimate::kNoTrack;
   had_target_ = true;
   taken_by_looks_ = reason == TargetReason::kRecognized;
   unlike_since_s_.reset();
@@ -235,7 +235,7 @@ void TargetTracker::take(const Track& track, TargetReason reason) {
 bool TargetTracker::isMistaken(const Track& track) {
   if (track.status != TrackStatus::kConfirmed) return false;  // Unseen: its looks are old.
   const bool may_be_mistaken = taken_by_looks_ || params_.release_started;
-  if (!may_be_mistaken || track.appearance() >= params_.release_share * params_.min_appearance) {
+  if (!may_be_mistaken || track.appearance() >= params_.leastAppearance()) {
     unlike_since_s_.reset();
     return false;
   }
@@ -245,6 +245,7 @@ bool TargetTracker::isMistaken(const Track& track) {
 
 /// Who has looked so much more like the target for so long that they must be it; null if nobody.
 const Track* TargetTracker::findBetter(const Track& target) {
+  if (std::isinf(params_.takeover_ratio)) return nullptr;
   const Track* best = nullptr;
   const double least =
       std::max(params_.min_appearance, params_.takeover_ratio * target.appearance());
@@ -324,7 +325,7 @@ double TargetTracker::confidenceOf(const Track& track) const {
 bool TargetTracker::isExpected(const Track& track) const {
   return had_target_ && expected_m_ &&
          (track.motion.position_m() - *expected_m_).norm() < params_.expected_within_m &&
-         track.appearance() > params_.release_share * params_.min_appearance;
+         track.appearance() > params_.leastAppearance();
 }
 
 /// Whether somebody else is known to be where this track is.

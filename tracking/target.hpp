@@ -49,6 +49,9 @@ struct TargetParams {
   double coast_memory_s = 1.0;        ///< Time unseen in which the confidence falls to 1/e.
   double confusion_distance_m = 0.8;  ///< Somebody nearer than this can be mistaken for the target.
   bool start_by_appearance = true;    ///< Find the target by looks when no start was given.
+
+  /// With less than this somebody looks otherwise than the target.
+  double leastAppearance() const { return release_share * min_appearance; }
 };
 
 enum class TargetStatus {

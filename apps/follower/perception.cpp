@@ -194,7 +194,7 @@ double Perception::appearanceOf(const WorldBlob& blob, const Frame& frame) {
 }
 
 bool Perception::isUnlike(const Eigen::Vector2d& place_m, double within_m) const {
-  const double least = params_.target.release_share * params_.target.min_appearance;
+  const double least = params_.target.leastAppearance();
   return std::any_of(tracks().begin(), tracks().end(), [&](const Track& track) {
     return track.status == TrackStatus::kConfirmed && track.appearance() < least &&
            (track.motion.position_m() - place_m).norm() < within_m;

@@ -128,7 +128,7 @@ void Simulator::State::tick(const VelocityCommand& command) {
       if (j != i) others.push_back(walkers[j].mover());
     }
     others.push_back({robot.pose().position, robot_velocity, scene.robot.radius_m + 0.05});
-    walkers[i].step(kTicksPerStride * kTick_s, plan, others, robot.pose().position);
+    walkers[i].step(kTicksPerStride * kTick_s, plan, others, others.back());
   }
 }
 

@@ -68,13 +68,14 @@ Walker::Walker(const ScenePerson& person) : person_(&person) {
 }
 
 void Walker::finishStep() {
-  waited_s_ = 0.0;
+  waited_s_ = with_robot_s_ = 0.0;
+  back_to_.reset();
   ++step_;
   if (done() && person_->repeat) step_ = 0;
 }
 
 void Walker::step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& others,
-                  const Vector2d& robot) {
+                  const Mover& robot) {
   pose_.time_s += dt_s;
   Vector2d wanted = Vector2d::Zero();
   if (!done()) {
@@ -90,7 +91,7 @@ void Walker::step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& 
         if (waited_s_ >= now.wait_s - 1e-9) finishStep();
         break;
       case PathStep::Kind::kWaitForRobot:
-        wanted = waitForRobot(dt_s, plan, robot);
+        wanted = waitForRobot(dt_s, plan, robot.position);
         break;
       case PathStep::Kind::kFace: {
         const double yaw = std::atan2(way.y(), way.x());
@@ -101,21 +102,19 @@ void Walker::step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& 
     }
   }
   makes_room_s_ = std::max(makes_room_s_ - dt_s, 0.0);
-  const double to_robot_m = (robot - pose_.position).norm();
+  const double to_robot_m = (robot.position - pose_.position).norm();
   if (stuck_s_ > kPatience_s && to_robot_m < kHeldUp_m) {
     makes_room_s_ = kMakesRoom_s;
     stuck_s_ = 0.0;
   }
   if (makes_room_s_ > 0.0) {
-    wanted = to_robot_m < kRoom_m ? wayAside(plan, robot) : Vector2d::Zero();
+    wanted = to_robot_m < kRoom_m ? wayAside(plan, robot.position) : Vector2d::Zero();
   }
   const bool walks = !wanted.isZero();
   const Vector2d way = wanted.normalized();
   if (walks) wanted = chooseVelocity(wanted, plan, others);
   accelerate(dt_s, wanted);
-  for (const Mover& other : others) {
-    if (other.position == robot) keepOff(dt_s, other);
-  }
+  keepOff(dt_s, robot);
   move(dt_s);
   stuck_s_ = walks && velocity_.dot(way) < 0.1 ? stuck_s_ + dt_s : std::max(stuck_s_ - dt_s, 0.0);
   if (stuck_s_ > kGivesUp_s) {
@@ -148,9 +147,7 @@ Vector2d Walker::comeBack(double dt_s, const FloorPlan& plan, const Vector2d& ro
     with_robot_s_ += dt_s;
     if (with_robot_s_ < kMeets_s) return Vector2d::Zero();
     step_ = *back_to_;
-    back_to_.reset();
-    with_robot_s_ = 0.0;
-    finishStep();
+    finishStep();  // on from there
     return Vector2d::Zero();
   }
   const PathStep& back = person_->path[*back_to_];

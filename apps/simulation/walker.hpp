@@ -29,9 +29,9 @@ class Walker {
 
   /// Lives on for `dt_s` (a few hundredths of a second).
   /// @param others  Everyone else, and the robot.
-  /// @param robot   Where the robot is, for those who wait for it.
+  /// @param robot   One of `others`: who waits for it, and nobody walks into it.
   void step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& others,
-            const Eigen::Vector2d& robot);
+            const Mover& robot);
 
   const BodyPose& pose() const { return pose_; }
   Mover mover() const { return {pose_.position, velocity_, kRadius_m}; }
