@@ -35,8 +35,8 @@ Acquisition::Acquisition(const PinholeCamera& camera, const Eigen::Isometry3d& T
     : params_(params),
       detector_(camera, T_base_camera, params.detector),
       eye_m_(T_base_camera.translation().head<2>()) {
-  for (const double value : {params.background_s, params.person_s, params.max_missing_s,
-                             params.max_speed_mps, params.max_jump_m}) {
+  for (const double value : {params.background_s, params.person_s, params.others_s,
+                             params.max_missing_s, params.max_speed_mps, params.max_jump_m}) {
     if (!(value >= 0.0)) throw std::invalid_argument("acquisition: a parameter is negative");
   }
 }
@@ -105,7 +105,9 @@ void Acquisition::findPerson(double stamp_s) {
     forgetPerson();  // the first look was noise, or this one is: begin with the newest
     entered = false;
   } else if (somebodyElseIsThere(stamp_s)) {
-    if (++frames_with_others_ >= params_.confirm_frames) end(AcquisitionEnd::kSecondPerson);
+    if (frames_with_others_++ == 0) with_others_s_ = stamp_s;
+    const bool stay = stamp_s - with_others_s_ > params_.others_s - kSameTime_s;
+    if (stay && frames_with_others_ >= params_.confirm_frames) end(AcquisitionEnd::kSecondPerson);
     return;
   }
   frames_with_others_ = 0;

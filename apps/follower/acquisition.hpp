@@ -16,6 +16,7 @@ struct AcquisitionParams {
   double background_s = 5.0;   ///< Empty scene at the start.
   double person_s = 10.0;      ///< The acquisition ends this long after the person entered.
   int confirm_frames = 2;      ///< Somebody is there when seen in so many: depth is noisy.
+  double others_s = 0.5;       ///< Somebody else is there when seen all this time.
   double max_missing_s = 1.0;  ///< Not seen for longer: the person has left.
   double max_speed_mps = 3.0;  ///< With max_jump_m: how far the person may be from the last place.
   double max_jump_m = 0.3;
@@ -123,7 +124,8 @@ class Acquisition {
   bool started_ = false;
   double start_s_ = 0.0;
   double stamp_s_ = 0.0;
-  int frames_with_others_ = 0;  // in a row
+  int frames_with_others_ = 0;  // in a row, ...
+  double with_others_s_ = 0.0;  // and since when
 };
 
 }  // namespace heel
