@@ -20,6 +20,12 @@ void require(bool holds, const char* what) {
 
 bool isNotNegative(double value) { return std::isfinite(value) && value >= 0.0; }
 
+bool isNearAny(const Track& track, const std::vector<Eigen::Vector2d>& places_m, double within_m) {
+  return std::any_of(places_m.begin(), places_m.end(), [&](const Eigen::Vector2d& place_m) {
+    return (track.motion.position_m() - place_m).norm() < within_m;
+  });
+}
+
 }  // namespace
 
 const char* toText(TargetStatus status) {
@@ -83,6 +89,7 @@ TargetTracker::TargetTracker(const TargetParams& params, const TrackerParams& tr
   require(std::isfinite(params.min_appearance_ratio) && params.min_appearance_ratio >= 1.0,
           "min_appearance_ratio must be at least 1");
   require(params.appearance_frames >= 1, "appearance_frames must be at least 1");
+  require(params.patient_frames >= 1, "patient_frames must be at least 1");
   require(isNotNegative(params.expected_within_m), "expected_within_m must not be negative");
   require(params.release_share >= 0.0 && params.release_share <= 1.0,
           "release_share must be in [0, 1]");
@@ -90,6 +97,7 @@ TargetTracker::TargetTracker(const TargetParams& params, const TrackerParams& tr
   require(params.takeover_ratio >= 1.0, "takeover_ratio must be at least 1");
   require(isNotNegative(params.takeover_s), "takeover_s must not be negative");
   require(isNotNegative(params.excluded_within_m), "excluded_within_m must not be negative");
+  require(isNotNegative(params.person_within_m), "person_within_m must not be negative");
   require(params.max_speed_mps > 0.0, "max_speed_mps must be positive");
   require(isNotNegative(params.reach_slack_m), "reach_slack_m must not be negative");
   require(params.coast_memory_s > 0.0, "coast_memory_s must be positive");
@@ -184,7 +192,7 @@ bool TargetTracker::search() {
       return true;
     }
     somebody_in_view = true;
-    const bool looks_like = track.appearance() > params_.min_appearance;
+    const bool looks_like = looksLikeTarget(track);
     if (!canBeTarget(track)) {
       out_of_reach = out_of_reach || looks_like;
       continue;
@@ -201,7 +209,7 @@ bool TargetTracker::search() {
   const int was_likely = std::exchange(likely_id_, TargetEstimate::kNoTrack);
   if (!had_target_ && !params_.start_by_appearance) {
     estimate_.reason = TargetReason::kNotStarted;
-  } else if (estimate_.candidates == 0) {
+  } else if (estimate_.candidates == 0 || !looksLikeTarget(*best)) {
     estimate_.reason = !somebody_in_view ? TargetReason::kNobodyInView
                        : out_of_reach    ? TargetReason::kOutOfReach
                                          : TargetReason::kNobodyLooksLike;
@@ -212,7 +220,8 @@ bool TargetTracker::search() {
   } else {
     likely_id_ = best->id;
     likely_frames_ = was_likely == best->id ? likely_frames_ + 1 : 1;
-    if (likely_frames_ >= params_.appearance_frames) {
+    const bool is_clear = best->appearance() > params_.min_appearance;
+    if (likely_frames_ >= (is_clear ? params_.appearance_frames : params_.patient_frames)) {
       take(*best, TargetReason::kRecognized);
       return true;
     }
@@ -330,9 +339,13 @@ bool TargetTracker::isExpected(const Track& track) const {
 
 /// Whether somebody else is known to be where this track is.
 bool TargetTracker::isExcluded(const Track& track) const {
-  return std::any_of(excluded_m_.begin(), excluded_m_.end(), [&](const Eigen::Vector2d& place_m) {
-    return (track.motion.position_m() - place_m).norm() < params_.excluded_within_m;
-  });
+  return isNearAny(track, excluded_m_, params_.excluded_within_m);
+}
+
+/// Of what is known to be a person, less is asked than of what may be furniture.
+bool TargetTracker::looksLikeTarget(const Track& track) const {
+  const bool is_person = isNearAny(track, people_m_, params_.person_within_m);
+  return track.appearance() > (is_person ? params_.leastAppearance() : params_.min_appearance);
 }
 
 /// Whether the target can have walked to where this track is.

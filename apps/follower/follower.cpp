@@ -37,7 +37,8 @@ FollowerParams::FollowerParams() {
   perception.match.unknown_stature = 1.0;  // close by, heads are above the picture
   perception.target.min_appearance = 0.5;  // matching tells people well apart: few are in between
   perception.target.appearance_frames = 2;
-  perception.target.release_share = 0.8;
+  perception.target.release_share = 0.7;
+  perception.target.release_s = 1.0;
   perception.target.release_started = true;
   perception.target.takeover_ratio = 1.4;
   perception.target.sure_appearance = 0.6;
@@ -243,6 +244,11 @@ void Follower::see(const Frame& frame) {
   const RobotPlace place{step_.robot.pose, step_.robot.covariance.topLeftCorner<2, 2>()};
   perception_->expectAt(target_place_.isSure() ? step_.target : std::nullopt);
   perception_->exclude(target_place_.others());
+  walkers_m_.clear();
+  for (const int id : people_around_.walkers()) {
+    walkers_m_.push_back(people_around_.find(id)->motion.position_m());
+  }
+  perception_->people(walkers_m_);
   step_.perception = &perception_->step(frame, place);
   target_ = step_.perception->target;
   for (const Track& track : perception_->tracks()) {

@@ -213,6 +213,7 @@ class Follower {
   std::vector<Eigen::Vector2d> waysides_;
   GlobalPlan plan_;
   std::vector<MovingPerson> people_;
+  std::vector<Eigen::Vector2d> walkers_m_;
   std::vector<FloorDisc> standing_;  // people, with the room that they are left
   std::vector<FloorDisc> masked_;
   std::vector<Eigen::Vector3f> unmapped_;  // points in the base frame

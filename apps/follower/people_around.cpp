@@ -27,6 +27,7 @@ void PeopleAround::step(double stamp_s, const LaserScan& scan, const FloorPose& 
   findThings(scan, T_world_scanner, clearance);
   tracker_.step(stamp_s, things_);
   people_.clear();
+  walkers_.clear();
   for (const Track& track : tracker_.tracks()) {
     const double rests_s = restsFor_s(track, stamp_s);
     if (track.status == TrackStatus::kTentative || rests_s > params_.stays_s) continue;
@@ -37,7 +38,13 @@ void PeopleAround::step(double stamp_s, const LaserScan& scan, const FloorPose& 
         rests_s < params_.rests_after_s && person.velocity.norm() <= params_.max_speed_mps;
     if (!walks) person.velocity.setZero();
     people_.push_back(person);
+    if (hasWalked(track)) walkers_.push_back(track.id);
   }
+}
+
+bool PeopleAround::hasWalked(const Track& track) const {
+  return std::any_of(strides_.begin(), strides_.end(),
+                     [&](const Stride& s) { return s.track_id == track.id && s.walked; });
 }
 
 void PeopleAround::confirm(const Eigen::Vector2d& place_m, double within_m) {
@@ -90,7 +97,10 @@ double PeopleAround::restsFor_s(const Track& track, double stamp_s) {
     return std::numeric_limits<double>::infinity();
   }
   const bool is_stride = (place_m - stride->place_m).norm() > params_.stride_m;
-  if (is_stride) stride->stamp_s = stamp_s;
+  if (is_stride) {
+    stride->stamp_s = stamp_s;
+    stride->walked = true;
+  }
   if (is_stride || stamp_s - stride->since_s > params_.rests_after_s) {
     stride->place_m = place_m;
     stride->since_s = stamp_s;

@@ -58,6 +58,8 @@ class PeopleAround {
 
   /// Where they are now, with their speeds, in the world.
   const std::vector<MovingPerson>& people() const { return people_; }
+  /// Tracks of those of them who were seen to walk: surely no furniture.
+  const std::vector<int>& walkers() const { return walkers_; }
 
  private:
   void findThings(const LaserScan& scan, const FloorPose& T_world_scanner,
@@ -65,6 +67,7 @@ class PeopleAround {
   void addThing(const std::vector<Eigen::Vector2d>& ends);
   /// Time since the last stride; infinite if there was none.
   double restsFor_s(const Track& track, double stamp_s);
+  bool hasWalked(const Track& track) const;
   /// Whether something stands there that never walked. Of somebody who passes it closely the laser
   /// may take one for the other, and a carton would be a person from then on.
   bool isThing(const Eigen::Vector2d& place_m) const;
@@ -81,9 +84,11 @@ class PeopleAround {
     Eigen::Vector2d place_m;
     double since_s;
     double stamp_s;
+    bool walked = false;
   };
   std::vector<Stride> strides_;
   std::vector<MovingPerson> people_;
+  std::vector<int> walkers_;
 };
 
 }  // namespace heel

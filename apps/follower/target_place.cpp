@@ -15,7 +15,13 @@ void TargetPlace::step(const TargetEstimate& seen, const PeopleAround& around,
   if (seen.status == TargetStatus::kFollowed) {
     now_ = MovingPerson{seen.motion.position_m(), seen.motion.velocity_mps()};
     legs_ = around.nearest(now_->position, params_.legs_within_m);
-    doubt_ = isSureLook(seen) ? 0.0 : std::min(doubt_, params_.weak_look_doubt);
+    if (isSureLook(seen)) {
+      doubt_ = 0.0;
+    } else if (is_unlike(now_->position)) {
+      doubt_ = 1.0;
+    } else {
+      doubt_ = std::min(doubt_, params_.weak_look_doubt);
+    }
     mixed_ = false;
     is_seen = true;
   } else if (const Track* legs = believedLegs(around, is_in_view, is_unlike, elapsed_s)) {

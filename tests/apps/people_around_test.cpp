@@ -117,6 +117,7 @@ TEST_F(PeopleAroundTest, WhoStopsIsAPersonForAWhileThenAThing) {
   EXPECT_NEAR(people.people()[0].velocity.norm(), 0.0, 0.2);
   walk({0.0, 0.0}, 2.0);
   ASSERT_EQ(people.people().size(), 1U) << "a person still";
+  EXPECT_EQ(people.walkers().size(), 1U) << "who walked";
   EXPECT_EQ(people.people()[0].velocity.norm(), 0.0);
   walk({0.0, -0.6}, 1.5);
   ASSERT_EQ(people.people().size(), 1U);
@@ -192,6 +193,7 @@ TEST_F(PeopleAroundTest, WhoTheCameraSeesStandingIsAPerson) {
   see();
   ASSERT_EQ(people.people().size(), 1U);
   EXPECT_EQ(people.people()[0].velocity, Vector2d(0.0, 0.0));
+  EXPECT_TRUE(people.walkers().empty()) << "what the camera sees may be furniture, too";
   people.confirm({5.0, 0.0}, 0.4);
   see();
   EXPECT_EQ(people.people().size(), 1U) << "where the laser sees nothing there is nobody to add";

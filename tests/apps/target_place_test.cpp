@@ -38,7 +38,7 @@ class TargetPlaceTest : public testing::Test {
     around.step(stamp_s, scan, {}, [](const Vector2d&) { return kFar; });
     TargetEstimate seen;
     seen.status = camera_sees ? TargetStatus::kFollowed : TargetStatus::kLost;
-    seen.appearance = 0.8;
+    seen.appearance = appearance;
     seen.motion.mean.head<2>() = legs.empty() ? Vector2d(0.0, 0.0) : legs[0];
     place.step(
         seen, around, [this](const Vector2d&) { return in_view; },
@@ -58,6 +58,7 @@ class TargetPlaceTest : public testing::Test {
   bool camera_sees = true;
   bool in_view = false;
   bool unlike = false;
+  double appearance = 0.8;
   double stamp_s = 20.0;
   PeopleAround around;
   TargetPlace place;
@@ -172,6 +173,17 @@ TEST_F(TargetPlaceTest, SuspectsWhoWalksWhereTheLostCanBe) {
   in_view = true;
   step();
   EXPECT_FALSE(place.suspect()) << "the camera sees who that is";
+}
+
+TEST_F(TargetPlaceTest, BelievesNoLegsWhereTheCameraLastSawSomebodyElse) {
+  steps(5);
+  unlike = true;
+  appearance = 0.2;
+  step();
+  EXPECT_TRUE(place.now());
+  camera_sees = false;
+  step();
+  EXPECT_FALSE(place.now());
 }
 
 TEST_F(TargetPlaceTest, SuspectsNobodyWhoIsTooFarToBeThem) {

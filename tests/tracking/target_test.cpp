@@ -291,6 +291,24 @@ TEST(TargetTracker, TakesNobodyWhereAnotherIsKnownToBe) {
   EXPECT_EQ(run.see({seen(2, 0)}).status, TargetStatus::kFollowed);
 }
 
+TEST(TargetTracker, TakesWhoIsKnownToBeAPersonInAnotherLightAfterSomeTime) {
+  TargetParams params;  // min_appearance 0.41, of which 0.6 is 0.246
+  params.patient_frames = 8;
+  Scene run(params);
+  EXPECT_EQ(run.see({seen(2, 0, 0.35)}, 20).status, TargetStatus::kNone) << "may be furniture";
+  run.target().people({{2.1, 0.1}});
+  EXPECT_EQ(run.see({seen(2, 0, 0.35)}, 7).reason, TargetReason::kNotSureYet);
+  EXPECT_EQ(run.see({seen(2, 0, 0.35)}).status, TargetStatus::kFollowed);
+}
+
+TEST(TargetTracker, TakesNoPersonWhoLooksUnlikeTheTargetHoweverLong) {
+  TargetParams params;
+  params.patient_frames = 8;
+  Scene run(params);
+  run.target().people({{2.0, 0.0}});
+  EXPECT_EQ(run.see({seen(2, 0, 0.2)}, 30).reason, TargetReason::kNobodyLooksLike);
+}
+
 TEST(TargetTracker, IsSureWhoLooksJustLikeItThoughTheyCannotHaveWalkedThere) {
   TargetParams params;
   params.sure_appearance = 0.7;
