@@ -6,6 +6,7 @@
 #include "apps/heel/commands.hpp"
 #include "apps/heel/follow_output.hpp"
 #include "apps/heel/lap_clock.hpp"
+#include "apps/heel/resident_memory.hpp"
 #include "apps/heel/scene_argument.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "planning/plan_file.hpp"
@@ -17,8 +18,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace heel {
 namespace {
@@ -32,12 +35,13 @@ struct Options {
   std::string image_size;  // empty: the scene's
   double rate_hz = 0.0;    // 0: the scene's camera's, and ten commands a second
   bool random = false;
+  RandomEpisodeParams episode;
   bool alone = false;
   bool no_film = false;
 };
 
 Scene sceneOf(const Options& options) {
-  Scene scene = options.random ? randomEpisode(options.loop.seed, sceneFolder())
+  Scene scene = options.random ? randomEpisode(options.loop.seed, sceneFolder(), options.episode)
                                : loadScene(sceneFile(options.scene).string());
   if (options.alone && !scene.people.empty()) scene.people.resize(1);
   CameraParams& camera = scene.robot.camera;
@@ -53,11 +57,38 @@ Scene sceneOf(const Options& options) {
 }
 
 std::string commandOf(const Options& options) {
-  const std::string what =
-      (options.random ? "--random" : options.scene) + std::string(options.alone ? " --alone" : "");
-  return "heel follow " + what + " --plan " + options.plan + " --seed " +
-         std::to_string(options.loop.seed);
+  const Options shortest;
+  std::ostringstream command;
+  command << "heel follow " << (options.random ? "--random" : options.scene);
+  if (options.episode.visits != shortest.episode.visits) {
+    command << " --visits " << options.episode.visits;
+  }
+  if (options.alone) command << " --alone";
+  if (!options.image_size.empty()) command << " --image-size " << options.image_size;
+  if (options.rate_hz > 0.0) command << " --rate " << options.rate_hz;
+  command << " --plan " << options.plan << " --seed " << options.loop.seed;
+  if (options.loop.limit_s != shortest.loop.limit_s) {
+    command << " --limit " << options.loop.limit_s;
+  }
+  return command.str();
 }
+
+/// Memory at each minute of a long run: it must not grow, but for the log of the run.
+class MemoryWatch {
+ public:
+  void at(double stamp_s) {
+    if (stamp_s < 60.0 * static_cast<double>(minutes_MiB_.size() + 1)) return;
+    minutes_MiB_.push_back(residentMemory_MiB());
+  }
+  void print() const {
+    if (minutes_MiB_.size() < 2) return;
+    std::printf("  memory %.1f MiB after a minute, %.1f MiB after %zu\n", minutes_MiB_.front(),
+                minutes_MiB_.back(), minutes_MiB_.size());
+  }
+
+ private:
+  std::vector<double> minutes_MiB_;
+};
 
 void print(const FollowSummary& summary, const Options& options, const FollowOutput& output) {
   std::printf("%s after %.1f s: %.2f m at %.2f m/s (not counting %.1f s of seeking)\n",
@@ -77,6 +108,7 @@ void run(Options& options) {
   const PetriPlan plan = loadPlan(planFile(options.plan), followingVocabulary());
   FollowOutput output(options.out, !options.no_film, options.bag);
   ProgressBar progress("following", static_cast<std::size_t>(options.loop.limit_s));
+  MemoryWatch memory;
   LapClock clock;
   FollowLog log = runClosedLoop(
       scene, plan, options.loop,
@@ -84,6 +116,7 @@ void run(Options& options) {
           const FollowSample& sample) {
         output.add(readings, step, follower, sample);
         progress.show(static_cast<std::size_t>(readings.stamp_s));
+        memory.at(readings.stamp_s);
       },
       [&](FollowStage stage) {
         // The time since the last stage; before the first stage the world moved, not the robot.
@@ -94,6 +127,7 @@ void run(Options& options) {
   const FollowSummary summary = summarize(log);
   output.commit(log, summary);
   print(summary, options, output);
+  memory.print();
 }
 
 }  // namespace
@@ -109,7 +143,12 @@ void addFollow(CLI::App& app) {
       "(one row a step, with the truth) and timing.csv.");
   verb->add_option("SCENE", options->scene, "a scene's name (home, ...) or its YAML file")
       ->capture_default_str();
-  verb->add_flag("--random", options->random, "a home, people and ways drawn from the seed");
+  CLI::Option* random =
+      verb->add_flag("--random", options->random, "a home, people and ways drawn from the seed");
+  verb->add_option("--visits", options->episode.visits, "rooms that the person goes to")
+      ->check(CLI::Range(1, 1000))
+      ->needs(random)
+      ->capture_default_str();
   verb->add_flag("--alone", options->alone, "nobody is there but the person to follow");
   verb->add_option("--plan", options->plan,
                    "what to do when the person is lost: 'paper', 'search', or a PNML file")

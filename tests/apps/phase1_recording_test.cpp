@@ -97,9 +97,11 @@ TEST(Phase1OnSixPeople, AcquiresTheFirstPersonUntilTheSecondComes) {
   EXPECT_EQ(result.end, AcquisitionEnd::kSecondPerson);
   EXPECT_EQ(result.empty_frames, 26);
   EXPECT_EQ(first, 27U);
-  // The second comes into view in frame 33, at its edge; they are a person in 34.
-  EXPECT_GE(frame.number, 33U);
-  EXPECT_LE(frame.number, 35U);
+  // The second comes into view in frame 33, at its edge; they are a person in 34, and stay for
+  // half a second: three more frames.
+  EXPECT_EQ(result.person_frames, 7);
+  EXPECT_GE(frame.number, 36U);
+  EXPECT_LE(frame.number, 38U);
   EXPECT_EQ(result.confidence(), 1.0);
   EXPECT_GT(result.torso_points, 50000);
 }
