@@ -270,6 +270,7 @@ void Follower::decide(const RobotReadings& readings) {
   step_.target.reset();
   if (target_place_.now()) {
     step_.target = target_place_.now()->position;
+    attention_.clear();
   } else {
     if (was_known) search_.lose(target_place_.last(), target_place_.unseen_s());
     search_.wait(dt_s_);

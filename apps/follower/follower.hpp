@@ -5,6 +5,7 @@
 /// The robot's mind: readings in, a velocity out. The paper's system as one step.
 #pragma once
 
+#include "apps/follower/attention.hpp"
 #include "apps/follower/laser_gate.hpp"
 #include "apps/follower/learn_person.hpp"
 #include "apps/follower/obstacle_points.hpp"
@@ -160,6 +161,8 @@ class Follower {
   void goAside();
   bool hasPassed() const;
   void goToLastSeen();
+  bool looksAtSuspect();
+  const Track* somebodyLikeTarget();
   void seek();
   void search();
   void lookAt(const Eigen::Vector2d& place);
@@ -198,6 +201,7 @@ class Follower {
   double obstacles_age_s_ = 0.0;
   double turned_rad_ = 0.0;   // in the present seek
   double seek_side_ = 1.0;    // +1: to the left
+  Attention attention_;       // to who looks like the target, since the loss
   bool is_there_ = false;     // at the search's view, and turned to it
   bool has_arrived_ = false;  // where the last driveTo() went, or as near as can be
   bool looks_away_ = false;   // from the target, in this step

@@ -74,20 +74,47 @@ void Follower::follow() {
 
 // From within a metre somebody who stood there would be seen: no need to go on.
 void Follower::goToLastSeen() {
+  if (looksAtSuspect()) return;
   const Vector2d& place = target_place_.last().position;
   driveTo(place);
   const bool is_near = (place - step_.robot.pose.position).norm() < params_.near_m;
   has_arrived_ = has_arrived_ || is_near;
 }
 
+// Somebody who may be the person is looked at before anything else: who looks a little like them,
+// or walks where they can be.
+bool Follower::looksAtSuspect() {
+  const Track* like = somebodyLikeTarget();
+  if (like == nullptr && !target_place_.suspect()) return false;
+  step_.reason += (step_.reason.empty() ? "" : "; ") + std::string("looks who that is");
+  lookAt(like != nullptr ? like->motion.position_m() : target_place_.suspect()->position);
+  return true;
+}
+
+// Whom the camera sees, and has not seen for long enough to tell.
+const Track* Follower::somebodyLikeTarget() {
+  const Track* best = nullptr;
+  double appearance = params_.perception.target.leastAppearance();
+  for (const Track& track : perception_->tracks()) {
+    if (track.status != TrackStatus::kConfirmed || track.appearance() <= appearance) continue;
+    if (attention_.isEnough(track.id)) continue;
+    best = &track;
+    appearance = track.appearance();
+  }
+  if (best != nullptr) attention_.pay(best->id, dt_s_ / params_.place.look_s);
+  return best;
+}
+
 // A turn on the spot, towards the side where the person was last seen.
 void Follower::seek() {
+  if (looksAtSuspect()) return;
   step_.velocity.turn_radps = seek_side_ * params_.seek_radps;
   turned_rad_ += std::abs(watch_.increment().yaw_rad);
 }
 
 // Goes where the chance to see the person is best, and looks there.
 void Follower::search() {
+  if (looksAtSuspect()) return;
   if (search_.choose(dt_s_, step_.robot.pose, is_there_)) local_planner_.reset();
   is_there_ = false;
   const std::optional<SearchView>& view = search_.view();

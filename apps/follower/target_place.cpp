@@ -34,7 +34,7 @@ void TargetPlace::step(const TargetEstimate& seen, const PeopleAround& around,
   if (is_seen) last_ = *now_;
   noteOthers(around,
              seen.status == TargetStatus::kFollowed && seen.appearance > params_.sure_appearance);
-  findSuspect(around, is_in_view);
+  findSuspect(around, is_in_view, elapsed_s);
 }
 
 void TargetPlace::noteOthers(const PeopleAround& around, bool is_sure) {
@@ -60,19 +60,24 @@ void TargetPlace::noteOthers(const PeopleAround& around, bool is_sure) {
 }
 
 void TargetPlace::findSuspect(const PeopleAround& around,
-                              FunctionRef<bool(const Eigen::Vector2d&)> is_in_view) {
+                              FunctionRef<bool(const Eigen::Vector2d&)> is_in_view,
+                              double elapsed_s) {
   suspect_.reset();
-  if (now_) return;
+  if (now_) return attention_.clear();
+  int nearest = 0;
   double nearest_m = params_.legs_within_m + unseen_s_ * params_.max_speed_mps;
-  for (const MovingPerson& person : around.people()) {
-    const double away_m = (person.position - last_.position).norm();
-    const bool is_other = std::any_of(others_m_.begin(), others_m_.end(), [&](const auto& other) {
-      return (person.position - other).norm() < params_.legs_within_m;
-    });
-    if (away_m > nearest_m || is_other || is_in_view(person.position)) continue;
+  for (const int id : around.walkers()) {
+    const MotionState& motion = around.find(id)->motion;
+    const double away_m = (motion.position_m() - last_.position).norm();
+    const bool is_other = std::find(others_.begin(), others_.end(), id) != others_.end();
+    if (away_m > nearest_m || is_other || attention_.isEnough(id)) continue;
     nearest_m = away_m;
-    suspect_ = person;
+    nearest = id;
+    suspect_ = MovingPerson{motion.position_m(), motion.velocity_mps()};
   }
+  if (!suspect_) return;
+  const double enough_s = is_in_view(suspect_->position) ? params_.look_s : params_.turn_to_s;
+  attention_.pay(nearest, elapsed_s / enough_s);
 }
 
 MovingPerson TargetPlace::expected() const {

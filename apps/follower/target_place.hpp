@@ -5,6 +5,7 @@
 /// Where the target is. The camera knows who they are; the laser sees further to the sides.
 #pragma once
 
+#include "apps/follower/attention.hpp"
 #include "apps/follower/people_around.hpp"
 #include "planning/function_ref.hpp"
 #include "planning/surroundings.hpp"
@@ -30,6 +31,9 @@ struct TargetPlaceParams {
   /// Who looks so much like the target surely is: their legs are believed, and all others are
   /// others.
   double sure_appearance = 0.55;
+  // A suspect is looked at once; who is not recognized then is somebody else.
+  double look_s = 1.5;            ///< So long before the camera,
+  double turn_to_s = 4.0;         ///< or so long in vain until they are.
   double weak_look_doubt = 0.75;  ///< What a weaker look leaves: 1 is not to believe the legs.
 };
 
@@ -61,7 +65,8 @@ class TargetPlace {
   const std::vector<Eigen::Vector2d>& others() const { return others_m_; }
   /// Where they were when last seen.
   const MovingPerson& last() const { return last_; }
-  /// Who walks where they can be by now, out of the camera's view; nothing while they are known.
+  /// Who walks where they can be by now, and has not been looked at since they were lost; nothing
+  /// while they are known.
   const std::optional<MovingPerson>& suspect() const { return suspect_; }
   /// Where to look for them first: at the suspect, or where they are if they walked on.
   MovingPerson expected() const;
@@ -76,8 +81,8 @@ class TargetPlace {
     return seen.appearance > params_.sure_appearance;
   }
   void noteOthers(const PeopleAround& around, bool is_sure);
-  void findSuspect(const PeopleAround& around,
-                   FunctionRef<bool(const Eigen::Vector2d&)> is_in_view);
+  void findSuspect(const PeopleAround& around, FunctionRef<bool(const Eigen::Vector2d&)> is_in_view,
+                   double elapsed_s);
 
   TargetPlaceParams params_;
   std::optional<MovingPerson> now_;
@@ -87,6 +92,7 @@ class TargetPlace {
   int legs_ = 0;             // the target's, among the people around
   std::vector<int> others_;  // things around that are not the target
   std::vector<Eigen::Vector2d> others_m_;
+  Attention attention_;  // to suspects, since the loss
   bool mixed_ = false;
   double doubt_ =
       0.0;  // of these legs: 0 when the camera sees whose they are, none believed from 1

@@ -170,9 +170,42 @@ TEST_F(TargetPlaceTest, SuspectsWhoWalksWhereTheLostCanBe) {
   ASSERT_TRUE(place.suspect());
   EXPECT_LT((place.suspect()->position - legs[0]).norm(), 0.3);
   EXPECT_EQ(place.expected().position, place.suspect()->position);
+}
+
+TEST_F(TargetPlaceTest, SuspectsNobodyTwiceWhomTheCameraDidNotRecognize) {
+  steps(5);
+  camera_sees = false;
+  legs.clear();
+  steps(20);
+  legs = {{2.0, 1.0}};
+  walk({0.0, 0.6}, 15);
   in_view = true;
+  steps(5);
+  EXPECT_TRUE(place.suspect()) << "a look takes its time";
+  steps(11);  // 1.6 s
+  EXPECT_FALSE(place.suspect());
+  in_view = false;
+  walk({0.0, 0.6}, 50);
+  EXPECT_FALSE(place.suspect());
+  camera_sees = true;
   step();
-  EXPECT_FALSE(place.suspect()) << "the camera sees who that is";
+  camera_sees = false;
+  unlike = true;
+  steps(20);
+  ASSERT_FALSE(place.now());
+  EXPECT_TRUE(place.suspect()) << "another loss, another suspicion";
+}
+
+TEST_F(TargetPlaceTest, SuspectsNobodyForLongWhomTheCameraCannotSee) {
+  steps(5);
+  camera_sees = false;
+  legs.clear();
+  steps(20);
+  legs = {{2.0, 1.0}};
+  walk({0.0, 0.6}, 15);
+  ASSERT_TRUE(place.suspect());
+  steps(40);
+  EXPECT_FALSE(place.suspect());
 }
 
 TEST_F(TargetPlaceTest, BelievesNoLegsWhereTheCameraLastSawSomebodyElse) {
