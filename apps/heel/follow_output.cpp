@@ -5,9 +5,12 @@
 
 #include "apps/report/result_files.hpp"
 
+#include <opencv2/imgcodecs.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <numeric>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -115,10 +118,14 @@ void FollowOutput::draw(const Readings& readings, const FollowStep& step, const 
 // The states' beginnings; of too many every second one goes.
 void FollowOutput::keepSnapshot(const FollowSample& sample) {
   last_snapshot_s_ = sample.stamp_s;
-  snapshots_.push_back({sample.stamp_s, sample.state, picture_.clone()});
+  PackedSnapshot& snapshot = snapshots_.emplace_back();
+  snapshot.stamp_s = sample.stamp_s;
+  snapshot.caption = sample.state;
+  cv::imencode(".jpg", picture_, snapshot.jpeg, {cv::IMWRITE_JPEG_QUALITY, 95});
   if (snapshots_.size() < 2 * kMostSnapshots) return;
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < snapshots_.size(); i += 2) snapshots_[kept++] = snapshots_[i];
+  for (std::size_t i = 0; i < snapshots_.size(); i += 2)
+    std::swap(snapshots_[kept++], snapshots_[i]);
   snapshots_.resize(kept);
 }
 
@@ -128,7 +135,11 @@ void FollowOutput::commit(FollowLog& log, const FollowSummary& summary) {
     log.stages.push_back(summaryOf(static_cast<FollowStage>(i), times_ms_[stage]));
   }
   const std::size_t step = 1 + snapshots_.size() / (kMostSnapshots + 1);
-  for (std::size_t i = 0; i < snapshots_.size(); i += step) log.snapshots.push_back(snapshots_[i]);
+  for (std::size_t i = 0; i < snapshots_.size(); i += step) {
+    const PackedSnapshot& snapshot = snapshots_[i];
+    log.snapshots.push_back(
+        {snapshot.stamp_s, snapshot.caption, cv::imdecode(snapshot.jpeg, cv::IMREAD_COLOR)});
+  }
   if (bag_) bag_->commit();
   FollowPageParams page;
   if (film_) {

@@ -39,6 +39,13 @@ class FollowOutput {
   std::string fileNames() const;
 
  private:
+  /// A snapshot that takes little memory.
+  struct PackedSnapshot {
+    double stamp_s = 0.0;
+    std::string caption;
+    std::vector<unsigned char> jpeg;
+  };
+
   void draw(const Readings& readings, const FollowStep& step, const Follower& follower,
             const FollowSample& sample);
   void addToBag(const Readings& readings, const FollowStep& step, const Follower& follower);
@@ -53,7 +60,7 @@ class FollowOutput {
   std::optional<DrawnPerception> drawn_;
   FollowVideoFrame frame_;
   cv::Mat picture_;
-  std::vector<FollowSnapshot> snapshots_;
+  std::vector<PackedSnapshot> snapshots_;
   bool has_map_ = false;  // in the bag
   std::string last_state_;
   double last_snapshot_s_ = 0.0;
