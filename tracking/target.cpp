@@ -97,7 +97,7 @@ TargetTracker::TargetTracker(const TargetParams& params, const TrackerParams& tr
   require(params.takeover_ratio >= 1.0, "takeover_ratio must be at least 1");
   require(isNotNegative(params.takeover_s), "takeover_s must not be negative");
   require(isNotNegative(params.excluded_within_m), "excluded_within_m must not be negative");
-  require(isNotNegative(params.person_within_m), "person_within_m must not be negative");
+  require(isNotNegative(params.vouched_within_m), "vouched_within_m must not be negative");
   require(params.max_speed_mps > 0.0, "max_speed_mps must be positive");
   require(isNotNegative(params.reach_slack_m), "reach_slack_m must not be negative");
   require(params.coast_memory_s > 0.0, "coast_memory_s must be positive");
@@ -342,9 +342,9 @@ bool TargetTracker::isExcluded(const Track& track) const {
   return isNearAny(track, excluded_m_, params_.excluded_within_m);
 }
 
-/// Of what is known to be a person, less is asked than of what may be furniture.
+/// Of a person less is asked than of what may be furniture.
 bool TargetTracker::looksLikeTarget(const Track& track) const {
-  const bool is_person = isNearAny(track, people_m_, params_.person_within_m);
+  const bool is_person = isNearAny(track, vouched_m_, params_.vouched_within_m);
   return track.appearance() > (is_person ? params_.leastAppearance() : params_.min_appearance);
 }
 

@@ -25,8 +25,8 @@ struct TargetParams {
   /// and if both held in this many frames in a row. Waiting longer was worse on real recordings:
   /// meanwhile people walk into the shade, and others come into view.
   int appearance_frames = 1;
-  /// Who is known to be a person (see people()) and looks less like the target, but not unlike it,
-  /// is taken for it after so many frames in a row: the light is another there.
+  /// Somebody who is vouched for (see vouchFor()), and looks less like the target than that but not
+  /// unlike it, is taken for it after so many frames in a row: the light is another there.
   int patient_frames = 12;
   /// After a loss nobody is taken who can't have walked there: further from the place where the
   /// target was last seen than max_speed_mps * (time since) + reach_slack_m.
@@ -49,7 +49,7 @@ struct TargetParams {
   /// Over it nobody is out of reach: where the target was seen last was a mistake.
   double sure_appearance = 1.0;
   double excluded_within_m = 0.3;     ///< Who is so near to a place given to exclude() is excluded,
-  double person_within_m = 0.4;       ///< and to one given to people() is a person.
+  double vouched_within_m = 0.4;      ///< and to one given to vouchFor() is a person.
   double coast_memory_s = 1.0;        ///< Time unseen in which the confidence falls to 1/e.
   double confusion_distance_m = 0.8;  ///< Somebody nearer than this can be mistaken for the target.
   bool start_by_appearance = true;    ///< Find the target by looks when no start was given.
@@ -142,8 +142,9 @@ class TargetTracker {
   /// Says where others are known to be, for the next steps: nobody there is taken for the target.
   void exclude(const std::vector<Eigen::Vector2d>& places_m) { excluded_m_ = places_m; }
 
-  /// Says where people are, as another sensor sees them walk, for the next steps.
-  void people(const std::vector<Eigen::Vector2d>& places_m) { people_m_ = places_m; }
+  /// Says where another sensor is sure of people, for the next steps: they are no furniture, and
+  /// may be the target with less likeness to it.
+  void vouchFor(const std::vector<Eigen::Vector2d>& places_m) { vouched_m_ = places_m; }
 
   /// Takes in the observations made at `stamp_s`.
   /// @return The target, valid until the next call.
@@ -175,7 +176,7 @@ class TargetTracker {
   std::optional<Eigen::Vector2d> start_m_;
   std::optional<Eigen::Vector2d> expected_m_;
   std::vector<Eigen::Vector2d> excluded_m_;
-  std::vector<Eigen::Vector2d> people_m_;
+  std::vector<Eigen::Vector2d> vouched_m_;
   bool had_target_ = false;
   bool taken_by_looks_ = false;
   std::optional<double>

@@ -248,7 +248,7 @@ void Follower::see(const Frame& frame) {
   for (const int id : people_around_.walkers()) {
     walkers_m_.push_back(people_around_.find(id)->motion.position_m());
   }
-  perception_->people(walkers_m_);
+  perception_->vouchFor(walkers_m_);
   step_.perception = &perception_->step(frame, place);
   target_ = step_.perception->target;
   for (const Track& track : perception_->tracks()) {
@@ -271,6 +271,7 @@ void Follower::decide(const RobotReadings& readings) {
   if (target_place_.now()) {
     step_.target = target_place_.now()->position;
     attention_.clear();
+    looked_s_ = 0.0;
   } else {
     if (was_known) search_.lose(target_place_.last(), target_place_.unseen_s());
     search_.wait(dt_s_);
@@ -307,7 +308,8 @@ void Follower::checkFacts() {
   facts_[Fact::kArrived] = has_arrived_;
   facts_[Fact::kLookedAround] =
       turned_rad_ > kFullTurn_rad ||
-      std::abs(bearingOf(pose, target_place_.expected().position)) < params_.ahead_rad;
+      (!suspect() &&
+       std::abs(bearingOf(pose, target_place_.expected().position)) < params_.ahead_rad);
   facts_[Fact::kFullTurn] = turned_rad_ > kFullTurn_rad;
   facts_[Fact::kSearchOver] = search_.isOver();
   facts_[Fact::kBlind] = !watch_.blindness().empty() || step_.robot.lost;

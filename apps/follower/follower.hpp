@@ -73,6 +73,8 @@ struct FollowerParams {
   int surely_seen_hits = 5;       ///< Whom the camera has seen so often is a person, if they stand.
   double sees_within_m = 4.0;     ///< Somebody this near, before the camera, is seen.
   double lost_after_s = 0.5;      ///< Without the target's place for longer, it is lost.
+  double first_looks_s = 5.0;     ///< Who may be a lost person is looked at for so long at once,
+  double look_share = 0.15;       ///< and in this share of the time in all.
   double seek_radps = 0.9;        ///< Turn of a seek.
   double ahead_rad = 0.3;         ///< What is within this of straight ahead is in view.
   double lost_turn_radps = 0.4;   ///< Turn of a robot that does not know where it is.
@@ -162,7 +164,8 @@ class Follower {
   bool hasPassed() const;
   void goToLastSeen();
   bool looksAtSuspect();
-  const Track* somebodyLikeTarget();
+  std::optional<Eigen::Vector2d> suspect() const;
+  const Track* somebodyLikeTarget() const;
   void seek();
   void search();
   void lookAt(const Eigen::Vector2d& place);
@@ -202,6 +205,7 @@ class Follower {
   double turned_rad_ = 0.0;   // in the present seek
   double seek_side_ = 1.0;    // +1: to the left
   Attention attention_;       // to who looks like the target, since the loss
+  double looked_s_ = 0.0;     // at suspects, since then
   bool is_there_ = false;     // at the search's view, and turned to it
   bool has_arrived_ = false;  // where the last driveTo() went, or as near as can be
   bool looks_away_ = false;   // from the target, in this step

@@ -74,25 +74,36 @@ void Follower::follow() {
 
 // From within a metre somebody who stood there would be seen: no need to go on.
 void Follower::goToLastSeen() {
-  if (looksAtSuspect()) return;
   const Vector2d& place = target_place_.last().position;
   driveTo(place);
   const bool is_near = (place - step_.robot.pose.position).norm() < params_.near_m;
   has_arrived_ = has_arrived_ || is_near;
 }
 
-// Somebody who may be the person is looked at before anything else: who looks a little like them,
-// or walks where they can be.
+// Somebody who may be the person is looked at before any other place.
 bool Follower::looksAtSuspect() {
-  const Track* like = somebodyLikeTarget();
-  if (like == nullptr && !target_place_.suspect()) return false;
+  const std::optional<Vector2d> place = suspect();
+  if (!place) return false;
   step_.reason += (step_.reason.empty() ? "" : "; ") + std::string("looks who that is");
-  lookAt(like != nullptr ? like->motion.position_m() : target_place_.suspect()->position);
+  lookAt(*place);
+  looked_s_ += dt_s_;
+  if (const Track* like = somebodyLikeTarget()) {
+    attention_.pay(like->id, dt_s_ / params_.place.look_s);
+  }
   return true;
 }
 
-// Whom the camera sees, and has not seen for long enough to tell.
-const Track* Follower::somebodyLikeTarget() {
+// Who looks a little like the person, or else walks where they can be.
+std::optional<Vector2d> Follower::suspect() const {
+  const double unseen_s = target_place_.unseen_s();
+  if (looked_s_ > params_.first_looks_s + params_.look_share * unseen_s) return std::nullopt;
+  if (const Track* like = somebodyLikeTarget()) return like->motion.position_m();
+  if (target_place_.suspect()) return target_place_.suspect()->position;
+  return std::nullopt;
+}
+
+// Whom the camera sees, and has not seen for long enough to tell; null if nobody.
+const Track* Follower::somebodyLikeTarget() const {
   const Track* best = nullptr;
   double appearance = params_.perception.target.leastAppearance();
   for (const Track& track : perception_->tracks()) {
@@ -101,7 +112,6 @@ const Track* Follower::somebodyLikeTarget() {
     best = &track;
     appearance = track.appearance();
   }
-  if (best != nullptr) attention_.pay(best->id, dt_s_ / params_.place.look_s);
   return best;
 }
 

@@ -98,8 +98,8 @@ class Perception {
   /// Others are known to be there, from the next frame on: none of them is the target.
   void exclude(const std::vector<Eigen::Vector2d>& places_m) { tracker_.exclude(places_m); }
 
-  /// Where people are, as another sensor sees them walk; see TargetTracker.
-  void people(const std::vector<Eigen::Vector2d>& places_m) { tracker_.people(places_m); }
+  /// Another sensor is sure of people there, from the next frame on.
+  void vouchFor(const std::vector<Eigen::Vector2d>& places_m) { tracker_.vouchFor(places_m); }
 
   /// Whether somebody is seen there who does not look like the target.
   bool isUnlike(const Eigen::Vector2d& place_m, double within_m) const;

@@ -32,8 +32,8 @@ struct TargetPlaceParams {
   /// others.
   double sure_appearance = 0.55;
   // A suspect is looked at once; who is not recognized then is somebody else.
-  double look_s = 1.5;            ///< So long before the camera,
-  double turn_to_s = 4.0;         ///< or so long in vain until they are.
+  double look_s = 1.0;            ///< So long before the camera,
+  double turn_to_s = 3.0;         ///< or so long in vain until they are.
   double weak_look_doubt = 0.75;  ///< What a weaker look leaves: 1 is not to believe the legs.
 };
 

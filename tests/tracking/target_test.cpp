@@ -296,7 +296,7 @@ TEST(TargetTracker, TakesWhoIsKnownToBeAPersonInAnotherLightAfterSomeTime) {
   params.patient_frames = 8;
   Scene run(params);
   EXPECT_EQ(run.see({seen(2, 0, 0.35)}, 20).status, TargetStatus::kNone) << "may be furniture";
-  run.target().people({{2.1, 0.1}});
+  run.target().vouchFor({{2.1, 0.1}});
   EXPECT_EQ(run.see({seen(2, 0, 0.35)}, 7).reason, TargetReason::kNotSureYet);
   EXPECT_EQ(run.see({seen(2, 0, 0.35)}).status, TargetStatus::kFollowed);
 }
@@ -305,7 +305,7 @@ TEST(TargetTracker, TakesNoPersonWhoLooksUnlikeTheTargetHoweverLong) {
   TargetParams params;
   params.patient_frames = 8;
   Scene run(params);
-  run.target().people({{2.0, 0.0}});
+  run.target().vouchFor({{2.0, 0.0}});
   EXPECT_EQ(run.see({seen(2, 0, 0.2)}, 30).reason, TargetReason::kNobodyLooksLike);
 }
 
