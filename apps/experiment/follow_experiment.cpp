@@ -32,7 +32,7 @@ std::vector<Job> jobsOf(const FollowExperimentParams& params,
       job.episode.name = "Experiment " + std::to_string(number);
       job.episode.seed = static_cast<unsigned long>(number);
       job.episode.plan = plan;
-      job.episode.command = std::string("heel follow home") + (number == 1 ? " --alone" : "") +
+      job.episode.command = std::string("heel follow office") + (number == 1 ? " --alone" : "") +
                             " --plan " + plan + " --seed " + std::to_string(number);
     }
   }
@@ -50,7 +50,7 @@ std::vector<Job> jobsOf(const FollowExperimentParams& params,
 void run(Job& job, const FollowExperimentParams& params) {
   FollowEpisode& episode = job.episode;
   Scene scene = job.is_random ? randomEpisode(episode.seed, params.scenes)
-                              : loadScene((params.scenes / "home.yaml").string());
+                              : loadScene((params.scenes / "office.yaml").string());
   if (!job.is_random && episode.seed == 1) scene.people.resize(1);
   const PetriPlan plan = loadPlan(params.plans / (episode.plan + ".pnml"), followingVocabulary());
   ClosedLoopParams loop;

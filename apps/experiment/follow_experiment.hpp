@@ -26,7 +26,7 @@ struct FollowExperimentParams {
   int jobs = 0;                  ///< Runs at a time; 0: as many as the machine has threads.
 };
 
-/// The three experiments in the scene `home`, each with the paper's plan and with ours, then the
+/// The three experiments in the scene `office`, each with the paper's plan and with ours, then the
 /// random episodes. In the first experiment the person is alone; in the others another walks about.
 /// @param done  Told of each run when it has ended, one at a time.
 /// @throws std::runtime_error  as loadScene() and loadPlan().

@@ -141,7 +141,7 @@ void addFollow(CLI::App& app) {
       "  heel follow home --out out/home\n"
       "Writes report.html (open it in a browser), the film follow.mp4, summary.json, follow.csv\n"
       "(one row a step, with the truth) and timing.csv.");
-  verb->add_option("SCENE", options->scene, "a scene's name (home, ...) or its YAML file")
+  verb->add_option("SCENE", options->scene, "a scene's name (home, office, ...) or its YAML file")
       ->capture_default_str();
   CLI::Option* random =
       verb->add_flag("--random", options->random, "a home, people and ways drawn from the seed");

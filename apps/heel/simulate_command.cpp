@@ -44,8 +44,9 @@ void addSimulate(CLI::App& app) {
       "  heel learn recordings/wardrobe --out person.yaml\n"
       "  heel simulate home --out recordings/home --bag home.bag\n"
       "Writes what 'heel learn' and 'heel track' read, and truth.csv: where everyone really was.");
-  verb->add_option("SCENE", options->scene,
-                   "a scene's name (wardrobe, pair, home, corridor, crowd) or its YAML file")
+  verb->add_option(
+          "SCENE", options->scene,
+          "a scene's name (wardrobe, pair, home, office, corridor, crowd) or its YAML file")
       ->required();
   verb->add_option("--out", options->simulate.out, "folder for the recording; must be empty")
       ->required();

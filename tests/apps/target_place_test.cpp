@@ -185,7 +185,8 @@ TEST_F(TargetPlaceTest, SuspectsNobodyTwiceWhomTheCameraDidNotRecognize) {
   steps(11);  // 1.6 s
   EXPECT_FALSE(place.suspect());
   in_view = false;
-  walk({0.0, 0.6}, 50);
+  walk({0.0, 0.6}, 20);
+  walk({0.0, -0.6}, 20);
   EXPECT_FALSE(place.suspect());
   camera_sees = true;
   step();

@@ -14,7 +14,7 @@ namespace heel {
 namespace {
 
 TEST(SceneMap, IsTheFloorPlanInCells) {
-  for (const char* name : {"home", "wardrobe", "corridor"}) {
+  for (const char* name : {"home", "office", "wardrobe", "corridor"}) {
     const Scene scene = loadScene(std::string(HEEL_SCENES) + "/" + name + ".yaml");
     const FloorPlan plan(scene, true);
     const WallDistance distance(wallMapOf(scene).floorGrid({0.03, 1.9}));
