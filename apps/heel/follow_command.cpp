@@ -21,7 +21,6 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace heel {
 namespace {
@@ -73,21 +72,24 @@ std::string commandOf(const Options& options) {
   return command.str();
 }
 
-/// Memory at each minute of a long run: it must not grow, but for the log of the run.
+/// Memory from minute to minute of a long run: it must not grow, but for the log of the run.
 class MemoryWatch {
  public:
   void at(double stamp_s) {
-    if (stamp_s < 60.0 * static_cast<double>(minutes_MiB_.size() + 1)) return;
-    minutes_MiB_.push_back(residentMemory_MiB());
+    if (stamp_s < 60.0 * (minutes_ + 1)) return;
+    last_MiB_ = residentMemory_MiB();
+    if (++minutes_ == 1) first_MiB_ = last_MiB_;
   }
   void print() const {
-    if (minutes_MiB_.size() < 2) return;
-    std::printf("  memory %.1f MiB after a minute, %.1f MiB after %zu\n", minutes_MiB_.front(),
-                minutes_MiB_.back(), minutes_MiB_.size());
+    if (minutes_ < 2) return;
+    std::printf("  memory %.1f MiB after a minute, %.1f MiB after %d\n", first_MiB_, last_MiB_,
+                minutes_);
   }
 
  private:
-  std::vector<double> minutes_MiB_;
+  int minutes_ = 0;
+  double first_MiB_ = 0.0;
+  double last_MiB_ = 0.0;
 };
 
 void print(const FollowSummary& summary, const Options& options, const FollowOutput& output) {

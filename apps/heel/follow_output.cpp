@@ -124,8 +124,9 @@ void FollowOutput::keepSnapshot(const FollowSample& sample) {
   cv::imencode(".jpg", picture_, snapshot.jpeg, {cv::IMWRITE_JPEG_QUALITY, 95});
   if (snapshots_.size() < 2 * kMostSnapshots) return;
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < snapshots_.size(); i += 2)
+  for (std::size_t i = 0; i < snapshots_.size(); i += 2) {
     std::swap(snapshots_[kept++], snapshots_[i]);
+  }
   snapshots_.resize(kept);
 }
 

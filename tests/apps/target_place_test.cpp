@@ -54,6 +54,25 @@ class TargetPlaceTest : public testing::Test {
     }
   }
 
+  /// Whether they are believed to be anywhere, so long after the camera's last look.
+  bool isBelievedAfter(double unseen_s) {
+    steps(5);
+    camera_sees = false;
+    steps(static_cast<int>(std::lround(unseen_s * 10.0)));
+    return place.now().has_value();
+  }
+  /// Neither sensor has them for two seconds; then somebody walks where they can be.
+  void loseAndSeeSomebodyWalk() {
+    steps(5);
+    camera_sees = false;
+    legs.clear();
+    steps(20);
+    EXPECT_FALSE(place.suspect());
+    legs = {{2.0, 1.0}};
+    walk({0.0, 0.6}, 15);
+    ASSERT_TRUE(place.suspect());
+  }
+
   std::vector<Vector2d> legs{{2.0, 0.0}};
   bool camera_sees = true;
   bool in_view = false;
@@ -81,10 +100,7 @@ TEST_F(TargetPlaceTest, GoesOnWithTheLegsOutOfTheCamerasView) {
 }
 
 TEST_F(TargetPlaceTest, BelievesLegsForALimitedTime) {
-  steps(5);
-  camera_sees = false;
-  steps(static_cast<int>(TargetPlaceParams().legs_alone_s * 10.0) - 2);
-  EXPECT_TRUE(place.now());
+  EXPECT_TRUE(isBelievedAfter(TargetPlaceParams().legs_alone_s - 0.2));
   steps(4);
   EXPECT_FALSE(place.now());
   camera_sees = true;
@@ -96,19 +112,13 @@ TEST_F(TargetPlaceTest, BelievesLegsForALimitedTime) {
 }
 
 TEST_F(TargetPlaceTest, DoubtsLegsWhereTheCameraSeesNobody) {
-  steps(5);
-  camera_sees = false;
   in_view = true;
-  steps(static_cast<int>(TargetPlaceParams().legs_in_view_s * 10.0) + 2);
-  EXPECT_FALSE(place.now());
+  EXPECT_FALSE(isBelievedAfter(TargetPlaceParams().legs_in_view_s + 0.2));
 }
 
 TEST_F(TargetPlaceTest, DoubtsLegsOfWhoTheCameraSeesToBeSomebodyElse) {
-  steps(5);
-  camera_sees = false;
   unlike = true;
-  steps(static_cast<int>(TargetPlaceParams().legs_unlike_s * 10.0) + 2);
-  EXPECT_FALSE(place.now());
+  EXPECT_FALSE(isBelievedAfter(TargetPlaceParams().legs_unlike_s + 0.2));
 }
 
 TEST_F(TargetPlaceTest, KnowsOthersFromWhenTheTargetWasSeen) {
@@ -136,10 +146,7 @@ TEST_F(TargetPlaceTest, KnowsNoOthersOnceTheyHaveBeenBesideTheTarget) {
 
 TEST_F(TargetPlaceTest, DoubtsLegsBesideOthers) {
   legs.push_back({2.0, 0.55});
-  steps(5);
-  camera_sees = false;
-  steps(static_cast<int>(TargetPlaceParams().legs_mixed_s * 10.0) + 2);
-  EXPECT_FALSE(place.now());
+  EXPECT_FALSE(isBelievedAfter(TargetPlaceParams().legs_mixed_s + 0.2));
 }
 
 TEST_F(TargetPlaceTest, ExpectsALostPersonToWalkOnForAWhile) {
@@ -160,25 +167,13 @@ TEST_F(TargetPlaceTest, ExpectsALostPersonToWalkOnForAWhile) {
 }
 
 TEST_F(TargetPlaceTest, SuspectsWhoWalksWhereTheLostCanBe) {
-  steps(5);
-  camera_sees = false;
-  legs.clear();
-  steps(20);
-  EXPECT_FALSE(place.suspect());
-  legs = {{2.0, 1.0}};
-  walk({0.0, 0.6}, 15);
-  ASSERT_TRUE(place.suspect());
+  loseAndSeeSomebodyWalk();
   EXPECT_LT((place.suspect()->position - legs[0]).norm(), 0.3);
   EXPECT_EQ(place.expected().position, place.suspect()->position);
 }
 
 TEST_F(TargetPlaceTest, SuspectsNobodyTwiceWhomTheCameraDidNotRecognize) {
-  steps(5);
-  camera_sees = false;
-  legs.clear();
-  steps(20);
-  legs = {{2.0, 1.0}};
-  walk({0.0, 0.6}, 15);
+  loseAndSeeSomebodyWalk();
   in_view = true;
   steps(5);
   EXPECT_TRUE(place.suspect()) << "a look takes its time";
@@ -198,13 +193,7 @@ TEST_F(TargetPlaceTest, SuspectsNobodyTwiceWhomTheCameraDidNotRecognize) {
 }
 
 TEST_F(TargetPlaceTest, SuspectsNobodyForLongWhomTheCameraCannotSee) {
-  steps(5);
-  camera_sees = false;
-  legs.clear();
-  steps(20);
-  legs = {{2.0, 1.0}};
-  walk({0.0, 0.6}, 15);
-  ASSERT_TRUE(place.suspect());
+  loseAndSeeSomebodyWalk();
   steps(40);
   EXPECT_FALSE(place.suspect());
 }
@@ -216,6 +205,7 @@ TEST_F(TargetPlaceTest, BelievesNoLegsWhereTheCameraLastSawSomebodyElse) {
   step();
   EXPECT_TRUE(place.now());
   camera_sees = false;
+  unlike = false;  // out of its view
   step();
   EXPECT_FALSE(place.now());
 }
