@@ -64,6 +64,8 @@ const char* toText(FollowStage stage) {
       return "localize";
     case FollowStage::kLookAround:
       return "look_around";
+    case FollowStage::kLearn:
+      return "learn";
     case FollowStage::kSee:
       return "see";
     case FollowStage::kDecide:
@@ -123,8 +125,9 @@ const FollowStep& Follower::step(const RobotReadings& readings, const StageDone&
   lookAround(readings);
   finished(FollowStage::kLookAround);
 
-  if (watch_.imageIsGood()) learner_ ? learn(*readings.frame) : see(*readings.frame);
-  finished(FollowStage::kSee);
+  const bool learns = learner_.has_value();
+  if (watch_.imageIsGood()) learns ? learn(*readings.frame) : see(*readings.frame);
+  finished(learns ? FollowStage::kLearn : FollowStage::kSee);
 
   decide(readings);
   finished(FollowStage::kDecide);

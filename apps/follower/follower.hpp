@@ -87,9 +87,10 @@ struct FollowerParams {
   double obstacles_every_s = 0.2;  ///< How often the camera looks for obstacles.
 };
 
-/// The stages of a step, for who times them; kBegin is before the first.
-enum class FollowStage { kBegin, kLocalize, kLookAround, kSee, kDecide, kDrive };
-inline constexpr int kFollowStages = 6;
+/// The stages of a step, for who times them; kBegin is before the first. The camera's is kLearn in
+/// phase 1 and kSee in phase 2.
+enum class FollowStage { kBegin, kLocalize, kLookAround, kLearn, kSee, kDecide, kDrive };
+inline constexpr int kFollowStages = 7;
 const char* toText(FollowStage stage);
 
 /// Phase 1 ended, and there is nobody to follow.

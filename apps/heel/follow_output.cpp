@@ -18,14 +18,14 @@ namespace {
 constexpr double kSnapshotsApart_s = 4.0;
 constexpr std::size_t kMostSnapshots = 12;
 
-StageTime summaryOf(FollowStage stage, std::vector<double> times_ms) {
-  StageTime time{toText(stage), 0.0, 0.0};
+StageTime summaryOf(const char* name, std::vector<float> times_ms) {
+  StageTime time{name, 0.0, 0.0};
   if (times_ms.empty()) return time;
   time.mean_ms =
       std::accumulate(times_ms.begin(), times_ms.end(), 0.0) / static_cast<double>(times_ms.size());
   const auto rank = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(times_ms.size() - 1));
   std::nth_element(times_ms.begin(), times_ms.begin() + rank, times_ms.end());
-  time.p95_ms = times_ms[static_cast<std::size_t>(rank)];
+  time.p95_ms = static_cast<double>(times_ms[static_cast<std::size_t>(rank)]);
   return time;
 }
 
@@ -45,11 +45,24 @@ FollowOutput::FollowOutput(const std::filesystem::path& folder, bool film,
 }
 
 void FollowOutput::addTime(FollowStage stage, double ms) {
-  times_ms_[static_cast<std::size_t>(stage)].push_back(ms);
+  step_ms_[static_cast<std::size_t>(stage)] = ms;
+}
+
+// A robot that learns stands: what its other stages take then would flatter them.
+void FollowOutput::keepTimes(bool learns) {
+  const auto learning = static_cast<std::size_t>(FollowStage::kLearn);
+  double all_ms = 0.0;
+  for (std::size_t stage = 0; stage < times_ms_.size(); ++stage) {
+    const double ms = std::exchange(step_ms_[stage], 0.0);
+    all_ms += ms;
+    if ((stage == learning) == learns) times_ms_[stage].push_back(static_cast<float>(ms));
+  }
+  if (!learns) steps_ms_.push_back(static_cast<float>(all_ms));
 }
 
 void FollowOutput::add(const Readings& readings, const FollowStep& step, const Follower& follower,
                        const FollowSample& sample) {
+  keepTimes(step.is_learning || step.acquisition != nullptr);
   if (bag_) addToBag(readings, step, follower);
   if (readings.stereo == nullptr) return;
   const bool snapshot = isWorthAPicture(sample);
@@ -133,8 +146,9 @@ void FollowOutput::keepSnapshot(const FollowSample& sample) {
 void FollowOutput::commit(FollowLog& log, const FollowSummary& summary) {
   for (int i = 1; i < kFollowStages; ++i) {  // kBegin takes no time
     const auto stage = static_cast<std::size_t>(i);
-    log.stages.push_back(summaryOf(static_cast<FollowStage>(i), times_ms_[stage]));
+    log.stages.push_back(summaryOf(toText(static_cast<FollowStage>(i)), times_ms_[stage]));
   }
+  log.step = summaryOf("step", steps_ms_);
   const std::size_t step = 1 + snapshots_.size() / (kMostSnapshots + 1);
   for (std::size_t i = 0; i < snapshots_.size(); i += step) {
     const PackedSnapshot& snapshot = snapshots_[i];

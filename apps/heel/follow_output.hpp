@@ -28,6 +28,7 @@ class FollowOutput {
   /// @throws std::runtime_error  if the folder or the bag can't be made.
   FollowOutput(const std::filesystem::path& folder, bool film, const std::filesystem::path& bag);
 
+  /// Of the step that is added next.
   void addTime(FollowStage stage, double ms);
   void add(const Readings& readings, const FollowStep& step, const Follower& follower,
            const FollowSample& sample);
@@ -46,6 +47,7 @@ class FollowOutput {
     std::vector<unsigned char> jpeg;
   };
 
+  void keepTimes(bool learns);
   void draw(const Readings& readings, const FollowStep& step, const Follower& follower,
             const FollowSample& sample);
   void addToBag(const Readings& readings, const FollowStep& step, const Follower& follower);
@@ -64,7 +66,9 @@ class FollowOutput {
   bool has_map_ = false;  // in the bag
   std::string last_state_;
   double last_snapshot_s_ = 0.0;
-  std::array<std::vector<double>, kFollowStages> times_ms_;
+  std::array<double, kFollowStages> step_ms_{};
+  std::array<std::vector<float>, kFollowStages> times_ms_;
+  std::vector<float> steps_ms_;
 };
 
 }  // namespace heel

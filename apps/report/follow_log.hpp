@@ -76,6 +76,7 @@ struct FollowLog {
   std::vector<FollowSample> samples;  ///< In order of time.
   std::vector<FollowSnapshot> snapshots;
   std::vector<StageTime> stages;
+  StageTime step;               ///< All stages of a step together, once the person is learned.
   double camera_rate_hz = 0.0;  ///< What the stages must keep up with; 0 = not told.
 };
 

@@ -208,7 +208,7 @@ std::string followPage(const FollowLog& log, const FollowSummary& sum,
        {"table1", table1(sum)},
        {"driving_speed", shownNumber(sum.driving_speed_mps, 3, "m/s")},
        {"learn_time", shownNumber(sum.learn_s, 0, "s")},
-       {"timing", timingTable(log.stages, log.camera_rate_hz)},
+       {"timing", timingTable(log.stages, log.step, log.camera_rate_hz)},
        {"footer", howToRepeat(log.command)},
        {"data", moments.json},
        {"script", assets::kFollowJs}});

@@ -198,9 +198,11 @@ void writeFollowFiles(const std::filesystem::path& folder, const FollowLog& log,
   CsvWriter timing(folder / "timing.csv", {"stage", "mean_ms", "p95_ms"});
   AtomicFile json(folder / "summary.json");
   addRows(csv, log);
-  for (const StageTime& stage : log.stages) {
-    timing.text(stage.name).number(stage.mean_ms, 3).number(stage.p95_ms, 3).endRow();
-  }
+  const auto addTime = [&](const StageTime& time) {
+    timing.text(time.name).number(time.mean_ms, 3).number(time.p95_ms, 3).endRow();
+  };
+  std::for_each(log.stages.begin(), log.stages.end(), addTime);
+  if (!log.stages.empty()) addTime(log.step);
   csv.close();
   timing.close();
   writeJson(json, followJson(log, summary));

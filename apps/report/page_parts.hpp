@@ -28,8 +28,9 @@ std::string bar(double share, const std::string& of_class = {});
 std::string runRow(const std::string& name, const PaperRow& row, const std::string& of_class = {},
                    bool with_bar = false);
 
-/// Milliseconds of each stage, their sum, and whether that keeps up with the camera.
-std::string timingTable(const std::vector<StageTime>& stages, double camera_rate_hz);
+/// Milliseconds of each stage and of a whole step, and whether that keeps up with the camera.
+std::string timingTable(const std::vector<StageTime>& stages, const StageTime& step,
+                        double camera_rate_hz);
 
 /// The command line as a sentence; empty for none.
 std::string howToRepeat(const std::string& command);

@@ -148,6 +148,16 @@ TEST(FollowPage, WhatIsNotKnownIsADash) {
   EXPECT_THAT(page, HasSubstr("\u2013"));
 }
 
+TEST(FollowPage, SaysWhetherTheLoopKeepsUpWithTheCamera) {
+  FollowLog log = flatRun();  // 33.3 ms a frame
+  log.step = {"step", 20.0, 30.0};
+  EXPECT_THAT(pageOf(log), HasSubstr("the loop keeps up."));
+  log.step.p95_ms = 40.0;
+  EXPECT_THAT(pageOf(log), HasSubstr("the loop keeps up on the whole."));
+  log.step.mean_ms = 35.0;
+  EXPECT_THAT(pageOf(log), HasSubstr("the loop does not keep up."));
+}
+
 TEST(FollowPage, FilmIsTheOnlyFileBesideIt) {
   heel::FollowPageParams params;
   params.film = "follow.mp4";

@@ -116,6 +116,7 @@ FollowLog flatRun() {
   log.camera_rate_hz = 30.0;
   log.stages = {{"colour filter", 1.1, 1.6}, {"stereo", 9.4, 12.8},  {"blobs and tracks", .8, 1.3},
                 {"localization", 1.9, 2.6},  {"planning", 2.7, 8.1}, {"behaviour", .02, .04}};
+  log.step = {"step", 15.9, 22.4};
 
   const Way person_way({{6.2, 4.0},
                         {4.4, 3.7},
