@@ -65,6 +65,7 @@ const AcquisitionStep& Acquisition::step(double stamp_s, const cv::Mat& image_bg
     }
     step_.view = &detector_.detect(background_, image_bgr, depth_m);
     tellPeopleApart();
+    leaveOutNoise(stamp_s);
     findPerson(stamp_s);
     labelPixels();
   }
@@ -90,6 +91,17 @@ void Acquisition::tellPeopleApart() {
     });
     if (!is_split) people_.push_back(i);
   }
+}
+
+// What differs from the room in depth alone is somebody in the wall's colour only if nobody else is
+// there, and only where the person can be.
+void Acquisition::leaveOutNoise(double stamp_s) {
+  const bool somebody_differs =
+      std::any_of(people_.begin(), people_.end(), [this](int i) { return !looksLikeTheWall(i); });
+  const auto is_noise = [&](int i) {
+    return looksLikeTheWall(i) && (somebody_differs || isElsewhere(i, stamp_s));
+  };
+  people_.erase(std::remove_if(people_.begin(), people_.end(), is_noise), people_.end());
 }
 
 // The first to enter is the person; from then on they are the one nearest to their last place.
@@ -138,10 +150,15 @@ void Acquisition::forgetPerson() {
   result_.first_seen_s = result_.last_seen_s = 0.0;
 }
 
-// Several people, or one who can't have come there from the person's last place.
+// Several people, or one who is not the person.
 bool Acquisition::somebodyElseIsThere(double stamp_s) const {
-  if (people_.size() != 1 || result_.state != AcquisitionState::kPerson) return people_.size() > 1;
-  const auto& place = step_.view->blobs[static_cast<std::size_t>(people_.front())].position_m;
+  return people_.size() > 1 || (people_.size() == 1 && isElsewhere(people_.front(), stamp_s));
+}
+
+// Whether the person can't have come there from their last place.
+bool Acquisition::isElsewhere(int blob, double stamp_s) const {
+  if (result_.state != AcquisitionState::kPerson) return false;
+  const auto& place = step_.view->blobs[static_cast<std::size_t>(blob)].position_m;
   const double reach_m =
       params_.max_jump_m + params_.max_speed_mps * (stamp_s - result_.last_seen_s);
   return (place - result_.last_place_m).norm() > reach_m;
@@ -161,7 +178,7 @@ void Acquisition::labelPixels() {
     }
   }
   if (step_.person < 0) return;
-  const bool take_all = looksLikeTheWall();
+  const bool take_all = looksLikeTheWall(step_.person);
   const auto torso_m = static_cast<float>(params_.min_learn_height_m);
   for (const pcl::index_t i : *step_.view->candidates) {
     const auto& point = (*step_.view->cloud)[static_cast<std::size_t>(i)];
@@ -174,13 +191,11 @@ void Acquisition::labelPixels() {
   }
 }
 
-bool Acquisition::looksLikeTheWall() const {
+bool Acquisition::looksLikeTheWall(int blob) const {
   long all = 0;
   long changed = 0;
   for (const pcl::index_t i : *step_.view->candidates) {
-    if (detector_.blobOf((*step_.view->cloud)[static_cast<std::size_t>(i)]) != step_.person) {
-      continue;
-    }
+    if (detector_.blobOf((*step_.view->cloud)[static_cast<std::size_t>(i)]) != blob) continue;
     ++all;
     changed += step_.view->foreground.changed.data[i] != 0 ? 1 : 0;
   }

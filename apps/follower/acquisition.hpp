@@ -27,7 +27,8 @@ struct AcquisitionParams {
   double min_learn_height_m = 1.0;  ///< What is higher counts as the torso.
   /// Depth and colour images never fit to the pixel, so a moving person's disparity takes in a rim
   /// of the room. The person's pixels are therefore those that differ in intensity too, unless
-  /// fewer than this share of them do: then the clothes have the wall's colour.
+  /// fewer than this share of them do: then the clothes have the wall's colour. Besides somebody
+  /// whose do, nobody is there with fewer: depth that comes and goes on a plain wall is like that.
   double min_changed_share = 0.5;
   PeopleDetectorParams detector;
 };
@@ -108,10 +109,12 @@ class Acquisition {
  private:
   void findPerson(double stamp_s);
   void tellPeopleApart();
+  void leaveOutNoise(double stamp_s);
   bool somebodyElseIsThere(double stamp_s) const;
+  bool isElsewhere(int blob, double stamp_s) const;
   void forgetPerson();
   void labelPixels();
-  bool looksLikeTheWall() const;
+  bool looksLikeTheWall(int blob) const;
 
   AcquisitionParams params_;
   PeopleDetector detector_;

@@ -148,6 +148,16 @@ TEST_F(AcquisitionTest, LearnsOnWhereNoiseLooksLikeASecondPersonForAMoment) {
   EXPECT_EQ(acquisition.result().person_frames, 3);
 }
 
+TEST_F(AcquisitionTest, DepthThatComesAndGoesOnThePlainWallIsNobody) {
+  const auto ghost = [] { return ActedScene().person(3.5, -1.0, ActedScene::kWall); };
+  act(ActedScene().person(2.5, 0.5));
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(act(ghost().person(2.5, 0.5)).usable);
+  EXPECT_EQ(acquisition.result().person_frames, 5);
+  act(ghost());
+  EXPECT_EQ(acquisition.result().missed_frames, 1);
+  EXPECT_EQ(acquisition.result().state, AcquisitionState::kPerson);
+}
+
 TEST_F(AcquisitionTest, BeginsAnewWithThePersonAfterAFrameOfNoiseElsewhere) {
   act(ActedScene().person(3.5, -2.0));
   for (int i = 0; i < 3; ++i) act(ActedScene().person(2.5, 0.9));
