@@ -5,7 +5,9 @@
 
 #include "apps/simulation/scene_map.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -13,6 +15,7 @@
 namespace heel {
 namespace {
 
+constexpr double kHour_s = 3600.0;
 constexpr int kPerson = 0;  // The scene's first person is the one to follow.
 
 FollowSample sampleOf(const Readings& readings, const FollowStep& step,
@@ -91,6 +94,9 @@ FollowLog runClosedLoop(const Scene& scene, const PetriPlan& plan, const ClosedL
   log.max_speed_mps = robot.drive.max_speed_mps;
   log.camera_rate_hz = scene.robot.camera.rate_hz;
   log.outcome = "timeout";
+  // At once, for an hour at most: a list that outgrows its memory again and again leaves holes.
+  const double steps = std::min(params.limit_s, kHour_s) / params.period_s;
+  log.samples.reserve(static_cast<std::size_t>(steps) + 2);
   double with_person_s = 0.0;
   VelocityCommand command;
   for (double dt_s = 0.0;; dt_s = params.period_s) {
