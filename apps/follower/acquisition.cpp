@@ -94,14 +94,17 @@ void Acquisition::tellPeopleApart() {
 }
 
 // What differs from the room in depth alone is somebody in the wall's colour only if nobody else is
-// there, and only where the person can be.
+// there, and only where the person can be. Else depth is noise, and the person's outline not to be
+// trusted either.
 void Acquisition::leaveOutNoise(double stamp_s) {
   const bool somebody_differs =
       std::any_of(people_.begin(), people_.end(), [this](int i) { return !looksLikeTheWall(i); });
   const auto is_noise = [&](int i) {
     return looksLikeTheWall(i) && (somebody_differs || isElsewhere(i, stamp_s));
   };
-  people_.erase(std::remove_if(people_.begin(), people_.end(), is_noise), people_.end());
+  const auto noise = std::remove_if(people_.begin(), people_.end(), is_noise);
+  is_noisy_ = noise != people_.end();
+  people_.erase(noise, people_.end());
 }
 
 // The first to enter is the person; from then on they are the one nearest to their last place.
@@ -126,7 +129,7 @@ void Acquisition::findPerson(double stamp_s) {
   if (entered && stamp_s - result_.first_seen_s > params_.person_s + kSameTime_s) {
     return end(AcquisitionEnd::kTimeIsUp);
   }
-  step_.usable = true;
+  step_.usable = !is_noisy_;
   if (people_.empty()) {
     ++(entered ? result_.missed_frames : result_.waiting_frames);
     if (!entered || stamp_s - result_.last_seen_s <= params_.max_missing_s + kSameTime_s) return;
@@ -134,11 +137,13 @@ void Acquisition::findPerson(double stamp_s) {
     return forgetPerson();  // it was noise: nobody has entered yet
   }
   if (!entered) {
+    if (is_noisy_) return;
     result_.state = AcquisitionState::kPerson;
     result_.first_seen_s = stamp_s;
   }
   result_.last_place_m = step_.view->blobs[static_cast<std::size_t>(people_.front())].position_m;
   result_.last_seen_s = stamp_s;
+  if (is_noisy_) return;
   ++result_.person_frames;
   step_.person = people_.front();
 }

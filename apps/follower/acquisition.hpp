@@ -28,7 +28,8 @@ struct AcquisitionParams {
   /// Depth and colour images never fit to the pixel, so a moving person's disparity takes in a rim
   /// of the room. The person's pixels are therefore those that differ in intensity too, unless
   /// fewer than this share of them do: then the clothes have the wall's colour. Besides somebody
-  /// whose do, nobody is there with fewer: depth that comes and goes on a plain wall is like that.
+  /// whose do, nobody is there with fewer: depth that comes and goes on a plain wall is like that,
+  /// and frames with it are not used.
   double min_changed_share = 0.5;
   PeopleDetectorParams detector;
 };
@@ -120,6 +121,7 @@ class Acquisition {
   PeopleDetector detector_;
   Eigen::Vector2d eye_m_;    // the camera, on the floor
   std::vector<int> people_;  // blobs of different people in the view
+  bool is_noisy_ = false;    // besides noise
   BackgroundLearner learner_;
   BackgroundModel background_;
   AcquisitionResult result_;

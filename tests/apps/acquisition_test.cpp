@@ -151,11 +151,16 @@ TEST_F(AcquisitionTest, LearnsOnWhereNoiseLooksLikeASecondPersonForAMoment) {
 TEST_F(AcquisitionTest, DepthThatComesAndGoesOnThePlainWallIsNobody) {
   const auto ghost = [] { return ActedScene().person(3.5, -1.0, ActedScene::kWall); };
   act(ActedScene().person(2.5, 0.5));
-  for (int i = 0; i < 4; ++i) EXPECT_TRUE(act(ghost().person(2.5, 0.5)).usable);
-  EXPECT_EQ(acquisition.result().person_frames, 5);
+  for (int i = 0; i < 4; ++i) {
+    const AcquisitionStep& step = act(ghost().person(2.5, 0.5));
+    EXPECT_FALSE(step.usable);
+    EXPECT_EQ(step.person, -1);
+  }
   act(ghost());
-  EXPECT_EQ(acquisition.result().missed_frames, 1);
+  EXPECT_TRUE(act(ActedScene().person(2.5, 0.5)).usable);
   EXPECT_EQ(acquisition.result().state, AcquisitionState::kPerson);
+  EXPECT_EQ(acquisition.result().person_frames, 2);
+  EXPECT_EQ(acquisition.result().missed_frames, 1);
 }
 
 TEST_F(AcquisitionTest, BeginsAnewWithThePersonAfterAFrameOfNoiseElsewhere) {
