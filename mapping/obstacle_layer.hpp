@@ -54,6 +54,13 @@ struct ObstacleLayerParams {
   double min_memory_s = 2.0;
   double max_memory_s = 15.0;  ///< See min_memory_s; less where many people walk about.
   double memory_gain = 5.0;    ///< See min_memory_s.
+
+  /// A stool's seat that the camera no longer sees is there while the laser sees the stool's leg:
+  /// points that were seen for `held_after_s` are remembered for so long near anything that the
+  /// laser has seen for as long; 0: never.
+  double held_s = 60.0;
+  double held_after_s = 1.0;   ///< See held_s.
+  double held_within_m = 0.3;  ///< Near, for held_s.
 };
 
 /// A rolling window of the floor in world axes around the robot, with what the laser and the
@@ -128,17 +135,21 @@ class ObstacleLayer {
     double since_s = 0.0;
     double seen_s = 0.0;
     bool known = false;
+
+    double lasted_s() const { return seen_s - since_s; }
   };
   struct Cell {
     Trace laser;
     Trace points;
     bool at_laser_height = false;  // the points
     bool frame_at_laser_height = false;
+    bool held = false;  // the points; see held_s
     std::uint16_t frame_points = 0;
   };
 
   bool remembered(const Trace& trace) const;
-  void see(Trace& trace) const;
+  bool isHeld(const GridCell& world_cell) const;
+  void see(Trace& trace, bool again) const;
   bool mayClear(const Trace& trace) const;
   bool inWindow(const GridCell& world_cell) const;
   std::size_t slot(const GridCell& world_cell) const;

@@ -90,6 +90,7 @@ TargetTracker::TargetTracker(const TargetParams& params, const TrackerParams& tr
           "min_appearance_ratio must be at least 1");
   require(params.appearance_frames >= 1, "appearance_frames must be at least 1");
   require(params.patient_frames >= 1, "patient_frames must be at least 1");
+  require(params.most_doubt >= 1, "most_doubt must be at least 1");
   require(isNotNegative(params.expected_within_m), "expected_within_m must not be negative");
   require(params.release_share >= 0.0 && params.release_share <= 1.0,
           "release_share must be in [0, 1]");
@@ -141,6 +142,7 @@ const TargetEstimate& TargetTracker::step(double stamp_s,
       target = better;
     }
   }
+  if (had_target && target == nullptr) judgeFind();
   if (target == nullptr && had_target_ && expected_m_) {
     estimate_.last_seen = LastSeen{stamp_s, *expected_m_, Eigen::Vector2d::Zero()};
   }
@@ -221,7 +223,8 @@ bool TargetTracker::search() {
     likely_id_ = best->id;
     likely_frames_ = was_likely == best->id ? likely_frames_ + 1 : 1;
     const bool is_clear = best->appearance() > params_.min_appearance;
-    if (likely_frames_ >= (is_clear ? params_.appearance_frames : params_.patient_frames)) {
+    const int enough = is_clear ? doubt_ * params_.appearance_frames : params_.patient_frames;
+    if (likely_frames_ >= enough) {
       take(*best, TargetReason::kRecognized);
       return true;
     }
@@ -238,6 +241,15 @@ void TargetTracker::take(const Track& track, TargetReason reason) {
   taken_by_looks_ = reason == TargetReason::kRecognized;
   unlike_since_s_.reset();
   seen_before_ = estimate_.last_seen;
+  looks_ = 0.0;
+  looked_ = 0;
+}
+
+/// Whoever is like the target for a moment only will be so again.
+void TargetTracker::judgeFind() {
+  if (!taken_by_looks_ || looked_ == 0) return;
+  const bool is_doubtful = looks_ < params_.min_appearance * looked_;
+  doubt_ = is_doubtful ? std::min(2 * doubt_, params_.most_doubt) : 1;
 }
 
 /// Whether the target was taken by looks that it has not had for some time.
@@ -277,6 +289,8 @@ void TargetTracker::describe(const Track& track, const std::vector<Observation>&
   estimate_.confidence = confidenceOf(track);
   if (track.status == TrackStatus::kConfirmed) {
     estimate_.status = TargetStatus::kFollowed;
+    looks_ += track.appearance();
+    ++looked_;
     estimate_.last_seen =
         LastSeen{*tracker_.stamp_s(), track.motion.position_m(), track.motion.velocity_mps()};
   } else {

@@ -28,6 +28,9 @@ struct TargetParams {
   /// Somebody who is vouched for (see vouchFor()), and looks less like the target than that but not
   /// unlike it, is taken for it after so many frames in a row: the light is another there.
   int patient_frames = 12;
+  /// Whoever was taken by looks but then looked less than min_appearance like the target on the
+  /// whole was a doubtful find: each in a row doubles appearance_frames, up to so many times.
+  int most_doubt = 1;
   /// After a loss nobody is taken who can't have walked there: further from the place where the
   /// target was last seen than max_speed_mps * (time since) + reach_slack_m.
   double max_speed_mps = 2.0;
@@ -161,6 +164,7 @@ class TargetTracker {
   bool search();
   void take(const Track& track, TargetReason reason);
   bool isMistaken(const Track& track);
+  void judgeFind();
   void describe(const Track& track, const std::vector<Observation>& observations);
   void explainUnseen(const Track& track, const std::vector<Observation>& observations);
   double confidenceOf(const Track& track) const;
@@ -182,6 +186,9 @@ class TargetTracker {
   std::optional<double>
       unlike_since_s_;                   // The target has looked unlike itself in all frames since.
   std::optional<LastSeen> seen_before_;  // What was known when the target was taken by looks.
+  double looks_ = 0.0;                   // Sum of the target's appearance since it was taken
+  int looked_ = 0;                       // in so many frames.
+  int doubt_ = 1;                        // See most_doubt.
   int likely_id_ = TargetEstimate::kNoTrack;  ///< Who alone looked like the target last frame,
   int likely_frames_ = 0;                     ///< and in how many frames in a row.
   int better_id_ = TargetEstimate::kNoTrack;  ///< Who looks more like the target than the target,

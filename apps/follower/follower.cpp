@@ -42,6 +42,7 @@ FollowerParams::FollowerParams() {
   perception.target.release_started = true;
   perception.target.takeover_ratio = 1.4;
   perception.target.sure_appearance = 0.6;
+  perception.target.most_doubt = 8;
   paths.bend_room_m = 0.12;  // round a corner with some room one sees further behind it
   paths.safety_m = 0.08;  // more than the local planner's margin, or it stops where the path goes
   goal.ahead_cost = 0.0;  // people who are followed turn and stop; round them is out of their view

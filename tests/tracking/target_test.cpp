@@ -131,6 +131,27 @@ TEST(TargetTracker, WaitsForSeveralFramesWhenToldTo) {
   EXPECT_EQ(run.see({seen(2, 0)}).reason, TargetReason::kRecognized);
 }
 
+TEST(TargetTracker, WaitsLongerAfterEachDoubtfulFind) {
+  TargetParams params;  // min_appearance 0.41
+  params.most_doubt = 4;
+  Scene run(params);
+  const auto frames = [&run] {  // until somebody is taken who looks like the target at first only
+    int count = 0;
+    while (run.see({seen(2, 0, 0.5)}).status != TargetStatus::kFollowed) ++count;
+    run.see({seen(2, 0, 0.3)}, 20);
+    run.see({}, 20);
+    return count;
+  };
+  const int at_once = frames();
+  EXPECT_EQ(frames(), at_once + 1);
+  EXPECT_EQ(frames(), at_once + 3);
+  EXPECT_EQ(frames(), at_once + 3) << "four times is the most";
+  // Who goes on looking like the target ends the doubts.
+  run.see({seen(2, 0, 0.9)}, 20);
+  run.see({}, 20);
+  EXPECT_EQ(frames(), at_once);
+}
+
 TEST(TargetTracker, NobodysLooksTakeALiveTargetOver) {
   Scene run;
   run.target().startAt({2.0, 0.0});
