@@ -18,6 +18,8 @@ constexpr double kNoWorse_m = 1e-6;
 constexpr double kComes_mps = 0.15;
 constexpr double kStands_mps = 0.02;
 constexpr double kStands_radps = 0.05;
+/// A robot that waits for longer tries to turn to its path first.
+constexpr double kTurnsFirstAfter_s = 0.5;
 
 bool isFinite(const MovingPerson& p) {
   return p.position.allFinite() && p.velocity.allFinite() && std::isfinite(p.radius_m) &&
@@ -189,6 +191,10 @@ void LocalPlanner::layOut(const DriveScene& scene, bool threatened) {
     }
     addPursuit(limits, scene.now, path_, {limits.max_speed_mps, 0.2, 0.0}, futures_);
     addPursuit(limits, scene.now, path_, {0.25 * limits.max_speed_mps, 0.2, 0.0}, futures_);
+    // Beside a thing that any way but straight along the path comes nearer to.
+    if (waited_s_ > kTurnsFirstAfter_s) {
+      addPursuit(limits, scene.now, path_, {limits.max_speed_mps, 0.2, 0.0, 2.2, true}, futures_);
+    }
     for (const double share : {1.0, 0.6, 0.3}) {
       for (const double turn : {0.0, -0.2, 0.2, -0.5, 0.5, -1.0, 1.0}) {
         addHeld(limits, scene.now, {share * limits.max_speed_mps, turn * limits.max_turn_radps},

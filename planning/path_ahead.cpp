@@ -12,6 +12,8 @@ namespace heel {
 using Eigen::Vector2d;
 
 constexpr double kThere_m = 0.05;
+/// Not worth a turn on the spot.
+constexpr double kStraightAhead_rad = 0.05;
 
 void PathAhead::take(const std::vector<Vector2d>& path, const Vector2d& position, double reach_m) {
   points_.clear();
@@ -124,6 +126,7 @@ void addPursuit(const DriveLimits& limits, const DriveState& now, const PathAhea
         to.norm() < 1e-6 ? 0.0 : wrapped(std::atan2(to.y(), to.x()) - state.pose.yaw_rad);
     // Full speed up to 37 degrees off, none from 72 degrees on.
     double speed = pursuit.speed_mps * std::clamp((std::cos(angle) - 0.3) / 0.5, 0.0, 1.0);
+    if (pursuit.turns_first && std::abs(angle) > kStraightAhead_rad) speed = 0.0;
     if (path.endsAtGoal()) speed = std::min(speed, 0.9 * speedToStopWithin(limits, left));
     VelocityCommand command{speed, std::clamp(pursuit.turn_gain * angle, -limits.max_turn_radps,
                                               limits.max_turn_radps)};

@@ -50,10 +50,11 @@ class PathAhead {
 
 /// How to drive along a path: pure pursuit with a speed that falls when the way bends.
 struct Pursuit {
-  double speed_mps = 0.3;  ///< On a straight stretch.
-  double look_m = 0.35;    ///< How far ahead the point is that it drives at.
-  double aside_m = 0.0;    ///< Drives this much to the left of the path.
-  double turn_gain = 2.2;  ///< Turn per angle to that point [1/s].
+  double speed_mps = 0.3;    ///< On a straight stretch.
+  double look_m = 0.35;      ///< How far ahead the point is that it drives at.
+  double aside_m = 0.0;      ///< Drives this much to the left of the path.
+  double turn_gain = 2.2;    ///< Turn per angle to that point [1/s].
+  bool turns_first = false;  ///< Stands until that point is straight ahead.
 };
 
 /// Adds the future in which the robot pursues the path; turns on the spot when the way lies aside.

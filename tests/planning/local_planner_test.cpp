@@ -104,6 +104,14 @@ TEST(LocalPlanner, SaysThatAWallIsInTheWay) {
   EXPECT_GT(loop.leastGap(), 0.03);
 }
 
+TEST(LocalPlanner, GetsAwayFromAWallThatItStandsTooNearToAndFacesALittle) {
+  DrawnFloor floor = emptyRoom();
+  floor.boxes.push_back({{-4.9, -1.0}, {1.0, -0.26 - 0.03}});  // less than the margin
+  DriveLoop loop(floor, {{0, 0}, -0.2});
+  ASSERT_TRUE(drive(loop, {{0, 0}, {0.6, 0.12}, {3, 0.3}}, 20.0));
+  EXPECT_GT(loop.leastGap(), 0.02);
+}
+
 TEST(LocalPlanner, StopsForAWalkerWhoComesHeadOn) {
   DrawnFloor floor;  // A corridor with no room to pass.
   floor.low = {-5.0, -0.5};
