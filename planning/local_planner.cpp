@@ -193,7 +193,9 @@ void LocalPlanner::layOut(const DriveScene& scene, bool threatened) {
     addPursuit(limits, scene.now, path_, {0.25 * limits.max_speed_mps, 0.2, 0.0}, futures_);
     // Beside a thing that any way but straight along the path comes nearer to.
     if (waited_s_ > kTurnsFirstAfter_s) {
-      addPursuit(limits, scene.now, path_, {limits.max_speed_mps, 0.2, 0.0, 2.2, true}, futures_);
+      Pursuit turning{limits.max_speed_mps, 0.2};
+      turning.turns_first = true;
+      addPursuit(limits, scene.now, path_, turning, futures_);
     }
     for (const double share : {1.0, 0.6, 0.3}) {
       for (const double turn : {0.0, -0.2, 0.2, -0.5, 0.5, -1.0, 1.0}) {
