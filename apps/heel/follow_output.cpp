@@ -52,7 +52,7 @@ void FollowOutput::addTime(FollowStage stage, double ms) {
 void FollowOutput::keepTimes(bool learns) {
   const auto learning = static_cast<std::size_t>(FollowStage::kLearn);
   double all_ms = 0.0;
-  for (std::size_t stage = 0; stage < times_ms_.size(); ++stage) {
+  for (std::size_t stage = 1; stage < times_ms_.size(); ++stage) {  // kBegin takes no time
     const double ms = std::exchange(step_ms_[stage], 0.0);
     all_ms += ms;
     if ((stage == learning) == learns) times_ms_[stage].push_back(static_cast<float>(ms));
@@ -144,7 +144,7 @@ void FollowOutput::keepSnapshot(const FollowSample& sample) {
 }
 
 void FollowOutput::commit(FollowLog& log, const FollowSummary& summary) {
-  for (int i = 1; i < kFollowStages; ++i) {  // kBegin takes no time
+  for (int i = 1; i < kFollowStages; ++i) {
     const auto stage = static_cast<std::size_t>(i);
     log.stages.push_back(summaryOf(toText(static_cast<FollowStage>(i)), times_ms_[stage]));
   }
