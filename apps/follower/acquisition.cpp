@@ -64,6 +64,7 @@ const AcquisitionStep& Acquisition::step(double stamp_s, const cv::Mat& image_bg
       result_.state = AcquisitionState::kWaiting;
     }
     step_.view = &detector_.detect(background_, image_bgr, depth_m);
+    countPoints();
     tellPeopleApart();
     leaveOutNoise(stamp_s);
     findPerson(stamp_s);
@@ -74,6 +75,17 @@ const AcquisitionStep& Acquisition::step(double stamp_s, const cv::Mat& image_bg
   stamp_s_ = stamp_s;
   step_.state = result_.state;
   return step_;
+}
+
+void Acquisition::countPoints() {
+  points_.assign(step_.view->blobs.size(), {});
+  for (const pcl::index_t i : *step_.view->candidates) {
+    const int blob = detector_.blobOf((*step_.view->cloud)[static_cast<std::size_t>(i)]);
+    if (blob < 0) continue;
+    PointCount& count = points_[static_cast<std::size_t>(blob)];
+    ++count.all;
+    count.changed += step_.view->foreground.changed.data[i] != 0 ? 1 : 0;
+  }
 }
 
 // Of several blobs on one ray only the greatest counts.
@@ -197,14 +209,9 @@ void Acquisition::labelPixels() {
 }
 
 bool Acquisition::looksLikeTheWall(int blob) const {
-  long all = 0;
-  long changed = 0;
-  for (const pcl::index_t i : *step_.view->candidates) {
-    if (detector_.blobOf((*step_.view->cloud)[static_cast<std::size_t>(i)]) != blob) continue;
-    ++all;
-    changed += step_.view->foreground.changed.data[i] != 0 ? 1 : 0;
-  }
-  return static_cast<double>(changed) < params_.min_changed_share * static_cast<double>(all);
+  const PointCount& count = points_[static_cast<std::size_t>(blob)];
+  return static_cast<double>(count.changed) <
+         params_.min_changed_share * static_cast<double>(count.all);
 }
 
 }  // namespace heel

@@ -109,6 +109,7 @@ class Acquisition {
 
  private:
   void findPerson(double stamp_s);
+  void countPoints();
   void tellPeopleApart();
   void leaveOutNoise(double stamp_s);
   bool somebodyElseIsThere(double stamp_s) const;
@@ -119,9 +120,14 @@ class Acquisition {
 
   AcquisitionParams params_;
   PeopleDetector detector_;
-  Eigen::Vector2d eye_m_;    // the camera, on the floor
-  std::vector<int> people_;  // blobs of different people in the view
-  bool is_noisy_ = false;    // besides noise
+  Eigen::Vector2d eye_m_;  // the camera, on the floor
+  struct PointCount {
+    long all = 0;
+    long changed = 0;  // which look otherwise than the room
+  };
+  std::vector<PointCount> points_;  // of each blob in the view
+  std::vector<int> people_;         // blobs of different people in the view
+  bool is_noisy_ = false;           // besides noise
   BackgroundLearner learner_;
   BackgroundModel background_;
   AcquisitionResult result_;

@@ -32,8 +32,7 @@ void TargetPlace::step(const TargetEstimate& seen, const PeopleAround& around,
   }
   unseen_s_ = is_seen ? 0.0 : unseen_s_ + elapsed_s;
   if (is_seen) last_ = *now_;
-  noteOthers(around,
-             seen.status == TargetStatus::kFollowed && seen.appearance > params_.sure_appearance);
+  noteOthers(around, isSureLook(seen));
   findSuspect(around, is_in_view, elapsed_s);
 }
 

@@ -78,7 +78,7 @@ class TargetPlace {
                             FunctionRef<bool(const Eigen::Vector2d&)> is_in_view,
                             FunctionRef<bool(const Eigen::Vector2d&)> is_unlike, double elapsed_s);
   bool isSureLook(const TargetEstimate& seen) const {
-    return seen.appearance > params_.sure_appearance;
+    return seen.status == TargetStatus::kFollowed && seen.appearance > params_.sure_appearance;
   }
   void noteOthers(const PeopleAround& around, bool is_sure);
   void findSuspect(const PeopleAround& around, FunctionRef<bool(const Eigen::Vector2d&)> is_in_view,
