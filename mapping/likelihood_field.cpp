@@ -71,9 +71,10 @@ double LikelihoodField::logLikelihoodAt(double distance_m) const {
                   (1.0 - params_.hit_share) / params_.random_over_m);
 }
 
+// 0 goes first in std::max(), here and below: what is no number becomes 0, not an index.
 std::size_t LikelihoodField::cellOf(double x_m, double y_m) const {
-  const double u = std::clamp((x_m - corner_m_.x()) / cell_size_m_, 0.0, width_ - 0.5);
-  const double v = std::clamp((y_m - corner_m_.y()) / cell_size_m_, 0.0, height_ - 0.5);
+  const double u = std::min(std::max(0.0, (x_m - corner_m_.x()) / cell_size_m_), width_ - 0.5);
+  const double v = std::min(std::max(0.0, (y_m - corner_m_.y()) / cell_size_m_), height_ - 0.5);
   return static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) +
          static_cast<std::size_t>(u);
 }
@@ -108,8 +109,8 @@ void LikelihoodField::score(const BeamEnds& ends, std::size_t count, const float
       const float* ey = ends.y.data() + begin;
       // Two loops: the first has no look-ups, so that the compiler makes vectors of it.
       for (std::size_t k = 0; k < block; ++k) {
-        const float u = std::min(std::max(u0 + c * ex[k] - s * ey[k], 0.0F), last_u);
-        const float v = std::min(std::max(v0 + s * ex[k] + c * ey[k], 0.0F), last_v);
+        const float u = std::min(std::max(0.0F, u0 + c * ex[k] - s * ey[k]), last_u);
+        const float v = std::min(std::max(0.0F, v0 + s * ex[k] + c * ey[k]), last_v);
         cells[k] = static_cast<int>(v) * width + static_cast<int>(u);
       }
       std::array<float, 4> part{};

@@ -46,6 +46,9 @@ Localization::Localization(const OccupancyGrid& map, const FloorPose& T_base_sca
 }
 
 void Localization::startAt(const FloorPose& pose, double place_m, double heading_rad) {
+  if (!pose.position.allFinite() || !std::isfinite(pose.yaw_rad)) {
+    throw std::invalid_argument("localization: the start is not finite");
+  }
   particles_.clear();
   for (std::size_t i = 0; i < params_.max_particles; ++i) particles_.add(pose);
   shakeParticles(place_m, heading_rad, 0, random_, particles_);

@@ -80,6 +80,7 @@ class Localization {
                         const LocalizationParams& params = {});
 
   /// Starts again, around a pose that is known up to normal errors of these deviations.
+  /// @throws std::invalid_argument  if the pose is not finite.
   void startAt(const FloorPose& pose, double place_m = 0.2, double heading_rad = 0.1);
   /// Starts again with the next scan, anywhere on the free cells.
   void startAnywhere();

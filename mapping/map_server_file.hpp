@@ -17,7 +17,7 @@ namespace heel {
 struct MapImageParams {
   Eigen::Vector2d origin_m = Eigen::Vector2d::Zero();  ///< Of the lower left corner.
   bool negate = false;                                 ///< Then white is p = 1.
-  double occupied_thresh = 0.65;                       ///< A wall from here on.
+  double occupied_thresh = 0.65;                       ///< What is over it is a wall.
   double free_thresh = 0.196;                          ///< Free below this.
 };
 

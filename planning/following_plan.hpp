@@ -35,7 +35,8 @@ enum class FollowingCondition {
   kFullTurn,      ///< The seek has turned once around.
   kSearchOver,    ///< The time for searching is used up, or there is no place left to look at.
   kBlind,         ///< Readings are missing or make no sense: it is not safe to move.
-  kDone,          ///< The person was accompanied for as long as was asked.
+  kDone,          ///< The person was accompanied for as long as was asked. Follower is never asked
+                  ///< to end, so it never says so.
 };
 constexpr std::size_t kFollowingConditions = 10;
 

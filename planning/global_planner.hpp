@@ -48,6 +48,7 @@ struct GlobalPlan {
   PlanStatus status = PlanStatus::kGoalUnreachable;
   FloorPath path;         ///< From the start to `end`; empty unless found.
   double length_m = 0.0;  ///< Of the path.
+  /// The goal, or the place nearest to it that can be reached; the start where nothing was found.
   Eigen::Vector2d end = Eigen::Vector2d::Zero();
   /// Length of the first piece if the start is nearer to something than the radius and safety: it
   /// leads to a place with room, never nearer to anything than the start is. Else 0.

@@ -39,8 +39,7 @@ double inPassage(const DoorwayOnMap& doorway, const Vector2d& point, double dept
 
 std::optional<StandPlace> GoalChooser::choose(const MovingPerson& target, const FloorPose& robot,
                                               Clearance clearance, LineOfSight sees,
-                                              const std::vector<DoorwayOnMap>& doorways,
-                                              const FunctionRef<double(const Vector2d&)>* way_m) {
+                                              const std::vector<DoorwayOnMap>& doorways) {
   const GoalChooserParams& p = params_;
   if (!target.position.allFinite() || !target.velocity.allFinite() || !robot.position.allFinite()) {
     last_.reset();
@@ -57,8 +56,7 @@ std::optional<StandPlace> GoalChooser::choose(const MovingPerson& target, const 
     const double off = to.norm();
     const double room = clearance(at);
     if (off < p.least_standoff_m || off > p.most_standoff_m || !(room >= need)) return out;
-    const double way = way_m != nullptr ? (*way_m)(at) : (at - robot.position).norm();
-    if (!std::isfinite(way)) return out;
+    const double way = (at - robot.position).norm();
     double passage = 0.0;
     for (const DoorwayOnMap& d : doorways) {
       passage = std::max(passage, inPassage(d, at, p.doorway_depth_m, p.radius_m));

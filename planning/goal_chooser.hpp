@@ -23,13 +23,13 @@ struct GoalChooserParams {
   double lead_s = 0.4;            ///< Goes to where the person will be then.
   double doorway_depth_m = 0.7;   ///< Before and behind a doorway is passage, this far.
   double keep_m = 0.25;           ///< A new place must be cheaper by what this much way costs.
-  // Costs, per metre where not said otherwise.
-  double way_cost = 1.0;
-  double standoff_cost = 2.5;
-  double doorway_cost = 2.0;  ///< Of standing in the middle of a passage.
-  double narrow_cost = 0.5;   ///< Of having no more room than needed.
-  double ahead_cost = 0.6;    ///< Of standing where the person is walking to.
-  double unseen_cost = 3.0;   ///< Of a place from which the person is not seen.
+  // Costs.
+  double way_cost = 1.0;       ///< Per metre of straight line from the robot.
+  double standoff_cost = 2.5;  ///< Per metre nearer or further than standoff_m.
+  double doorway_cost = 2.0;   ///< Of standing in the middle of a passage; less towards its rims.
+  double narrow_cost = 0.5;    ///< Of having no more room than needed; none with 0.3 m more.
+  double ahead_cost = 0.6;     ///< Of standing where a person is walking to at 1 m/s.
+  double unseen_cost = 3.0;    ///< Of a place from which the person is not seen.
 };
 
 /// A place to stand, turned to the person.
@@ -50,13 +50,11 @@ class GoalChooser {
   /// @param target     Who to be with; nothing if that isn't finite.
   /// @param clearance  Distance to what stands, without the target.
   /// @param sees       Line of sight on the map.
-  /// @param way_m      Length of the way from the robot to a place, NaN or infinite if there is
-  ///                   none; the straight line where it isn't given.
-  /// @return  nothing if there is no place with room that can be reached.
-  std::optional<StandPlace> choose(
-      const MovingPerson& target, const FloorPose& robot, Clearance clearance, LineOfSight sees,
-      const std::vector<DoorwayOnMap>& doorways,
-      const FunctionRef<double(const Eigen::Vector2d&)>* way_m = nullptr);
+  /// @return  nothing if there is no place with room. Whether one can be reached is not asked: the
+  ///          way counts as the straight line.
+  std::optional<StandPlace> choose(const MovingPerson& target, const FloorPose& robot,
+                                   Clearance clearance, LineOfSight sees,
+                                   const std::vector<DoorwayOnMap>& doorways);
 
   /// Forgets the last choice.
   void reset() { last_.reset(); }

@@ -42,6 +42,7 @@ class GridWave {
   static constexpr float kFar = std::numeric_limits<float>::infinity();
 
   /// @param map  Must outlive this; after a change of its layer call mend().
+  /// @throws std::invalid_argument  if a parameter is out of its range.
   GridWave(const ClearanceMap& map, const GridWaveParams& params);
 
   int width() const { return width_; }
@@ -56,7 +57,8 @@ class GridWave {
 
   /// Finds out about all moves at once, which searches then need not do.
   void learnMoves();
-  /// Forgets everything and begins at the seeds, which must be free.
+  /// Forgets everything and begins at the seeds.
+  /// @throws std::invalid_argument  if a seed is not free.
   void begin(const std::vector<WaveSeed>& seeds);
   /// From now on, looks first where the way to this point is short (A*), and takes 6 % longer ways
   /// for as good; until begin().

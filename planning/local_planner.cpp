@@ -322,7 +322,8 @@ void LocalPlanner::explain(const DriveScene& scene, LocalPlan& plan) {
                                                               : DriveReason::kObstacleInWay;
   }
   const bool waits = has_way && !drives;
-  const bool turning_to_way = plan.status == DriveStatus::kTurning && plan.costs[0] < 0.9;
+  const double progress_cost = plan.costs[static_cast<std::size_t>(DriveTerm::kProgress)];
+  const bool turning_to_way = plan.status == DriveStatus::kTurning && progress_cost < 0.9;
   blocked_s_ = waits && !turning_to_way ? blocked_s_ + params_.limits.period_s : 0.0;
   waited_s_ = waits ? waited_s_ + params_.limits.period_s : 0.0;
   plan.blocked_s = blocked_s_;

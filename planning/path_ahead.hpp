@@ -20,9 +20,9 @@ class PathAhead {
   /// Where a point is, seen from the path.
   struct Place {
     std::size_t index = 0;       ///< Of the nearest sample.
-    double left_m = 0.0;         ///< From there to the end of the stretch.
-    double off_m = 0.0;          ///< To that sample.
-    double direction_rad = 0.0;  ///< Of the path there.
+    double left_m = 0.0;         ///< From the nearest point of the path to the stretch's end.
+    double off_m = 0.0;          ///< To that point.
+    double direction_rad = 0.0;  ///< Of the path at the nearest sample.
   };
 
   /// Takes the stretch of at most `reach_m` that begins at the point of `path` nearest to

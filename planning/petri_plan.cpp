@@ -70,6 +70,20 @@ PlaceRole placeRole(const PetriPlace& place, const PlanVocabulary& vocabulary) {
   return role;
 }
 
+/// That all the actions that it ends have ended so.
+PlanGuard defaultGuard(const std::vector<ActionCall>& calls, const PlanVocabulary& vocabulary) {
+  std::vector<std::string> ends;
+  for (const ActionCall& call : calls) {
+    const std::string& action = vocabulary.actions[static_cast<std::size_t>(call.action)];
+    if (call.event == ActionEvent::kEnd) ends.push_back(action + ".finished");
+    if (call.event == ActionEvent::kFail) ends.push_back(action + ".failed");
+  }
+  if (ends.empty()) return {};
+  std::string text = ends.size() > 1 ? "and" : "";
+  for (const std::string& end : ends) text += (text.empty() ? "" : " ") + end;
+  return PlanGuard(text, vocabulary.conditions);
+}
+
 TransitionRole transitionRole(const PetriTransition& transition, const PlanVocabulary& vocabulary) {
   TransitionRole role;
   for (const std::string& word : wordsOf(transition.name)) {
@@ -89,15 +103,7 @@ TransitionRole transitionRole(const PetriTransition& transition, const PlanVocab
     }
     role.calls.push_back({knownAction(word.substr(0, dot), vocabulary), found->second});
   }
-  if (!role.guard.text().empty()) return role;
-  for (const ActionCall& call : role.calls) {
-    const std::string& action = vocabulary.actions[static_cast<std::size_t>(call.action)];
-    if (call.event == ActionEvent::kEnd) {
-      role.guard = PlanGuard(action + ".finished", vocabulary.conditions);
-    } else if (call.event == ActionEvent::kFail) {
-      role.guard = PlanGuard(action + ".failed", vocabulary.conditions);
-    }
-  }
+  if (role.guard.text().empty()) role.guard = defaultGuard(role.calls, vocabulary);
   return role;
 }
 

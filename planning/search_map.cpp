@@ -19,8 +19,8 @@ constexpr double kNoChance = 1e-6;  // below this a cell is not worth a look
 void requirePositive(const SearchMapParams& p) {
   for (const double value :
        {p.cell_size_m, p.body_radius_m, p.top_speed_mps, p.usual_speed_mps, p.straight_s,
-        p.place_sigma_m, p.field_of_view_rad, p.max_range_m, p.notice_s, p.robot_clearance_m,
-        p.robot_speed_mps, p.robot_turn_radps, p.look_s, p.view_spacing_m}) {
+        p.place_sigma_m, p.field_of_view_rad, p.max_range_m, p.max_scan_m, p.notice_s,
+        p.robot_clearance_m, p.robot_speed_mps, p.robot_turn_radps, p.look_s, p.view_spacing_m}) {
     if (!(value > 0.0)) throw std::invalid_argument("a search map's parameters must be positive");
   }
 }

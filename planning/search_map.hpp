@@ -60,7 +60,8 @@ class SearchMap {
  public:
   /// @param floor  What bars the way, for people and robot.
   /// @param sight  What bars the view of a person: who stands behind a table is seen.
-  /// @throws std::invalid_argument  if a parameter is not positive, or no cell is free.
+  /// @throws std::invalid_argument  if a parameter is not positive (min_range_m may be 0), or no
+  ///                                cell is free.
   SearchMap(const OccupancyGrid& floor, const OccupancyGrid& sight,
             const SearchMapParams& params = {});
 

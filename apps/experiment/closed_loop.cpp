@@ -121,8 +121,8 @@ FollowLog runClosedLoop(const Scene& scene, const PetriPlan& plan, const ClosedL
       log.outcome = "reached";
       break;
     }
-    if (step->outcome == PlanOutcome::kFailed) {
-      log.outcome = "failed";
+    if (step->outcome != PlanOutcome::kRunning) {
+      log.outcome = step->outcome == PlanOutcome::kFailed ? "failed" : "done";
       break;
     }
     if (readings.stamp_s >= params.limit_s) break;

@@ -11,6 +11,7 @@ namespace heel {
 namespace {
 
 constexpr double kClockJump_s = 3600.0;
+constexpr double kClockBack_s = 1.5;
 constexpr double kSlip = 1.0 / 3.0;
 constexpr double kSlipTurn_rad = 0.01;  // A step.
 constexpr double kPairGap_s = 0.1;
@@ -35,6 +36,9 @@ const RobotReadings& FaultySensors::read(const Readings& readings) {
   result_.stamp_s = readings.stamp_s;
   if (active(Fault::Kind::kClockJumps, readings.stamp_s) != nullptr) {
     result_.stamp_s += kClockJump_s;
+  }
+  if (active(Fault::Kind::kClockBack, readings.stamp_s) != nullptr) {
+    result_.stamp_s -= kClockBack_s;
   }
   readImages(readings);
   readOdometry(readings);

@@ -23,6 +23,7 @@ struct Fault {
     kLightsOut,      ///< Black images.
     kPairOutOfStep,  ///< The right image is older than the left.
     kClockJumps,     ///< All stamps are an hour later.
+    kClockBack,      ///< All stamps are a second and a half earlier.
   };
   Kind kind = Kind::kNoCamera;
   double from_s = 0.0;

@@ -3,6 +3,8 @@
 
 #include "apps/follower/acquisition.hpp"
 
+#include "apps/follower/param_checks.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -35,9 +37,12 @@ Acquisition::Acquisition(const PinholeCamera& camera, const Eigen::Isometry3d& T
     : params_(params),
       detector_(camera, T_base_camera, params.detector),
       eye_m_(T_base_camera.translation().head<2>()) {
-  for (const double value : {params.background_s, params.person_s, params.others_s,
-                             params.max_missing_s, params.max_speed_mps, params.max_jump_m}) {
-    if (!(value >= 0.0)) throw std::invalid_argument("acquisition: a parameter is negative");
+  requireNotNegative("AcquisitionParams",
+                     {params.background_s, params.person_s, params.others_s, params.max_missing_s,
+                      params.max_speed_mps, params.max_jump_m, params.ray_width_m,
+                      params.max_split_m, params.min_changed_share, params.min_learn_height_m});
+  if (params.confirm_frames < 1) {
+    throw std::invalid_argument("AcquisitionParams: confirm_frames must be at least 1");
   }
 }
 

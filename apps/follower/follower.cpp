@@ -13,49 +13,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// What the parts must know of the robot.
-FollowerParams fitted(FollowerParams params, const RobotDescription& robot) {
-  params.obstacles.max_height_m = robot.height_m;
-  params.obstacles.laser_height_m = robot.scanner_height_m;
-  params.gate.eye_height_m = robot.camera.T_base_camera.translation().z();
-  params.gate.depth_error_pm = params.legs.depth_error_pm = depthErrorOf(robot.camera.camera);
-  params.paths.robot_radius_m = robot.drive.radius_m;
-  params.goal.radius_m = robot.drive.radius_m;
-  params.wayside.radius_m = robot.drive.radius_m;
-  params.drive.limits = robot.drive;
-  return params;
-}
-
 constexpr double kFullTurn_rad = 6.283185307179586;
 
 }  // namespace
-
-FollowerParams::FollowerParams() {
-  learn.appearance.bands = wholeBody();  // a robot that keeps its distance sees trousers, too
-  learn.appearance.comparison = BodyComparison::kMatch;
-  perception.match.sharpness = 1.3;        // lenient: a home's rooms differ in their light
-  perception.match.unknown_stature = 1.0;  // close by, heads are above the picture
-  perception.target.min_appearance = 0.5;  // matching tells people well apart: few are in between
-  perception.target.appearance_frames = 2;
-  perception.target.release_share = 0.7;
-  perception.target.release_s = 1.0;
-  perception.target.release_started = true;
-  perception.target.takeover_ratio = 1.4;
-  perception.target.sure_appearance = 0.6;
-  perception.target.most_doubt = 8;
-  paths.bend_room_m = 0.12;  // round a corner with some room one sees further behind it
-  paths.safety_m = 0.08;  // more than the local planner's margin, or it stops where the path goes
-  goal.ahead_cost = 0.0;  // people who are followed turn and stop; round them is out of their view
-  goal.lead_s = 0.2;      // they turn often
-  goal.most_standoff_m = 1.25;  // who is followed wants company, even behind a doorway
-  goal.doorway_depth_m = 0.95;  // somebody who comes out of it must get past the robot
-  drive.margin_m = 0.06;        // the map's walls are as far off as localization is
-  drive.terms.weights[static_cast<std::size_t>(DriveTerm::kView)] = 4.0;  // or the target is lost
-  obstacles.min_points = 6;      // coarse stereo errs in specks
-  obstacles.min_memory_s = 0.7;  // a false match of one frame must not close a doorway for long
-  obstacles.memory_gain = 3.0;   // in a home with people, what was there is soon out of date
-  obstacles.max_memory_s = 8.0;
-}
 
 const char* toText(FollowStage stage) {
   switch (stage) {
@@ -83,11 +43,11 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
                    PetriPlan plan, const std::optional<FloorPose>& start,
                    const FollowerParams& params)
     : robot_(robot),
-      params_(fitted(params, robot)),
-      walls_(std::move(walls)),
+      params_(fittedTo(robot, params)),
+      walls_(walls ? std::move(walls) : throw std::invalid_argument("Follower: there is no map")),
       floor_(walls_->floorGrid({0.05, robot.height_m})),
       to_walls_(floor_, 1.0),
-      watch_(params_.watch),
+      watch_(robot.camera, params_.watch),
       localization_(
           walls_->floorGrid({robot.scanner_height_m - 0.05, robot.scanner_height_m + 0.05}),
           robot.T_base_scanner, params_.localization),
@@ -113,24 +73,23 @@ const FollowStep& Follower::step(const RobotReadings& readings, const StageDone&
     if (done) done(stage);
   };
   finished(FollowStage::kBegin);
-  dt_s_ = std::clamp(readings.stamp_s - step_.stamp_s, 0.0, params_.watch.max_gap_s);
   step_.stamp_s = readings.stamp_s;
   step_.acquisition = nullptr;
   step_.perception = nullptr;
-  watch_.step(readings);
-  if (!watch_.timeJumped()) steady_s_ += dt_s_;
+  const RobotReadings usable = watch_.step(readings);
+  tellTime(readings.stamp_s);
 
-  localize(readings);
+  localize(usable);
   finished(FollowStage::kLocalize);
 
-  lookAround(readings);
+  lookAround(usable);
   finished(FollowStage::kLookAround);
 
   const bool learns = learner_.has_value();
-  if (watch_.imageIsGood()) learns ? learn(*readings.frame) : see(*readings.frame);
+  if (usable.frame != nullptr) learns ? learn(*usable.frame) : see(*usable.frame);
   finished(learns ? FollowStage::kLearn : FollowStage::kSee);
 
-  decide(readings);
+  decide(usable);
   finished(FollowStage::kDecide);
 
   drive();
@@ -138,13 +97,34 @@ const FollowStep& Follower::step(const RobotReadings& readings, const StageDone&
   return step_;
 }
 
+// Where the clock jumps, none of the stages' time passes.
+void Follower::tellTime(double stamp_s) {
+  dt_s_ = watch_.elapsed_s();
+  if (!watch_.timeJumped()) {
+    steady_s_ = stamp_s + clock_offset_s_;
+  } else if (std::isfinite(stamp_s)) {
+    clock_offset_s_ = steady_s_ - stamp_s;
+  }
+}
+
+// A frame is as old as it says, unless it was taken before the clock jumped; never older than one
+// before it.
+Frame Follower::onSteadyClock(const Frame& frame) {
+  const double age_s = step_.stamp_s - frame.stamp_s;
+  const bool is_of_this_clock = age_s >= 0.0 && age_s <= params_.watch.max_gap_s;
+  frame_s_ = std::max(frame_s_, is_of_this_clock ? steady_s_ - age_s : steady_s_);
+  Frame steady = frame;
+  steady.stamp_s = frame_s_;
+  return steady;
+}
+
 // Monte Carlo localization; beams that end on people are left out.
 void Follower::localize(const RobotReadings& readings) {
-  if (watch_.odometryIsGood()) {
-    localization_.predict(watch_.increment());
-    if (dt_s_ > 0.0) {
-      speed_ = {watch_.increment().position.x() / dt_s_, watch_.increment().yaw_rad / dt_s_};
-    }
+  if (readings.odometry) {
+    const FloorPose& moved = watch_.increment();
+    const double in_s = watch_.increment_s();
+    localization_.predict(moved);
+    if (in_s > 0.0) speed_ = {moved.position.x() / in_s, moved.yaw_rad / in_s};
   }
   if (readings.scan != nullptr) {
     masked_.clear();
@@ -164,15 +144,15 @@ void Follower::lookAround(const RobotReadings& readings) {
   const FloorPose& pose = step_.robot.pose;
   std::optional<FloorDisc> own;
   if (step_.target) own = FloorDisc{*step_.target, params_.target_radius_m};
-  layer_.begin(readings.stamp_s, pose, own);
+  layer_.begin(steady_s_, pose, own);
   if (readings.scan != nullptr) {
     layer_.addScan(*readings.scan, robot_.T_base_scanner,
                    [this](const Vector2d& p) { return isMapped(p); });
-    people_around_.step(readings.stamp_s, *readings.scan, pose * robot_.T_base_scanner,
+    people_around_.step(steady_s_, *readings.scan, pose * robot_.T_base_scanner,
                         [this](const Vector2d& p) { return localization_.field().distance_m(p); });
   }
   obstacles_age_s_ += dt_s_;
-  if (watch_.imageIsGood() && obstacles_age_s_ > params_.obstacles_every_s - 1e-6) {
+  if (readings.frame != nullptr && obstacles_age_s_ > params_.obstacles_every_s - 1e-6) {
     keepUnmapped(obstacle_points_.of(*readings.frame));
     layer_.addPoints(unmapped_);
     obstacles_age_s_ = 0.0;
@@ -224,9 +204,7 @@ void Follower::keepUnmapped(const std::vector<Eigen::Vector3f>& points) {
 
 // Phase 1 (section 2).
 void Follower::learn(const Frame& frame) {
-  Frame steady = frame;
-  steady.stamp_s = steady_s_;  // the learner bears no clock that jumps
-  step_.acquisition = &learner_->step(steady);
+  step_.acquisition = &learner_->step(onSteadyClock(frame));
   if (!learner_->isDone()) return;
   if (!learner_->hasPerson()) {
     throw NobodyLearned("nobody entered to be learned, or several did together");
@@ -253,7 +231,7 @@ void Follower::see(const Frame& frame) {
     walkers_m_.push_back(people_around_.find(id)->motion.position_m());
   }
   perception_->vouchFor(walkers_m_);
-  step_.perception = &perception_->step(frame, place);
+  step_.perception = &perception_->step(onSteadyClock(frame), place);
   target_ = step_.perception->target;
   for (const Track& track : perception_->tracks()) {
     if (track.status == TrackStatus::kConfirmed && track.hits >= params_.surely_seen_hits) {
@@ -279,7 +257,7 @@ void Follower::decide(const RobotReadings& readings) {
   } else {
     if (was_known) search_.lose(target_place_.last(), target_place_.unseen_s());
     search_.wait(dt_s_);
-    if (watch_.imageIsGood()) search_.look(step_.robot.pose, dt_s_);
+    if (readings.frame != nullptr) search_.look(step_.robot.pose, dt_s_);
     if (readings.scan != nullptr) {
       search_.scan(*readings.scan, step_.robot.pose * robot_.T_base_scanner, dt_s_);
     }
@@ -295,10 +273,8 @@ void Follower::decide(const RobotReadings& readings) {
 // Whether the camera sees a whole person there, if there is one.
 bool Follower::isInView(const Vector2d& place) const {
   const double away_m = (place - step_.robot.pose.position).norm();
-  const PinholeCamera& camera = robot_.camera.camera.left;
-  const double half_view_rad = std::atan2(0.5 * camera.width, camera.fx);
   return watch_.imageIsGood() && away_m > params_.near_m && away_m < params_.sees_within_m &&
-         std::abs(bearingOf(step_.robot.pose, place)) < 0.8 * half_view_rad;
+         std::abs(bearingOf(step_.robot.pose, place)) < 0.8 * robot_.halfView_rad();
 }
 
 void Follower::checkFacts() {

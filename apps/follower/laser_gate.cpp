@@ -19,8 +19,9 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 LaserGate::LaserGate(Clearance clearance, const LaserGateParams& params)
     : clearance_(std::move(clearance)), params_(params), age_s_(kInfinite) {
   if (!clearance_) throw std::invalid_argument("LaserGate: there is no map");
-  for (const double value : {params.half_width_m, params.reach_m, params.off_map_m,
-                             params.depth_error_pm, params.sigmas, params.max_age_s}) {
+  for (const double value :
+       {params.half_width_m, params.reach_m, params.off_map_m, params.depth_error_pm, params.sigmas,
+        params.max_age_s, params.max_gap_m, params.max_width_m}) {
     if (!(value >= 0.0) || !std::isfinite(value)) {
       throw std::invalid_argument("LaserGate: a parameter must be finite and not negative");
     }

@@ -4,11 +4,13 @@
 #include "apps/follower/obstacle_points.hpp"
 
 #include "apps/follower/depth_images.hpp"
+#include "apps/follower/param_checks.hpp"
 
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace heel {
 namespace {
@@ -36,10 +38,18 @@ StereoMatcherParams matching(const StereoCamera& camera, double nearest_m) {
   return params;
 }
 
+void check(const ObstaclePointsParams& p) {
+  requireNotNegative("ObstaclePointsParams", {p.nearest_m, p.max_range_m});
+  if (p.width_px < 1 || p.nearest_m == 0.0 || !(p.max_height_m > p.min_height_m)) {
+    throw std::invalid_argument(
+        "ObstaclePointsParams: need width_px >= 1, nearest_m > 0 and max_height_m > min_height_m");
+  }
+}
+
 }  // namespace
 
 ObstaclePoints::ObstaclePoints(const CameraSetup& setup, const ObstaclePointsParams& params)
-    : sensor_(setup.sensor),
+    : sensor_((check(params), setup.sensor)),
       camera_(shrunk(setup.camera, params.width_px)),
       T_base_camera_(setup.T_base_camera.cast<float>()),
       params_(params),

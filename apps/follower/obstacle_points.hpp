@@ -31,6 +31,7 @@ struct ObstaclePointsParams {
 /// tenth of the pixels will do, at a tenth of the cost. Reuses its memory.
 class ObstaclePoints {
  public:
+  /// @throws std::invalid_argument  if a parameter is out of its range.
   ObstaclePoints(const CameraSetup& setup, const ObstaclePointsParams& params = {});
 
   /// Points in the base frame; valid until the next call.

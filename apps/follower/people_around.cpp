@@ -3,6 +3,8 @@
 
 #include "apps/follower/people_around.hpp"
 
+#include "apps/follower/param_checks.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,7 +22,13 @@ TrackerParams PeopleAroundParams::defaultTracker() {
 }
 
 PeopleAround::PeopleAround(const PeopleAroundParams& params)
-    : params_(params), tracker_(params.tracker) {}
+    : params_(params), tracker_(params.tracker) {
+  requireNotNegative(
+      "PeopleAroundParams",
+      {params.off_map_m, params.max_range_m, params.max_gap_m, params.max_size_m, params.pair_m,
+       params.stride_m, params.rests_after_s, params.stays_s, params.thing_after_s,
+       params.thing_within_m, params.person_radius_m, params.max_speed_mps});
+}
 
 void PeopleAround::step(double stamp_s, const LaserScan& scan, const FloorPose& T_world_scanner,
                         const Clearance& clearance) {

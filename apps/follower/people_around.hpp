@@ -38,6 +38,7 @@ struct PeopleAroundParams {
 /// walked. What never did, furniture or person, is left to who looks for obstacles.
 class PeopleAround {
  public:
+  /// @throws std::invalid_argument  if a parameter is out of its range.
   explicit PeopleAround(const PeopleAroundParams& params = {});
 
   /// @param clearance  Distance to what the map shows [m, world].

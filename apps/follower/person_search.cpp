@@ -3,7 +3,15 @@
 
 #include "apps/follower/person_search.hpp"
 
+#include "apps/follower/param_checks.hpp"
+
 namespace heel {
+
+PersonSearch::PersonSearch(const OccupancyGrid& floor, const OccupancyGrid& sight,
+                           const PersonSearchParams& params)
+    : params_(params), map_(floor, sight, params.map) {
+  requireNotNegative("PersonSearchParams", {params.budget_s, params.new_view_s});
+}
 
 void PersonSearch::lose(const MovingPerson& last, double unseen_s) {
   map_.start(last.position, last.velocity);

@@ -22,9 +22,9 @@ struct PersonSearchParams {
 class PersonSearch {
  public:
   /// Of these, one bars the way and one the view.
+  /// @throws std::invalid_argument  if a parameter is out of its range, or no cell is free.
   PersonSearch(const OccupancyGrid& floor, const OccupancyGrid& sight,
-               const PersonSearchParams& params = {})
-      : params_(params), map_(floor, sight, params.map) {}
+               const PersonSearchParams& params = {});
 
   /// They are lost; a while ago they were here, and walked so.
   void lose(const MovingPerson& last, double unseen_s);

@@ -3,55 +3,113 @@
 
 #include "apps/follower/sensor_watch.hpp"
 
+#include "apps/follower/param_checks.hpp"
+
 #include <opencv2/core.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace heel {
+namespace {
 
-void SensorWatch::step(const RobotReadings& readings) {
+// A beam from which nothing came back is a reading, too.
+bool isUsable(const LaserScan& scan) {
+  return std::isfinite(scan.first_rad) && std::isfinite(scan.step_rad) &&
+         std::any_of(scan.ranges_m.begin(), scan.ranges_m.end(),
+                     [](float range_m) { return range_m > 0.0F; });
+}
+
+}  // namespace
+
+SensorWatch::SensorWatch(const CameraSetup& camera, const SensorWatchParams& params)
+    : params_(params),
+      sensor_(camera.sensor),
+      image_size_(camera.camera.left.width, camera.camera.left.height) {
+  requireNotNegative(
+      "SensorWatchParams",
+      {params.max_image_age_s, params.max_scan_age_s, params.max_odometry_age_s, params.max_gap_s,
+       params.max_pair_gap_s, params.min_brightness, params.max_speed_mps, params.max_turn_radps});
+}
+
+RobotReadings SensorWatch::step(const RobotReadings& readings) {
   const double dt_s = begun_ ? readings.stamp_s - stamp_s_ : 0.0;
-  time_jumped_ = !(dt_s >= 0.0 && dt_s <= params_.max_gap_s);  // NaN too
-  const double passed_s = time_jumped_ ? 0.0 : dt_s;
+  time_jumped_ =
+      !(dt_s >= 0.0 && dt_s <= params_.max_gap_s && std::isfinite(readings.stamp_s));  // NaN too
+  elapsed_s_ = time_jumped_ ? 0.0 : dt_s;
   begun_ = true;
   stamp_s_ = readings.stamp_s;
 
   image_is_good_ = isUsable(readings);
-  image_age_s_ = image_is_good_ ? 0.0 : image_age_s_ + passed_s;
-  scan_age_s_ = readings.scan != nullptr ? 0.0 : scan_age_s_ + passed_s;
+  image_age_s_ = image_is_good_ ? 0.0 : image_age_s_ + elapsed_s_;
+
+  scan_is_good_ = readings.scan != nullptr && heel::isUsable(*readings.scan);
+  scan_age_s_ = scan_is_good_ ? 0.0 : scan_age_s_ + elapsed_s_;
 
   odometry_is_good_ = false;
   increment_ = {};
-  if (readings.odometry) {
-    const FloorPose& now = *readings.odometry;
-    const bool finite = now.position.allFinite() && std::isfinite(now.yaw_rad);
-    if (finite && odometry_) {
-      const FloorPose moved = odometry_->inverse() * now;
-      const double since_s = odometry_age_s_ + passed_s;
-      odometry_is_good_ = moved.position.norm() <= params_.max_speed_mps * since_s + 0.01 &&
-                          std::abs(moved.yaw_rad) <= params_.max_turn_radps * since_s + 0.01;
-      if (odometry_is_good_) increment_ = moved;
-    }
-    odometry_is_good_ = odometry_is_good_ || (finite && !odometry_);
-    if (finite) odometry_ = now;
+  increment_s_ = 0.0;
+  since_odometry_s_ += elapsed_s_;
+  if (readings.odometry && readings.odometry->position.allFinite() &&
+      std::isfinite(readings.odometry->yaw_rad)) {
+    measureIncrement(*readings.odometry);
   }
-  odometry_age_s_ = odometry_is_good_ ? 0.0 : odometry_age_s_ + passed_s;
+  odometry_age_s_ = odometry_is_good_ ? 0.0 : odometry_age_s_ + elapsed_s_;
 
   blindness_.clear();
   if (time_jumped_) blindness_ = "the clock jumped";
   if (odometry_age_s_ > params_.max_odometry_age_s) blindness_ = "no odometry";
   if (image_age_s_ > params_.max_image_age_s) blindness_ = "no usable image";
   if (scan_age_s_ > params_.max_scan_age_s) blindness_ = "no laser scan";
+
+  RobotReadings usable = readings;
+  if (!image_is_good_) usable.frame = nullptr;
+  if (!scan_is_good_) usable.scan = nullptr;
+  if (!odometry_is_good_) usable.odometry.reset();
+  return usable;
+}
+
+void SensorWatch::measureIncrement(const FloorPose& now) {
+  if (odometry_) {
+    const FloorPose moved = odometry_->inverse() * now;
+    odometry_is_good_ =
+        moved.position.norm() <= params_.max_speed_mps * since_odometry_s_ + 0.01 &&
+        std::abs(moved.yaw_rad) <= params_.max_turn_radps * since_odometry_s_ + 0.01;
+    if (odometry_is_good_) {
+      increment_ = moved;
+      increment_s_ = since_odometry_s_;
+    }
+  } else {
+    odometry_is_good_ = true;
+  }
+  odometry_ = now;
+  since_odometry_s_ = 0.0;
 }
 
 bool SensorWatch::isUsable(const RobotReadings& readings) const {
   if (readings.frame == nullptr || !(std::abs(readings.pair_gap_s) <= params_.max_pair_gap_s)) {
     return false;
   }
+  if (!fitsCamera(*readings.frame)) return false;
   const cv::Mat& image = readings.frame->image_bgr;
-  if (image.empty()) return readings.frame->cloud != nullptr;
+  if (image.empty()) return true;  // a cloud needs none
   const cv::Scalar mean = cv::mean(image);
   return (mean[0] + mean[1] + mean[2]) / 3.0 >= params_.min_brightness;
+}
+
+bool SensorWatch::fitsCamera(const Frame& frame) const {
+  const auto fits = [this](const cv::Mat& image, int type) {
+    return image.size() == image_size_ && image.type() == type;
+  };
+  switch (sensor_) {
+    case SensorKind::kStereo:
+      return fits(frame.image_bgr, CV_8UC3) && fits(frame.right_bgr, CV_8UC3);
+    case SensorKind::kRgbd:
+      return fits(frame.image_bgr, CV_8UC3) && fits(frame.depth_m, CV_32FC1);
+    case SensorKind::kCloud:
+      break;
+  }
+  return frame.cloud != nullptr;
 }
 
 }  // namespace heel

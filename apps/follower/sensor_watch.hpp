@@ -5,8 +5,12 @@
 /// Whether the robot's senses work: it must not move on stale or senseless readings.
 #pragma once
 
+#include "apps/follower/camera_setup.hpp"
 #include "apps/follower/robot_readings.hpp"
 
+#include <opencv2/core/types.hpp>
+
+#include <optional>
 #include <string>
 
 namespace heel {
@@ -25,29 +29,46 @@ struct SensorWatchParams {
 /// Looks at what came in, and when.
 class SensorWatch {
  public:
-  explicit SensorWatch(const SensorWatchParams& params = {}) : params_(params) {}
+  /// @param camera  What images must fit.
+  /// @throws std::invalid_argument  if a parameter is out of its range.
+  explicit SensorWatch(const CameraSetup& camera, const SensorWatchParams& params = {});
 
-  void step(const RobotReadings& readings);
+  /// @return What of these readings can be used: a senseless one is absent, as if its sensor had
+  ///         not measured.
+  RobotReadings step(const RobotReadings& readings);
 
+  /// Time since the step before; none where the clock jumped.
+  double elapsed_s() const { return elapsed_s_; }
   bool timeJumped() const { return time_jumped_; }
   bool imageIsGood() const { return image_is_good_; }  ///< There is one, and it can be used.
+  bool scanIsGood() const { return scan_is_good_; }
   bool odometryIsGood() const { return odometry_is_good_; }
-  /// How far the robot has moved since the last good odometry; nothing if it is not good.
+  /// How far the robot has moved since the last reading of odometry; nothing if this is not good.
   const FloorPose& increment() const { return increment_; }
+  /// In this time.
+  double increment_s() const { return increment_s_; }
 
   /// Why the robot must not move; empty if it may.
   const std::string& blindness() const { return blindness_; }
 
  private:
   bool isUsable(const RobotReadings& readings) const;
+  bool fitsCamera(const Frame& frame) const;
+  void measureIncrement(const FloorPose& now);
 
   SensorWatchParams params_;
+  SensorKind sensor_;
+  cv::Size image_size_;
   bool begun_ = false;
   double stamp_s_ = 0.0;
+  double elapsed_s_ = 0.0;
   double image_age_s_ = 0.0, scan_age_s_ = 0.0, odometry_age_s_ = 0.0;
-  bool time_jumped_ = false, image_is_good_ = false, odometry_is_good_ = false;
-  std::optional<FloorPose> odometry_;
+  bool time_jumped_ = false;
+  bool image_is_good_ = false, scan_is_good_ = false, odometry_is_good_ = false;
+  std::optional<FloorPose> odometry_;  // the last that was a number, good or not,
+  double since_odometry_s_ = 0.0;      // and its age
   FloorPose increment_;
+  double increment_s_ = 0.0;
   std::string blindness_;
 };
 

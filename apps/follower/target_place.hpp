@@ -42,7 +42,8 @@ struct TargetPlaceParams {
 /// it on until they are doubted too much.
 class TargetPlace {
  public:
-  explicit TargetPlace(const TargetPlaceParams& params = {}) : params_(params) {}
+  /// @throws std::invalid_argument  if a parameter is out of its range.
+  explicit TargetPlace(const TargetPlaceParams& params = {});
 
   /// They are known to be here (after phase 1, say).
   void startAt(const Eigen::Vector2d& position_m) { last_.position = position_m; }

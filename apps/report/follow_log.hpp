@@ -68,7 +68,7 @@ struct FollowLog {
   unsigned long seed = 0;
   std::string plan;     ///< Name of the Petri net plan.
   std::string command;  ///< The command line that repeats the run; may be empty.
-  std::string outcome;  ///< The follower's own word: "reached", "failed", "lost", "timeout", ...
+  std::string outcome;  ///< The follower's own word: "reached", "failed", "done", "timeout", ...
   std::string person;   ///< Whom to follow.
   OccupancyGrid map;
   double robot_radius_m = 0.26;

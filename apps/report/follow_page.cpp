@@ -176,7 +176,8 @@ std::string eyebrow(const FollowLog& log) {
 
 Tone toneOf(const std::string& outcome) {
   if (outcome == "reached") return Tone::kGood;
-  return outcome == "timeout" || outcome.empty() ? Tone::kWarning : Tone::kBad;
+  const bool is_open = outcome == "timeout" || outcome == "done" || outcome.empty();
+  return is_open ? Tone::kWarning : Tone::kBad;
 }
 
 std::string followPage(const FollowLog& log, const FollowSummary& sum,

@@ -4,6 +4,7 @@
 #include "apps/experiment/closed_loop.hpp"
 
 #include "planning/plan_file.hpp"
+#include "tests/planning/small_net.hpp"
 #include "tests/support/small_home.hpp"
 
 #include <gmock/gmock.h>
@@ -287,6 +288,29 @@ TEST(ClosedLoop, WhereTheClockJumpsItStopsForAStep) {
     EXPECT_TRUE(stands(at(log, jump_s).command));
     EXPECT_GT(at(log, jump_s + 0.5).speed_true.forward_mps, 0.2);
   }
+}
+
+TEST(ClosedLoop, WhereTheClockIsSetBackItGoesOnSeeing) {
+  const FollowLog log = followWith(Kind::kClockBack, 3.0);
+  expectGoodEnd(log);
+  EXPECT_EQ(at(log, kOnTheWay_s).reason, "the clock jumped");
+  for (double after_s = 0.2; after_s < 2.0; after_s += 0.1) {
+    const FollowSample& sample = at(log, kOnTheWay_s + after_s);
+    ASSERT_TRUE(sample.target_estimate) << after_s;
+    EXPECT_LT((*sample.target_estimate - *sample.person_true).norm(), 0.3) << after_s;
+  }
+}
+
+TEST(ClosedLoop, EndsWhereThePlanComesToItsGoal) {
+  const PetriNet net = test::SmallNet()
+                           .place("stop.exec", 1)
+                           .place("goal")
+                           .place("fail")
+                           .transition("stop.end [targetSeen]", {"stop.exec"}, {"goal"});
+  const FollowLog log =
+      runClosedLoop(test::smallHome(), makePlan(net, followingVocabulary()), quickLoop());
+  EXPECT_EQ(log.outcome, "done");
+  EXPECT_LT(log.samples.back().stamp_s, kOnTheWay_s);
 }
 
 TEST(ClosedLoop, LearnsThoughTheClockJumps) {

@@ -201,6 +201,16 @@ TEST_F(Faults, AClockThatJumpsMovesAllStampsAndNothingElse) {
   expectTrue(next());
 }
 
+TEST_F(Faults, AClockThatIsSetBackMovesAllStampsAndNothingElse) {
+  have(Kind::kClockBack, 0.1, 0.2);
+  expectTrue(next());
+  const RobotReadings& read = next();
+  EXPECT_NEAR(read.stamp_s, truth_.stamp_s - 1.5, 1e-9);
+  expectTrueImages(read);
+  expectTrueRest(read);
+  expectTrue(next());
+}
+
 TEST_F(Faults, SeveralCanBeAtOnce) {
   sensors_ = FaultySensors({{Kind::kNoLaser, 0.0, 9.0}, {Kind::kNoCamera, 0.1, 9.0}});
   EXPECT_NE(next().frame, nullptr);

@@ -8,6 +8,9 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
 
 namespace heel {
 namespace {
@@ -26,7 +29,7 @@ class SensorWatchTest : public testing::Test {
     readings.scan = has_scan ? &scan : nullptr;
     readings.odometry.reset();
     if (has_odometry) readings.odometry = odometry;
-    watch.step(readings);
+    usable = watch.step(readings);
   }
 
   /// The reason after so many steps.
@@ -37,18 +40,27 @@ class SensorWatchTest : public testing::Test {
 
   void setBrightness(int level) { frame.image_bgr.setTo(cv::Scalar::all(level)); }
 
+  static CameraSetup cameraOf(SensorKind sensor) {
+    CameraSetup setup;
+    setup.sensor = sensor;
+    setup.camera.left.width = 16;
+    setup.camera.left.height = 12;
+    return setup;
+  }
+
   static Frame brightFrame() {
     Frame made;
     made.image_bgr = cv::Mat(12, 16, CV_8UC3, cv::Scalar::all(100));
+    made.right_bgr = made.image_bgr.clone();
     return made;
   }
 
   Frame frame = brightFrame();
-  LaserScan scan;
+  LaserScan scan{0.0, 0.1, {1.0F, 2.0F}};
   FloorPose odometry;
   bool has_frame = true, has_scan = true, has_odometry = true;
-  RobotReadings readings;
-  SensorWatch watch;
+  RobotReadings readings, usable;
+  SensorWatch watch{cameraOf(SensorKind::kStereo)};
 };
 
 TEST_F(SensorWatchTest, LetsARobotMoveWhoseSensorsWork) {
@@ -80,7 +92,7 @@ TEST_F(SensorWatchTest, BearsEachSensorsSilenceForItsTime) {
 }
 
 TEST_F(SensorWatchTest, SensorsThatNeverGaveAnythingAreMissedToo) {
-  watch = SensorWatch();
+  watch = SensorWatch(cameraOf(SensorKind::kStereo));
   has_frame = false;
   EXPECT_EQ(after(1), "");
   EXPECT_EQ(after(7), "no usable image");
@@ -110,7 +122,56 @@ TEST_F(SensorWatchTest, APairOutOfStepIsNotUsed) {
   }
 }
 
+TEST_F(SensorWatchTest, ImagesThatDoNotFitTheCameraAreNotUsed) {
+  const Frame whole = brightFrame();
+  const auto isGood = [this] {
+    step();
+    EXPECT_EQ(usable.frame != nullptr, watch.imageIsGood());
+    return watch.imageIsGood();
+  };
+  EXPECT_TRUE(isGood());
+  frame.right_bgr.release();
+  EXPECT_FALSE(isGood()) << "no right image";
+  frame.right_bgr = cv::Mat(6, 8, CV_8UC3, cv::Scalar::all(100));
+  EXPECT_FALSE(isGood()) << "a right image of another size";
+  frame.right_bgr = cv::Mat(12, 16, CV_8UC1, cv::Scalar::all(100));
+  EXPECT_FALSE(isGood()) << "a grey right image";
+  frame.image_bgr = frame.right_bgr = cv::Mat(24, 32, CV_8UC3, cv::Scalar::all(100));
+  EXPECT_FALSE(isGood()) << "both of a size that is not the camera's";
+  frame = whole;
+  frame.image_bgr.release();
+  EXPECT_FALSE(isGood()) << "no left image";
+
+  watch = SensorWatch(cameraOf(SensorKind::kRgbd));
+  frame = whole;
+  EXPECT_FALSE(isGood()) << "no depth";
+  frame.depth_m = cv::Mat(12, 16, CV_16UC1, cv::Scalar::all(100));
+  EXPECT_FALSE(isGood()) << "depth in millimetres";
+  frame.depth_m = cv::Mat(12, 16, CV_32FC1, cv::Scalar::all(1));
+  EXPECT_TRUE(isGood());
+}
+
+TEST_F(SensorWatchTest, AScanWithoutAReadingIsNone) {
+  const auto inf = std::numeric_limits<float>::infinity();
+  const auto nan = std::numeric_limits<float>::quiet_NaN();
+  for (const LaserScan& broken :
+       {LaserScan{}, LaserScan{0.0, 0.1, {nan, nan}}, LaserScan{0.0, 0.1, {0.0F, -1.0F}},
+        LaserScan{kNan, 0.1, {1.0F}}, LaserScan{0.0, kNan, {1.0F}}}) {
+    scan = broken;
+    step();
+    EXPECT_FALSE(watch.scanIsGood());
+    EXPECT_EQ(usable.scan, nullptr);
+  }
+  EXPECT_EQ(watch.blindness(), "no laser scan");
+  scan = {0.0, 0.1, {nan, inf}};
+  step();
+  EXPECT_TRUE(watch.scanIsGood()) << "nothing is within reach on one side";
+  EXPECT_EQ(usable.scan, &scan);
+  EXPECT_EQ(watch.blindness(), "");
+}
+
 TEST_F(SensorWatchTest, ACloudNeedsNoImage) {
+  watch = SensorWatch(cameraOf(SensorKind::kCloud));
   frame.image_bgr.release();
   step();
   EXPECT_FALSE(watch.imageIsGood());
@@ -194,6 +255,17 @@ TEST_F(SensorWatchTest, RareOdometryMayComeFurtherAtOnce) {
   step();
   EXPECT_TRUE(watch.odometryIsGood());
   EXPECT_NEAR(watch.increment().position.x(), 0.4, 1e-12);
+  EXPECT_NEAR(watch.increment_s(), 0.3, 1e-12);
+}
+
+TEST_F(SensorWatchTest, AnIncrementIsOfTheTimeSinceTheReadingBefore) {
+  odometry.position.x() = 5.0;  // a slip
+  step();
+  EXPECT_EQ(watch.increment_s(), 0.0);
+  odometry.position.x() = 5.03;
+  step();
+  EXPECT_NEAR(watch.increment().position.x(), 0.03, 1e-12);
+  EXPECT_NEAR(watch.increment_s(), 0.1, 1e-12) << "the slip's time is not its";
 }
 
 TEST_F(SensorWatchTest, StopsForOneStepWhereTheClockJumps) {
@@ -224,6 +296,25 @@ TEST_F(SensorWatchTest, AStampThatIsNoNumberIsAJumpAndHidesNothing) {
   readings.stamp_s = stamp_s;
   step();
   EXPECT_EQ(after(4), "no laser scan");
+}
+
+TEST_F(SensorWatchTest, TellsTheTimeThatPassed) {
+  EXPECT_NEAR(watch.elapsed_s(), 0.0, 0.0) << "nothing before the first step";
+  step(0.25);
+  EXPECT_NEAR(watch.elapsed_s(), 0.25, 1e-12);
+  for (const double jump_s : {3600.0, -0.5, kNan}) {
+    step(jump_s);
+    EXPECT_EQ(watch.elapsed_s(), 0.0) << jump_s;
+  }
+}
+
+TEST_F(SensorWatchTest, RefusesParametersThatMakeNoSense) {
+  SensorWatchParams params;
+  params.max_gap_s = -1.0;
+  EXPECT_THROW(SensorWatch(cameraOf(SensorKind::kStereo), params), std::invalid_argument);
+  params = {};
+  params.max_speed_mps = kNan;
+  EXPECT_THROW(SensorWatch(cameraOf(SensorKind::kStereo), params), std::invalid_argument);
 }
 
 TEST_F(SensorWatchTest, NothingPassesWhileTheClockStands) {

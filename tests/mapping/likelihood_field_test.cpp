@@ -86,6 +86,21 @@ TEST(LikelihoodField, HasNoSurfaceDeepInsideAThickThing) {
   EXPECT_LT(field.logLikelihood({3.0, 3.0}), field.logLikelihood({2.0, 3.0}) - 3.0);
 }
 
+TEST(LikelihoodField, APlaceThatIsNoNumberIsTheCorner) {
+  const LikelihoodField field(emptyRoom(2.0, 2.0));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double corner = field.logLikelihood({-9.0, -9.0});
+  EXPECT_EQ(field.logLikelihood({nan, nan}), corner);
+  EXPECT_EQ(field.distance_m({nan, nan}), field.distance_m({-9.0, -9.0}));
+  BeamEnds ends;
+  ends.x = {std::numeric_limits<float>::quiet_NaN()};
+  ends.y = {0.5F};
+  const float zero = 0.0F, one = 1.0F;
+  float sum = 0.0F;
+  field.score(ends, 1, &one, &one, &one, &zero, &sum);
+  EXPECT_TRUE(std::isfinite(sum));
+}
+
 TEST(LikelihoodField, RejectsWhatMakesNoSense) {
   EXPECT_THROW(LikelihoodField(OccupancyGrid{}), std::invalid_argument);
   LikelihoodFieldParams params;

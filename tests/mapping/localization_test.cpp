@@ -167,6 +167,13 @@ TEST(Localization, LivesWithScansThatSayNothing) {
   driver.expectRight(localization);
 }
 
+TEST(Localization, StartsAtNoPlaceThatIsNoNumber) {
+  Localization localization(test::emptyRoom(4.0, 3.0), {}, {});
+  const double nan = std::nan("");
+  EXPECT_THROW(localization.startAt({{nan, 0.0}, 0.0}), std::invalid_argument);
+  EXPECT_THROW(localization.startAt({{0.0, 0.0}, nan}), std::invalid_argument);
+}
+
 TEST(Localization, ScansWithHolesStillTrack) {
   Driver driver;
   Localization localization(driver.room);

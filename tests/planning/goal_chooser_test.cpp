@@ -83,7 +83,7 @@ TEST(GoalChooser, PrefersPlacesThatSeeThePerson) {
   EXPECT_GT(place->pose.position.y(), 0.3);
 }
 
-TEST(GoalChooser, TakesOnlyPlacesWithRoomThatCanBeReached) {
+TEST(GoalChooser, TakesOnlyPlacesWithRoom) {
   GoalChooser chooser;
   const auto tight = [](const Vector2d& p) { return p.x() < 3.2 ? 0.3 : 1.0; };
   const auto place = chooser.choose(kStanding, {{0, 0}, 0}, tight, kSees, {});
@@ -91,17 +91,19 @@ TEST(GoalChooser, TakesOnlyPlacesWithRoomThatCanBeReached) {
   EXPECT_GE(place->pose.position.x(), 3.2);
   const auto nan = [](const Vector2d&) { return std::numeric_limits<double>::quiet_NaN(); };
   EXPECT_FALSE(chooser.choose(kStanding, {{0, 0}, 0}, nan, kSees, {}));
-  const auto nowhere = [](const Vector2d&) { return std::numeric_limits<double>::infinity(); };
-  const FunctionRef<double(const Vector2d&)> way = nowhere;
-  EXPECT_FALSE(chooser.choose(kStanding, {{0, 0}, 0}, kOpen, kSees, {}, &way));
 }
 
-TEST(GoalChooser, StandsBehindSomebodyWhoWalksPast) {
-  GoalChooser chooser;
+TEST(GoalChooser, LeavesTheWayToSomebodyWhoWalksTowardsTheRobot) {
   const MovingPerson person{{3.0, 0.0}, {0.0, 1.0}, 0.25};
-  const auto place = chooser.choose(person, {{0, 0.4}, 0}, kOpen, kSees, {});
-  ASSERT_TRUE(place);
-  EXPECT_LE(place->pose.position.y(), 0.45);
+  const FloorPose robot{{2.0, 1.5}, 0.0};  // in front of them, to the side
+  const auto chosenY = [&](double ahead_cost) {
+    GoalChooserParams params;
+    params.ahead_cost = ahead_cost;
+    GoalChooser chooser(params);
+    const auto place = chooser.choose(person, robot, kOpen, kSees, {});
+    return place ? place->pose.position.y() : std::numeric_limits<double>::quiet_NaN();
+  };
+  EXPECT_LT(chosenY(2.0), chosenY(0.0) - 0.1);
 }
 
 TEST(GoalChooser, RefusesBadInput) {

@@ -53,6 +53,21 @@ TEST(PlanFile, AnEndWithoutAGuardWaitsForTheAction) {
       "'walk.finished' is unknown");
 }
 
+TEST(PlanFile, AJoinWithoutAGuardWaitsForAllItsActions) {
+  const PlanVocabulary words = {{"walk", "wave"}, {"walk.finished", "wave.failed"}};
+  const PetriPlan plan =
+      makePlan(SmallNet()
+                   .place("walk.exec", 1)
+                   .place("wave.exec", 1)
+                   .place("goal")
+                   .transition("walk.end wave.fail", {"walk.exec", "wave.exec"}, {"goal"}),
+               words);
+  const PlanGuard& guard = plan.transitions.front().guard;
+  EXPECT_FALSE(guard.holds({1, 0}));
+  EXPECT_FALSE(guard.holds({0, 1}));
+  EXPECT_TRUE(guard.holds({1, 1}));
+}
+
 TEST(PlanFile, NamesWhatMakesNoSense) {
   EXPECT_EQ(error("walk.exec walk.exec", "walk.end [near]", "goal"),
             "place 'walk.exec walk.exec' (walk.exec walk.exec) names two actions");

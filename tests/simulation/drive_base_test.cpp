@@ -24,16 +24,6 @@ TEST(DriveBase, ObeysItsLimitsOfSpeedAndAcceleration) {
   EXPECT_DOUBLE_EQ(robot.speed().turn_radps, params.max_turn_radps);
 }
 
-TEST(DriveBase, DrivesACircle) {
-  FloorPose pose;
-  for (int i = 0; i < 1000; ++i)
-    pose = alongArc(pose, 2 * 3.14159265358979 * 0.5 / 1000, 2 * 3.14159265358979 / 1000);
-  EXPECT_NEAR(pose.position.norm(), 0.0, 1e-9);
-  const FloorPose quarter = alongArc({}, 0.5 * 3.14159265358979 / 2, 3.14159265358979 / 2);
-  EXPECT_NEAR(quarter.position.x(), 0.5, 1e-12);
-  EXPECT_NEAR(quarter.position.y(), 0.5, 1e-12);
-}
-
 TEST(WheelOdometry, DriftsWithTheStatisticsThatAreConfigured) {
   OdometryParams params;
   params.distance_noise = 0.03;

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/follower/follower_params.hpp"
+
+#include "apps/follower/param_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+void check(const FollowerParams& p) {
+  requireNotNegative(
+      "FollowerParams",
+      {p.near_m,          p.far_m,           p.beside_m,        p.comes_mps,
+       p.makes_room_s,    p.waits_aside_s,   p.sees_within_m,   p.lost_after_s,
+       p.first_looks_s,   p.look_share,      p.seek_radps,      p.ahead_rad,
+       p.lost_turn_radps, p.give_up_s,       p.beside_s,        p.stands_mps,
+       p.beside_people_m, p.target_radius_m, p.mapped_within_m, p.obstacles_every_s});
+  if (p.near_m > p.far_m) {
+    throw std::invalid_argument("FollowerParams: near_m must not be greater than far_m");
+  }
+  const WaysideParams& w = p.wayside;
+  requireNotNegative("WaysideParams", {w.radius_m, w.margin_m, w.person_m, w.reach_m, w.away_m,
+                                       w.doorway_depth_m, w.apart_m});
+}
+
+}  // namespace
+
+FollowerParams::FollowerParams() {
+  learn.appearance.bands = wholeBody();  // a robot that keeps its distance sees trousers, too
+  learn.appearance.comparison = BodyComparison::kMatch;
+  perception.match.sharpness = 1.3;        // lenient: a home's rooms differ in their light
+  perception.match.unknown_stature = 1.0;  // close by, heads are above the picture
+  perception.target.min_appearance = 0.5;  // matching tells people well apart: few are in between
+  perception.target.appearance_frames = 2;
+  perception.target.release_share = 0.7;
+  perception.target.release_s = 1.0;
+  perception.target.release_started = true;
+  perception.target.takeover_ratio = 1.4;
+  perception.target.sure_appearance = 0.6;
+  perception.target.most_doubt = 8;
+  paths.bend_room_m = 0.12;  // round a corner with some room one sees further behind it
+  paths.safety_m = 0.08;  // more than the local planner's margin, or it stops where the path goes
+  goal.ahead_cost = 0.0;  // people who are followed turn and stop; round them is out of their view
+  goal.lead_s = 0.2;      // they turn often
+  goal.most_standoff_m = 1.25;  // who is followed wants company, even behind a doorway
+  goal.doorway_depth_m = 0.95;  // somebody who comes out of it must get past the robot
+  drive.margin_m = 0.06;        // the map's walls are as far off as localization is
+  drive.terms.weights[static_cast<std::size_t>(DriveTerm::kView)] = 4.0;  // or the target is lost
+  obstacles.min_points = 6;      // coarse stereo errs in specks
+  obstacles.min_memory_s = 0.7;  // a false match of one frame must not close a doorway for long
+  obstacles.memory_gain = 3.0;   // in a home with people, what was there is soon out of date
+  obstacles.max_memory_s = 8.0;
+}
+
+double RobotDescription::halfView_rad() const {
+  const PinholeCamera& left = camera.camera.left;
+  return std::atan2(0.5 * left.width, left.fx);
+}
+
+FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
+  check(params);
+  params.obstacles.max_height_m = params.obstacle_points.max_height_m = robot.height_m;
+  params.obstacles.laser_height_m = robot.scanner_height_m;
+  params.gate.eye_height_m = robot.camera.T_base_camera.translation().z();
+  params.gate.depth_error_pm = params.legs.depth_error_pm = depthErrorOf(robot.camera.camera);
+  params.paths.robot_radius_m = robot.drive.radius_m;
+  params.goal.radius_m = robot.drive.radius_m;
+  params.wayside.radius_m = robot.drive.radius_m;
+  params.drive.limits = robot.drive;
+  if (const double half_rad = robot.halfView_rad(); half_rad > 0.0) {
+    // A narrow camera sees no more than it does; a wide one sees badly at its rims.
+    double& field_rad = params.search.map.field_of_view_rad;
+    field_rad = std::min(field_rad, 2.0 * half_rad);
+    double& keeps_in_rad = params.drive.terms.half_view_rad;
+    keeps_in_rad = std::min(keeps_in_rad, 0.8 * half_rad);
+  }
+  return params;
+}
+
+}  // namespace heel
