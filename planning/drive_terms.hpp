@@ -30,8 +30,9 @@ using DriveScores = std::array<double, kDriveTerms>;
 const char* nameOf(DriveTerm term);
 
 struct DriveTermParams {
+  /// In the order of DriveTerm: progress, path, heading, clearance, people, view, smoothness.
   DriveScores weights = {10.0, 2.0, 1.5, 2.0, 16.0, 1.5, 0.4};
-  double path_off_m = 0.3;
+  double path_off_m = 0.3;         ///< Mean distance to the path at which its cost is half.
   double comfort_m = 0.25;         ///< Room to walls and furniture from which on more is no better.
   double people_comfort_m = 0.35;  ///< The same for people.
   double foresight_s = 2.0;        ///< How long people are taken to keep their velocity.

@@ -24,7 +24,7 @@ struct AcquisitionParams {
   /// near to that ray, and no further away along it than max_split_m, is the same person's.
   double ray_width_m = 0.35;
   double max_split_m = 0.8;
-  double min_learn_height_m = 1.0;  ///< What is higher counts as the torso.
+  double min_learn_height_m = 1.0;  ///< What is higher is labelled as torso, the rest as legs.
   /// Depth and colour images never fit to the pixel, so a moving person's disparity takes in a rim
   /// of the room. The person's pixels are therefore those that differ in intensity too, unless
   /// fewer than this share of them do: then the clothes have the wall's colour. Besides somebody

@@ -34,7 +34,10 @@ struct RobotDescription {
   double halfView_rad() const;  ///< Half the camera's horizontal field of view; 0: unknown.
 };
 
-/// What fittedTo() sets from the robot has no effect here.
+/// All that can be set of a Follower. Some of it the robot tells, whatever is written here:
+/// drive.limits, paths.robot_radius_m, goal.radius_m, wayside.radius_m, obstacles.max_height_m,
+/// obstacles.laser_height_m, obstacle_points.max_height_m, gate.eye_height_m, gate.depth_error_pm
+/// and legs.depth_error_pm; see fittedTo().
 struct FollowerParams {
   LearnPersonParams learn;
   PerceptionParams perception;

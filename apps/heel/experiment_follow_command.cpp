@@ -69,7 +69,9 @@ void addFollowExperiment(CLI::App& experiment) {
       "  heel experiment follow --out out/follow_experiment\n"
       "Every failure is listed with the command that shows it again.");
   verb->add_option("--episodes", options->params.episodes, "random homes")->capture_default_str();
-  verb->add_flag("!--no-table1", options->params.table1, "the random homes only");
+  verb->add_flag_callback(
+      "--no-table1", [options] { options->params.table1 = false; },
+      "leave out the paper's three experiments: the random homes only");
   verb->add_option("--seed", options->params.first_seed, "of the first random home")
       ->capture_default_str();
   verb->add_option("--limit", options->params.limit_s, "a run ends after so long [s]")

@@ -148,7 +148,8 @@ void addLocalizationExperiment(CLI::App& verb) {
   CLI::App* experiment = verb.add_subcommand(
       "localization", "Localization against exact truth, in a simulated flat with people in it");
   experiment->footer("Example:\n  heel experiment localization --out out/localization");
-  experiment->add_option("--scene", options->scene, "a scene's YAML file");
+  experiment->add_option("--scene", options->scene,
+                         "a scene's YAML file (default: the flat, home)");
   experiment->add_option("--tracking", options->tracking, "runs from a known start")
       ->capture_default_str();
   experiment->add_option("--global", options->global, "runs from anywhere")->capture_default_str();

@@ -156,13 +156,15 @@ void addFollow(CLI::App& app) {
                    "what to do when the person is lost: 'paper', 'search', or a PNML file")
       ->capture_default_str();
   verb->add_option("--out", options->out, "folder for the results")->capture_default_str();
-  verb->add_option("--seed", options->loop.seed, "of all noise")->capture_default_str();
+  verb->add_option("--seed", options->loop.seed, "of all noise; with --random, of the home too")
+      ->capture_default_str();
   verb->add_option("--limit", options->loop.limit_s, "the run ends after so long [s]")
       ->capture_default_str();
   verb->add_option("--image-size", options->image_size,
-                   "of the camera, for instance 640x480, instead of the scene's");
+                   "of the camera [px], for instance 640x480 (default: the scene's)");
   verb->add_option("--rate", options->rate_hz,
-                   "pictures and commands a second, to a hundredth of a second's period")
+                   "pictures and commands [Hz]; the period is rounded to 0.01 s (default: the "
+                   "scene's pictures, 10 commands)")
       ->check(CLI::Range(1.0, 100.0));
   verb->add_flag("--no-film", options->no_film, "write no film");
   addResultBag(*verb, options->bag);

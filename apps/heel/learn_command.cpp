@@ -151,7 +151,8 @@ void addLearn(CLI::App& app) {
             options->params.appearance.principal_colors.count = count;
             options->params.appearance.bands = upperBody();
           },
-          "use the paper's model with this many principal colours; 1 is the paper's, 0 chooses")
+          "use the paper's model with this many principal colours of what is above 1 m; 1 is the "
+          "paper's, 0 chooses (default: the ratio of a colour's share to the room's)")
       ->check(CLI::Range(0, 8))
       ->type_name("K");
   verb->add_flag_callback(

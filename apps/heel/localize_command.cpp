@@ -109,8 +109,9 @@ void addLocalize(CLI::App& app) {
   const std::map<std::string, MapScans> scans{
       {"even", MapScans::kEven}, {"first-half", MapScans::kFirstHalf}, {"all", MapScans::kAll}};
   verb->add_option("--map-scans", options->map_scans,
-                   "scans that make the map if none is given: even, first-half, all")
-      ->transform(CLI::CheckedTransformer(scans));
+                   "scans that make the map if none is given: even (the default), first-half, all")
+      ->transform(CLI::CheckedTransformer(scans))
+      ->option_text("WHICH");
   verb->add_option("--cell", options->cell_size_m, "edge of a cell of the map [m]")
       ->check(CLI::Range(0.01, 1.0))
       ->capture_default_str();

@@ -72,9 +72,9 @@ int main(int argc, char** argv) {
       "heel: a mobile robot follows one person.\n"
       "\n"
       "Phase 1, learn, finds out who to follow; phase 2, track, where they are.\n"
-      "A RECORDING is a folder: stereo images with a calibration, RGB-D images in the TUM layout\n"
-      "with a camera.yaml, PCD files, or a bag of ROS 1\n"
-      "or ROS 2. 'heel VERB --help' tells more.\n",
+      "A RECORDING is a folder (stereo images with a calibration, RGB-D images in the TUM layout\n"
+      "with a camera.yaml, or PCD files), or a bag of ROS 1 or ROS 2.\n"
+      "'heel VERB --help' tells more.\n",
       "heel"};
   app.set_version_flag("--version", std::string("heel ") + HEEL_VERSION);
   app.footer(

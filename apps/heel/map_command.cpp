@@ -74,8 +74,10 @@ void addMap(CLI::App& app) {
           "a recording with robot.csv, or a bag with odometry")
       ->required();
   verb->add_option("--out", options->out, "folder for the map")->required();
-  verb->add_option("--resolution", options->params.cell_size_m,
-                   "edge of a cell, and of a picture's pixel [m]")
+  verb->add_option(
+          "--resolution", options->params.cell_size_m,
+          "edge of a cell, and of a picture's pixel [m] (default: the map's own, else 0.05; a "
+          "picture needs it)")
       ->check(CLI::Range(0.001, 10.0));
   verb->add_option("--height", options->params.wall_height_m, "to which a plan's walls go up [m]")
       ->check(CLI::Range(0.1, 100.0))

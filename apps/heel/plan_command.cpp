@@ -122,7 +122,7 @@ void addPlan(CLI::App& app) {
       ->required()
       ->delimiter(',')
       ->expected(2);
-  verb->add_option("--to", options->to, "where it shall go")
+  verb->add_option("--to", options->to, "where it shall go: x,y in metres")
       ->required()
       ->delimiter(',')
       ->expected(2);
@@ -131,8 +131,10 @@ void addPlan(CLI::App& app) {
   verb->add_option("--radius", options->planner.robot_radius_m, "of the robot, in metres")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  verb->add_option("--cell", options->source.cell_size_m,
-                   "edge of the map's cells, and of a picture's pixel, in metres")
+  verb->add_option(
+          "--cell", options->source.cell_size_m,
+          "edge of the map's cells, and of a picture's pixel, in metres (default: the map's own, "
+          "else 0.05; a picture needs it)")
       ->check(CLI::Range(0.01, 0.5));
   verb->callback([options] { run(*options); });
 }

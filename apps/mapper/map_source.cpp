@@ -43,8 +43,9 @@ SourcedMap openMap(const fs::path& path, const MapSourceParams& params) {
   if (path.extension() == ".bt") return {loadWallMap(path), "wall map"};
   if (isImageName(path)) {
     if (!params.cell_size_m) {
-      throw std::runtime_error(path.string() +
-                               ": a picture does not tell how large a pixel is; say --resolution");
+      throw std::runtime_error(
+          path.string() +
+          ": a picture does not tell how large a pixel is; say it (--resolution, or --cell)");
     }
     return {extruded(gridFromImage(path, cell_m), params), "picture"};
   }
