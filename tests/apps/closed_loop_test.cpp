@@ -219,6 +219,7 @@ std::size_t heap_KiB() {
 }
 
 TEST(ClosedLoop, HoldsNoMoreMemoryTheLongerItFollows) {
+  if (heap_KiB() == 0) GTEST_SKIP() << "this system does not tell what the heap holds";
   Scene scene = test::smallHome();
   std::vector<PathStep>& path = scene.people[0].path;
   for (int round = 0; round < 5; ++round) {
@@ -236,7 +237,6 @@ TEST(ClosedLoop, HoldsNoMoreMemoryTheLongerItFollows) {
                                       [&](const auto&...) { held_KiB.push_back(heap_KiB()); });
   ASSERT_EQ(log.samples.size(), held_KiB.size());
   ASSERT_GT(log.samples.back().stamp_s, 89.0);
-  if (held_KiB.back() == 0) GTEST_SKIP() << "this system does not tell what the heap holds";
   // Longer reasons of the run's log take 0.1 KiB each; a picture would take 56.
   EXPECT_LT(held_KiB.back(), held_KiB[held_KiB.size() / 2] + 64);
 }
