@@ -3,6 +3,7 @@
 
 #include "mapping/map_server_file.hpp"
 
+#include "cloud/image_extent.hpp"
 #include "mapping/whole_file.hpp"
 
 #include <opencv2/core/mat.hpp>
@@ -53,6 +54,10 @@ cv::Mat readImage(const fs::path& file) {
   const std::string bytes = readWholeFile(file);
   if (bytes.empty()) fail(file, "the image is empty (0 bytes)");
   if (isTruncated(bytes)) fail(file, "the image is truncated");
+  constexpr std::size_t kBytesPerPixel = 2;  // the picture's, and then the cell's
+  checkImageMemory(file.string() + ": the image",
+                   reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(),
+                   kBytesPerPixel);
   cv::Mat image;
   try {
     image = cv::imdecode(std::vector<char>(bytes.begin(), bytes.end()), cv::IMREAD_GRAYSCALE);

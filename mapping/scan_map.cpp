@@ -3,11 +3,19 @@
 
 #include "mapping/scan_map.hpp"
 
+#include "cloud/file_limits.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 namespace heel {
+namespace {
+
+/// Further away, cells can't be counted in whole numbers.
+constexpr double kFurthest_cells = 1e9;
+
+}  // namespace
 
 ScanMap::ScanMap(const ScanMapParams& params) : params_(params) {
   if (!(params.cell_size_m > 0.0) || !(params.max_range_m > 0.0)) {
@@ -20,6 +28,10 @@ ScanMap::ScanMap(const ScanMapParams& params) : params_(params) {
 
 void ScanMap::makeRoom(const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
   constexpr int kSpare = 40;  // Cells, so that it seldom grows.
+  if (!((low.cwiseAbs().cwiseMax(high.cwiseAbs()).array() < kFurthest_cells * params_.cell_size_m))
+           .all()) {
+    throw std::runtime_error("a scan was taken further away than a map can reach");
+  }
   const Eigen::Vector2i first = (low / params_.cell_size_m).array().floor().cast<int>().matrix();
   const Eigen::Vector2i last = (high / params_.cell_size_m).array().floor().cast<int>().matrix();
   const bool empty = counts_.empty();
@@ -33,8 +45,12 @@ void ScanMap::makeRoom(const Eigen::Vector2d& low, const Eigen::Vector2d& high) 
     end = end.cwiseMax(corner_ + size_);
   }
   const Eigen::Vector2i size = end - corner;
-  std::vector<Count> counts(static_cast<std::size_t>(size.x()) *
-                            static_cast<std::size_t>(size.y()));
+  const std::size_t cells =
+      timesAtMost(static_cast<std::size_t>(size.x()), static_cast<std::size_t>(size.y()));
+  checkMemory("the map of " + std::to_string(size.x()) + "x" + std::to_string(size.y()) +
+                  " cells that the scans span",
+              timesAtMost(cells, sizeof(Count)));
+  std::vector<Count> counts(cells);
   for (int y = 0; y < size_.y(); ++y) {
     const auto from = counts_.begin() + static_cast<std::ptrdiff_t>(y) * size_.x();
     const auto to = static_cast<std::ptrdiff_t>(y + corner_.y() - corner.y()) * size.x() +
@@ -77,6 +93,7 @@ void ScanMap::add(const FloorPose& T_map_scanner, const LaserScan& scan) {
     const auto range_m = static_cast<double>(scan.ranges_m[i]);
     if (!std::isfinite(range_m) || range_m <= 0.0) continue;
     const double angle = T_map_scanner.yaw_rad + scan.angle(i);
+    if (!std::isfinite(angle)) continue;
     const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
     const bool ended = range_m <= params_.max_range_m;
     countBeam(from, from + std::min(range_m, params_.max_range_m) * along, ended);

@@ -30,7 +30,9 @@ class ScanMap {
   /// @throws std::invalid_argument  if a parameter is out of range.
   explicit ScanMap(const ScanMapParams& params = {});
 
-  /// @param T_map_scanner  Where the scan was taken; not finite = passed over.
+  /// @param T_map_scanner  Where the scan was taken; not finite = passed over, as are beams whose
+  ///                       angle is not.
+  /// @throws std::runtime_error  if the map would then take more memory than is allowed.
   void add(const FloorPose& T_map_scanner, const LaserScan& scan);
 
   /// The map so far; unknown where no beam was.

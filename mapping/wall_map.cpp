@@ -3,6 +3,8 @@
 
 #include "mapping/wall_map.hpp"
 
+#include "cloud/file_limits.hpp"
+
 #include <octomap/OcTree.h>
 
 #include <algorithm>
@@ -18,7 +20,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kMostCells = 1e8;
 constexpr double kTouch = 1e-3;  // Of a cell: less than this is touching, not overlapping.
 
 octomap::point3d toOctomap(const Vector3d& p) {
@@ -102,23 +103,34 @@ bool WallMap::lineOfSight(const Vector3d& from, const Vector3d& to, double margi
   return firstWall(from, to) >= (to - from).norm() - margin_m;
 }
 
+/// What the tree spans of the floor, in cells from the origin.
+Eigen::AlignedBox2i WallMap::floorCells() const {
+  double low[3], high[3];
+  tree_->getMetricMin(low[0], low[1], low[2]);
+  tree_->getMetricMax(high[0], high[1], high[2]);
+  const auto cell = [&](double at) { return static_cast<int>(std::lround(at / cell_size_m())); };
+  return {Eigen::Vector2i(cell(low[0]), cell(low[1])),
+          Eigen::Vector2i(cell(high[0]), cell(high[1]))};
+}
+
+std::size_t WallMap::floorBytes() const {
+  constexpr std::size_t kBytesPerCell = 32;  // with the distances that are made of it
+  if (tree_->size() == 0) return 0;
+  const Eigen::Vector2i size = floorCells().sizes();
+  return timesAtMost(kBytesPerCell, timesAtMost(static_cast<std::size_t>(size.x()),
+                                                static_cast<std::size_t>(size.y())));
+}
+
 OccupancyGrid WallMap::floorGrid(const HeightBand& band) const {
   if (!(band.low_m < band.high_m)) {
     throw std::invalid_argument("a height band's low must be under its high");
   }
   if (tree_->size() == 0) return {};
-  double low[3], high[3];
-  tree_->getMetricMin(low[0], low[1], low[2]);
-  tree_->getMetricMax(high[0], high[1], high[2]);
+  checkMemory("the floor of the map", floorBytes());
+  const Eigen::AlignedBox2i span = floorCells();
   const double cell_m = cell_size_m();
-  const Vector2d origin(cell_m * std::round(low[0] / cell_m), cell_m * std::round(low[1] / cell_m));
-  const double width = std::round((high[0] - origin.x()) / cell_m);
-  const double height = std::round((high[1] - origin.y()) / cell_m);
-  if (width * height > kMostCells) {
-    throw std::runtime_error("the map spans more cells of floor than there is memory for");
-  }
-  OccupancyGrid grid(origin, cell_m, static_cast<int>(width), static_cast<int>(height),
-                     Occupancy::kUnknown);
+  const Vector2d origin = cell_m * span.min().cast<double>();
+  OccupancyGrid grid(origin, cell_m, span.sizes().x(), span.sizes().y(), Occupancy::kUnknown);
   const double touch_m = kTouch * cell_m;
   for (auto leaf = tree_->begin_leafs(); leaf != tree_->end_leafs(); ++leaf) {
     const double bottom = leaf.getZ() - leaf.getSize() / 2.0, top = bottom + leaf.getSize();

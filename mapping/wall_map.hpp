@@ -8,7 +8,7 @@
 
 #include "mapping/occupancy_grid.hpp"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <memory>
 
@@ -58,13 +58,18 @@ class WallMap {
   /// free if any of the band, or the lowest cell over the floor, is known to be free; else unknown.
   /// Covers all that is known; empty if nothing is.
   /// @throws std::invalid_argument  unless the band's low is under its high.
-  /// @throws std::runtime_error     if the map spans more than a hundred million cells of floor.
+  /// @throws std::runtime_error     if the map spans more floor than there may be memory for.
   OccupancyGrid floorGrid(const HeightBand& band = kBodyBand) const;
+
+  /// What work on the floorGrid takes of memory, about.
+  std::size_t floorBytes() const;
 
   /// The tree itself, e.g. for collision checks with FCL.
   const std::shared_ptr<const octomap::OcTree>& tree() const { return tree_; }
 
  private:
+  Eigen::AlignedBox2i floorCells() const;
+
   std::shared_ptr<const octomap::OcTree> tree_;
 };
 

@@ -3,6 +3,8 @@
 
 #include "mapping/wall_map_builder.hpp"
 
+#include "cloud/file_limits.hpp"
+
 #include <octomap/OcTree.h>
 
 #include <algorithm>
@@ -30,6 +32,13 @@ octomap::OcTreeKey keyOf(const octomap::OcTree& tree, int x, int y, int z) {
     throw std::invalid_argument("a wall is further away than the map reaches");
   }
   return key;
+}
+
+/// Whether there is memory for more: a cell's edge and a wall's height ask for it together.
+void checkRoom(const octomap::OcTree& tree) {
+  constexpr std::size_t kBytesPerNode = 64;
+  checkMemory("a wall map in cells of " + std::to_string(tree.getResolution()) + " m",
+              timesAtMost(tree.size(), kBytesPerNode));
 }
 
 void setWall(octomap::OcTree& tree, int x, int y, const CellRange& z) {
@@ -80,6 +89,7 @@ void fill(octomap::OcTree& tree, const Vector2d& center, double reach_m, const H
   const CellRange z = layers(band, cell_m);
   const auto cell = [&](double at) { return static_cast<int>(std::floor(at / cell_m)); };
   for (int y = cell(center.y() - reach_m); y <= cell(center.y() + reach_m); ++y) {
+    checkRoom(tree);
     for (int x = cell(center.x() - reach_m); x <= cell(center.x() + reach_m); ++x) {
       const Vector2d middle(cell_m * (x + 0.5), cell_m * (y + 0.5));
       if (inside(Vector2d(middle - center))) setWall(tree, x, y, z);
@@ -124,6 +134,7 @@ void WallMapBuilder::addFreeFloor(const Vector2d& low, const Vector2d& high) {
   const double cell_m = tree_->getResolution();
   const auto cell = [&](double at) { return static_cast<int>(std::lround(at / cell_m)); };
   for (int y = cell(low.y()); y < cell(high.y()); ++y) {
+    checkRoom(*tree_);
     for (int x = cell(low.x()); x < cell(high.x()); ++x) setFreeFloor(*tree_, x, y);
   }
 }
@@ -140,6 +151,7 @@ void WallMapBuilder::add(const OccupancyGrid& plan, double height_m) {
   // A column is as the plan says at its middle ...
   const Vector2d end = plan.origin_m() + size;
   for (int y = cell(plan.origin_m().y()); y <= cell(end.y()); ++y) {
+    checkRoom(*tree_);
     for (int x = cell(plan.origin_m().x()); x <= cell(end.x()); ++x) {
       const Occupancy there = plan.at(Vector2d(cell_m * (x + 0.5), cell_m * (y + 0.5)));
       if (there == Occupancy::kOccupied) setWall(*tree_, x, y, z);
@@ -149,6 +161,7 @@ void WallMapBuilder::add(const OccupancyGrid& plan, double height_m) {
   // ... and wall where a wall of the plan has its middle: what is finer than the map is not lost.
   if (plan.cell_size_m() >= cell_m * (1.0 - 1e-9)) return;
   for (int y = 0; y < plan.height(); ++y) {
+    checkRoom(*tree_);
     for (int x = 0; x < plan.width(); ++x) {
       if (plan.at(GridCell{x, y}) != Occupancy::kOccupied) continue;
       const Vector2d middle = plan.center({x, y});

@@ -43,6 +43,7 @@ class WallMapBuilder {
 
   /// @throws std::invalid_argument  if the solid is not finite, has a negative size, or reaches
   ///         further than the tree (1.6 km at the default cell).
+  /// @throws std::runtime_error  as all that adds, if the cells take more memory than is allowed.
   void add(const WallBox& box);
   void add(const WallCylinder& cylinder);  ///< As for boxes.
 

@@ -3,6 +3,7 @@
 
 #include "mapping/wall_map_file.hpp"
 
+#include "cloud/file_limits.hpp"
 #include "mapping/whole_file.hpp"
 
 #include <octomap/OcTree.h>
@@ -117,7 +118,9 @@ WallMap loadWallMap(const std::filesystem::path& file) {
   if (!walk.isAtEnd()) fail(file, "it goes on after the end of its tree");
   std::istringstream in(nodes, std::ios::binary);
   tree->readBinaryData(in);
-  return WallMap(tree);
+  WallMap map(tree);
+  checkMemory(file.string() + ": the floor that the map spans", map.floorBytes(), bytes.size());
+  return map;
 }
 
 }  // namespace heel

@@ -3,6 +3,8 @@
 
 #include "mapping/whole_file.hpp"
 
+#include "cloud/file_limits.hpp"
+
 #include <cerrno>
 #include <cstdio>
 #include <memory>
@@ -34,6 +36,7 @@ std::string readWholeFile(const fs::path& file) {
   };
   std::error_code error;
   if (fs::is_directory(file, error)) fail("it is a folder");
+  checkIsFile(file);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"),
                                                            &std::fclose);
   if (in == nullptr) fail(lastError().message());

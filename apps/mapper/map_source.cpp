@@ -20,10 +20,22 @@ namespace fs = std::filesystem;
 
 constexpr double kUsualCell_m = 0.05;
 
-WallMap extruded(const OccupancyGrid& plan, const MapSourceParams& params) {
-  WallMapBuilder builder(params.cell_size_m.value_or(plan.cell_size_m()));
-  builder.add(plan, params.wall_height_m);
-  return builder.build();
+/// What can't be built is told with the file's name.
+template <class Build>
+WallMap builtFrom(const fs::path& file, const Build& build) {
+  try {
+    return build();
+  } catch (const std::exception& error) {
+    throw std::runtime_error(file.string() + ": " + error.what());
+  }
+}
+
+WallMap extruded(const fs::path& file, const OccupancyGrid& plan, const MapSourceParams& params) {
+  return builtFrom(file, [&] {
+    WallMapBuilder builder(params.cell_size_m.value_or(plan.cell_size_m()));
+    builder.add(plan, params.wall_height_m);
+    return builder.build();
+  });
 }
 
 }  // namespace
@@ -47,10 +59,11 @@ SourcedMap openMap(const fs::path& path, const MapSourceParams& params) {
           path.string() +
           ": a picture does not tell how large a pixel is; say it (--resolution, or --cell)");
     }
-    return {extruded(gridFromImage(path, cell_m), params), "picture"};
+    return {extruded(path, gridFromImage(path, cell_m), params), "picture"};
   }
-  if (isMapServerFile(path)) return {extruded(loadMapServer(path), params), "map_server map"};
-  return {wallMapOf(loadScene(path.string()), cell_m), "scene"};
+  if (isMapServerFile(path)) return {extruded(path, loadMapServer(path), params), "map_server map"};
+  const Scene scene = loadScene(path.string());
+  return {builtFrom(path, [&] { return wallMapOf(scene, cell_m); }), "scene"};
 }
 
 }  // namespace heel

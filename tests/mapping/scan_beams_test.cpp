@@ -8,7 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
 namespace heel {
 namespace {
@@ -93,6 +96,26 @@ TEST(ScanMap, DrawsTheRoomThatWasScanned) {
   EXPECT_EQ(drawn.at(Eigen::Vector2d(2.02, 1.7)), Occupancy::kOccupied) << "the pillar's side";
   EXPECT_EQ(drawn.at(Eigen::Vector2d(2.25, 1.75)), Occupancy::kUnknown) << "inside it";
   EXPECT_EQ(drawn.at(Eigen::Vector2d(50.0, 0.0)), Occupancy::kUnknown);
+}
+
+TEST(ScanMap, RefusesAScanThatWasTakenBeyondWhatAMapCanReach) {
+  const LaserScan scan{0.0, 0.1, {1.0F, 1.0F}};
+  for (const double far_m : {2000.0, 1e10, -1e300}) {
+    ScanMap map;
+    map.add({}, scan);
+    EXPECT_THROW(map.add({{far_m, far_m}, 0.0}, scan), std::runtime_error) << far_m;
+    EXPECT_NO_THROW(map.grid()) << "what was there before is whole";
+  }
+}
+
+TEST(ScanMap, LeavesOutBeamsWithoutAnAngle) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  ScanMap map;
+  map.add({}, {kNaN, 0.1, {1.0F, 1.0F}});
+  map.add({}, {0.0, std::numeric_limits<double>::infinity(), {1.0F, 1.0F, 1.0F}});
+  map.add({{0.0, 0.0}, 1e308}, {1e308, 0.1, {1.0F, 1.0F}});
+  const OccupancyGrid grid = map.grid();
+  EXPECT_EQ(std::count(grid.cells().begin(), grid.cells().end(), Occupancy::kOccupied), 0);
 }
 
 }  // namespace

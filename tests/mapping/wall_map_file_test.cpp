@@ -107,6 +107,14 @@ TEST_F(WallMapFile, WhatIsNoWallMapIsNamed) {
               HasSubstr("room.bt cannot be written"));
 }
 
+TEST_F(WallMapFile, AFewBytesThatSpanTheWorldAreRefused) {
+  // One child of the root is a leaf, the others lead to one more: half of all that a tree can be.
+  const std::string why =
+      whyNot("# Octomap OcTree binary file\nid OcTree\nsize 4\nres 0.05\ndata\n" +
+             std::string("\x03\x00\x03\x00\x01\x00", 6));
+  EXPECT_THAT(why, AllOf(HasSubstr("bad.bt: the floor that the map spans asks for")));
+}
+
 TEST_F(WallMapFile, AnEmptyMapIsReadBackEmpty) {
   saveWallMap(WallMapBuilder(0.1).build(), folder_ / "empty.bt");
   EXPECT_TRUE(loadWallMap(folder_ / "empty.bt").floorGrid().empty());

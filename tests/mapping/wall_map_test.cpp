@@ -269,5 +269,10 @@ TEST(WallMap, TheFloorGridIsOfABandOfHeights) {
   EXPECT_EQ(map.floorGrid({0.1, 2.0}).at(Vector2d(2.1, 0.5)), Occupancy::kFree) << "it touches";
 }
 
+TEST(WallMapBuilder, RefusesCellsThatAreTooFineForItsWalls) {
+  WallMapBuilder builder(0.001);
+  EXPECT_THROW(builder.addFreeFloor({0.0, 0.0}, {4.0, 4.0}), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace heel

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "cloud/file_limits.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+constexpr std::size_t kMiB = std::size_t{1} << 20U;
+constexpr std::size_t kAlwaysAllowed = 512 * kMiB;
+constexpr std::size_t kTimesTheFile = 64;
+
+std::string inMiB(std::size_t bytes) {
+  return std::to_string(bytes / kMiB + (bytes % kMiB > 0 ? 1 : 0)) + " MiB";
+}
+
+}  // namespace
+
+std::size_t timesAtMost(std::size_t a, std::size_t b) {
+  std::size_t product = 0;
+  return __builtin_mul_overflow(a, b, &product) ? std::numeric_limits<std::size_t>::max() : product;
+}
+
+std::size_t memoryLimit(std::size_t file_bytes) {
+  rlimit process{};
+  if (getrlimit(RLIMIT_DATA, &process) == 0 && process.rlim_cur != RLIM_INFINITY) {
+    return process.rlim_cur;
+  }
+  const auto machine = timesAtMost(static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)),
+                                   static_cast<std::size_t>(sysconf(_SC_PAGESIZE)));
+  return std::min(machine / 2, std::max(kAlwaysAllowed, timesAtMost(kTimesTheFile, file_bytes)));
+}
+
+void setMemoryLimit(std::size_t bytes) {
+  rlimit process{};
+  getrlimit(RLIMIT_DATA, &process);
+  process.rlim_cur = bytes;
+  if (setrlimit(RLIMIT_DATA, &process) != 0) {
+    throw std::runtime_error("the system does not allow " + inMiB(bytes) + " of memory");
+  }
+}
+
+void checkMemory(const std::string& what, std::size_t bytes, std::size_t file_bytes) {
+  const std::size_t limit = memoryLimit(file_bytes);
+  if (bytes <= limit) return;
+  throw std::runtime_error(what + " asks for " + inMiB(bytes) + " of memory, and " + inMiB(limit) +
+                           " is the limit (--max-memory)");
+}
+
+void checkIsFile(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto kind = std::filesystem::status(file, error).type();
+  using Type = std::filesystem::file_type;
+  if (kind == Type::fifo || kind == Type::socket || kind == Type::character ||
+      kind == Type::block) {
+    throw std::runtime_error(file.string() + ": it is a pipe or a device, not a file");
+  }
+}
+
+}  // namespace heel
