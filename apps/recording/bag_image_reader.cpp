@@ -61,19 +61,6 @@ cv::Mat viewOf(const ImageMsg& message, int type) {
                  const_cast<std::uint8_t*>(message.data.data()), message.step);
 }
 
-void decode(const std::vector<std::uint8_t>& bytes, int flags, cv::Mat& image) {
-  if (bytes.empty()) throw std::runtime_error("the image is empty");
-  if (!isCompleteImage(bytes)) throw std::runtime_error("the image is truncated");
-  image.release();
-  bool decoded = false;
-  try {
-    decoded = !cv::imdecode(bytes, flags, &image).empty();
-  } catch (const cv::Exception&) {
-    // The sentence below.
-  }
-  if (!decoded) throw std::runtime_error("the image cannot be decoded");
-}
-
 template <class Value, class Convert>
 void convertDepth(const cv::Mat& raw, cv::Mat& depth_m, const Convert& metres) {
   depth_m.create(raw.size(), CV_32FC1);
@@ -116,7 +103,8 @@ void BagImageReader::readColor(const ImageMsg& message, cv::Mat& image_bgr) {
 }
 
 void BagImageReader::readColor(const CompressedImageMsg& message, cv::Mat& image_bgr) {
-  decode(message.data, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION, image_bgr);
+  decodeImage("the image", message.data, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION,
+              image_bgr);
 }
 
 void BagImageReader::readDepth(const ImageMsg& message, cv::Mat& depth_m) {
@@ -139,7 +127,7 @@ void BagImageReader::readDepth(const CompressedImageMsg& message, cv::Mat& depth
   if (has_head && message.data.size() < kHead) throw std::runtime_error("the image is truncated");
   const std::vector<std::uint8_t> png(message.data.begin() + (has_head ? kHead : 0),
                                       message.data.end());
-  decode(png, cv::IMREAD_UNCHANGED, scratch_);
+  decodeImage("the image", png, cv::IMREAD_UNCHANGED, scratch_);
   if (scratch_.type() != CV_16UC1) throw std::runtime_error("the image is no 16-bit depth");
   if (message.format.rfind("32FC1", 0) != 0) return fromMillimetres(scratch_, depth_m);
   float a = 0.0F, b = 0.0F;

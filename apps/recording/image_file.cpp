@@ -3,6 +3,9 @@
 
 #include "apps/recording/image_file.hpp"
 
+#include "cloud/file_limits.hpp"
+#include "cloud/image_extent.hpp"
+
 #include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
@@ -69,13 +72,13 @@ void readBytes(const std::filesystem::path& file, Bytes& bytes) {
   const auto fail = [&](const std::string& why) {
     throw std::runtime_error(file.string() + ": " + why);
   };
+  checkIsFile(file);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"),
                                                            &std::fclose);
   if (in == nullptr) fail(errno == ENOENT ? "the image is missing" : std::strerror(errno));
   std::error_code error;
   const auto size = std::filesystem::file_size(file, error);
   if (error) fail(error.message());
-  if (size == 0) fail("the image is empty (0 bytes)");
   bytes.resize(size);
   if (std::fread(bytes.data(), 1, bytes.size(), in.get()) != bytes.size()) {
     fail("the image cannot be read to its end");
@@ -109,19 +112,24 @@ void checkImageSize(const std::filesystem::path& file, const cv::Mat& image, int
                            std::to_string(width) + "x" + std::to_string(height));
 }
 
-void ImageReader::decode(const std::filesystem::path& file, int flags, cv::Mat& image) {
-  readBytes(file, bytes_);
-  if (!isCompleteImage(bytes_)) {
-    throw std::runtime_error(file.string() + ": the image is truncated");
-  }
+void decodeImage(const std::string& what, const Bytes& bytes, int flags, cv::Mat& image) {
+  constexpr std::size_t kBytesPerPixel = 4;  // of any that we make of it
+  if (bytes.empty()) throw std::runtime_error(what + " is empty (0 bytes)");
+  if (!isCompleteImage(bytes)) throw std::runtime_error(what + " is truncated");
+  checkImageMemory(what, bytes.data(), bytes.size(), kBytesPerPixel);
   image.release();  // OpenCV leaves it as it was, the last frame, where it knows no such format
   bool decoded = false;
   try {
-    decoded = !cv::imdecode(bytes_, flags, &image).empty();
+    decoded = !cv::imdecode(bytes, flags, &image).empty();
   } catch (const cv::Exception&) {
     // The sentence below says all that a reader can use.
   }
-  if (!decoded) throw std::runtime_error(file.string() + ": the image cannot be decoded");
+  if (!decoded) throw std::runtime_error(what + " cannot be decoded");
+}
+
+void ImageReader::decode(const std::filesystem::path& file, int flags, cv::Mat& image) {
+  readBytes(file, bytes_);
+  decodeImage(file.string() + ": the image", bytes_, flags, image);
 }
 
 void ImageReader::readColor(const std::filesystem::path& file, cv::Mat& image_bgr) {

@@ -39,6 +39,13 @@ class ImageReader {
 /// can't be told.
 bool isCompleteImage(const std::vector<std::uint8_t>& bytes);
 
+/// Decodes the bytes of an image file.
+/// @param what   The image, in the errors: "left.png: the image".
+/// @param flags  OpenCV's IMREAD_...
+/// @throws std::runtime_error  that begins with `what`, if it is truncated, damaged or too large.
+void decodeImage(const std::string& what, const std::vector<std::uint8_t>& bytes, int flags,
+                 cv::Mat& image);
+
 /// Whether the name ends like an image that we read (.png, .jpg, .jpeg, .bmp, .pgm, .ppm, .tif,
 /// .tiff).
 bool isImageName(const std::filesystem::path& file);
