@@ -3,6 +3,12 @@
 
 #include "apps/recording/ply_header.hpp"
 
+#include "cloud/file_limits.hpp"
+
+#include <pcl/PCLPointField.h>
+
+#include <algorithm>
+#include <charconv>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -18,26 +24,77 @@ namespace {
   throw std::runtime_error(file.string() + ": " + why);
 }
 
-PlyProperty propertyOf(const std::string& type, const std::string& name) {
-  static const std::map<std::string, PlyProperty> kTypes = {
-      {"char", {{}, "int8", 1}},       {"uchar", {{}, "uint8", 1}},
-      {"short", {{}, "int16", 2}},     {"ushort", {{}, "uint16", 2}},
-      {"int", {{}, "int32", 4}},       {"uint", {{}, "uint32", 4}},
-      {"float", {{}, "float32", 4}},   {"double", {{}, "float64", 8}},
-      {"int8", {{}, "int8", 1}},       {"uint8", {{}, "uint8", 1}},
-      {"int16", {{}, "int16", 2}},     {"uint16", {{}, "uint16", 2}},
-      {"int32", {{}, "int32", 4}},     {"uint32", {{}, "uint32", 4}},
-      {"float32", {{}, "float32", 4}}, {"float64", {{}, "float64", 8}}};
-  const auto known = kTypes.find(type);
-  PlyProperty property = known == kTypes.end() ? PlyProperty{} : known->second;
-  property.name = name;
-  return property;
+/// 0 if there is no such type.
+std::uint8_t typeOf(const std::string& name) {
+  using Field = pcl::PCLPointField;
+  static const std::map<std::string, std::uint8_t> kTypes = {
+      {"char", Field::INT8},      {"int8", Field::INT8},       {"uchar", Field::UINT8},
+      {"uint8", Field::UINT8},    {"short", Field::INT16},     {"int16", Field::INT16},
+      {"ushort", Field::UINT16},  {"uint16", Field::UINT16},   {"int", Field::INT32},
+      {"int32", Field::INT32},    {"uint", Field::UINT32},     {"uint32", Field::UINT32},
+      {"float", Field::FLOAT32},  {"float32", Field::FLOAT32}, {"double", Field::FLOAT64},
+      {"float64", Field::FLOAT64}};
+  const auto known = kTypes.find(name);
+  return known == kTypes.end() ? std::uint8_t{0} : known->second;
+}
+
+/// A whole number from 0 on; nothing else is taken.
+bool takeNumber(const std::string& word, std::size_t& number) {
+  const char* end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, number);
+  return error == std::errc() && stop == end;
+}
+
+/// False if the words after "property" are none.
+bool takeProperty(std::istringstream& words, PlyProperty& property) {
+  std::string type, count_type;
+  words >> type;
+  if (type == "list") {
+    words >> count_type >> type;
+    property.count_type = typeOf(count_type);
+    const bool is_whole = property.count_type != pcl::PCLPointField::FLOAT32 &&
+                          property.count_type != pcl::PCLPointField::FLOAT64;
+    if (!property.isList() || !is_whole) return false;
+  }
+  property.type = typeOf(type);
+  return property.type != 0 && words >> property.name;
+}
+
+/// False if the words of a line are none of a header's.
+bool takeLine(const std::string& line, PlyHeader& header) {
+  std::istringstream words(line);
+  std::string keyword, name, number;
+  words >> keyword;
+  if (keyword == "property") {
+    if (header.elements.empty()) return false;
+    return takeProperty(words, header.elements.back().properties.emplace_back());
+  }
+  words >> name >> number;
+  if (keyword == "element") {
+    header.elements.push_back({name, 0, {}});
+    return takeNumber(number, header.elements.back().count);
+  }
+  if (keyword == "format") {
+    header.is_binary = name != "ascii";
+    header.is_big_endian = name == "binary_big_endian";
+    return !header.is_binary || header.is_big_endian || name == "binary_little_endian";
+  }
+  if (keyword == "obj_info" && name == "num_cols") return takeNumber(number, header.columns);
+  if (keyword == "obj_info" && name == "num_rows") return takeNumber(number, header.rows);
+  return true;  // a comment
 }
 
 }  // namespace
 
+const PlyElement* PlyHeader::find(const std::string& name) const {
+  const auto found = std::find_if(elements.begin(), elements.end(),
+                                  [&](const PlyElement& element) { return element.name == name; });
+  return found == elements.end() ? nullptr : &*found;
+}
+
 PlyHeader readPlyHeader(const fs::path& file) {
   if (!fs::exists(file)) fail(file, "the cloud is missing");
+  checkIsFile(file);
   std::ifstream in(file, std::ios::binary);
   if (!in || fs::is_directory(file)) fail(file, "the cloud cannot be read");
   std::string line;
@@ -48,45 +105,18 @@ PlyHeader readPlyHeader(const fs::path& file) {
   };
   if (!next() || line != "ply") fail(file, "this is not a PLY file");
   PlyHeader header;
-  bool has_format = false, in_vertices = false;
-  int elements = 0;
+  bool has_format = false;
   while (next()) {
-    std::istringstream words(line);
-    std::string keyword, first, second;
-    words >> keyword >> first;
-    if (keyword == "end_header") {
+    if (line.rfind("end_header", 0) == 0) {
       if (!has_format) fail(file, "the PLY header is damaged");
       header.bytes = static_cast<std::size_t>(in.tellg());
       return header;
     }
-    if (keyword == "format") {
-      has_format =
-          first == "ascii" || first == "binary_little_endian" || first == "binary_big_endian";
-      header.is_binary = first != "ascii";
-    } else if (keyword == "element") {
-      in_vertices = first == "vertex";
-      if (in_vertices && !(words >> header.vertices)) fail(file, "the PLY header is damaged");
-      if (in_vertices) header.vertices_first = elements == 0;
-      ++elements;
-    } else if (keyword == "property" && in_vertices) {
-      if (!(words >> second)) fail(file, "the PLY header is damaged");
-      header.columns.push_back(propertyOf(first, second));
-    }
+    if (!takeLine(line, header))
+      fail(file, "the PLY header is damaged ('" + line.substr(0, 60) + "')");
+    has_format = has_format || line.rfind("format", 0) == 0;
   }
   fail(file, "the PLY header is damaged (it has no end)");
-}
-
-void checkPlySize(const fs::path& file, const PlyHeader& header) {
-  if (!header.vertices_first) return;
-  std::size_t bytes = 0;  // of a vertex, at least
-  for (const PlyProperty& column : header.columns) {
-    bytes += header.is_binary ? column.bytes : 2;  // a digit and a blank or the line's end
-  }
-  const std::size_t room = fs::file_size(file) - header.bytes + (header.is_binary ? 0 : 1);
-  if (bytes > 0 && header.vertices > room / bytes) {
-    fail(file, "the cloud is truncated (" + std::to_string(room) + " bytes for " +
-                   std::to_string(header.vertices) + " points)");
-  }
 }
 
 }  // namespace heel

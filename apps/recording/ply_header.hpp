@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,23 +15,30 @@ namespace heel {
 
 struct PlyProperty {
   std::string name;
-  std::string type;       ///< "float32" and the like; "float" is "float32" here.
-  std::size_t bytes = 0;  ///< 0: a list, whose size the header does not tell.
+  std::uint8_t type = 0;        ///< As of pcl::PCLPointField.
+  std::uint8_t count_type = 0;  ///< Of a list: of the number before its items; 0: no list.
+  bool isList() const { return count_type != 0; }
+};
+
+struct PlyElement {
+  std::string name;
+  std::size_t count = 0;
+  std::vector<PlyProperty> properties;
 };
 
 struct PlyHeader {
   bool is_binary = false;
-  std::size_t vertices = 0;
-  bool vertices_first = false;       ///< No other element comes before them.
-  std::vector<PlyProperty> columns;  ///< Of a vertex.
-  std::size_t bytes = 0;             ///< Where the data begin.
+  bool is_big_endian = false;
+  std::vector<PlyElement> elements;  ///< In the order of their data.
+  std::size_t columns = 0;           ///< Of the picture that the points are of; 0: not told.
+  std::size_t rows = 0;
+  std::size_t bytes = 0;  ///< Where the data begin.
+
+  /// Null if there is none of this name.
+  const PlyElement* find(const std::string& name) const;
 };
 
 /// @throws std::runtime_error  with one sentence that names the file, if it is no PLY file.
 PlyHeader readPlyHeader(const std::filesystem::path& file);
-
-/// Reads past the header what has to be there: PCL's reader allocates what the header asks for.
-/// @throws std::runtime_error  with one sentence, if the file is too short.
-void checkPlySize(const std::filesystem::path& file, const PlyHeader& header);
 
 }  // namespace heel
