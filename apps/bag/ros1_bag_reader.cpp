@@ -3,6 +3,8 @@
 
 #include "apps/bag/ros1_bag_reader.hpp"
 
+#include "cloud/file_limits.hpp"
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -14,8 +16,9 @@ constexpr std::uint32_t kLongestHeader = 1U << 20U;
 
 }  // namespace
 
-Ros1BagReader::Ros1BagReader(const std::filesystem::path& file)
-    : name_(file.string()), in_(file, std::ios::binary) {
+Ros1BagReader::Ros1BagReader(const std::filesystem::path& file) : name_(file.string()) {
+  checkIsFile(file);
+  in_.open(file, std::ios::binary);
   if (!in_) throw std::runtime_error(name_ + ": can't be opened");
   std::error_code problem;
   file_size_ = std::filesystem::file_size(file, problem);
@@ -153,6 +156,11 @@ void Ros1BagReader::openChunk() {
   if (!size || !compression) return lose("a chunk that ends at byte " + at + " has no size");
   if (*compression != "none" && *compression != "bz2" && *compression != "lz4") {
     return lose("a chunk is packed by '" + std::string(*compression) + "', which is unknown");
+  }
+  try {
+    checkMemory("a chunk that ends at byte " + at, *size, data_.size());
+  } catch (const std::runtime_error& error) {
+    return lose(error.what());
   }
   if (unpackChunk(*compression, data_, *size, chunk_)) return;
   chunk_is_damaged_ = true;

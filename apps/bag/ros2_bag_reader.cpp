@@ -61,7 +61,7 @@ Ros2BagReader::Ros2BagReader(const fs::path& path) : name_(path.string()), files
     if (!fs::exists(file)) {
       if (files_.size() == 1) throw std::runtime_error(file.string() + ": the file is missing");
       lose(file.filename().string() + " is missing");
-    } else if (fs::file_size(file) == 0) {
+    } else if (fs::is_regular_file(file) && fs::file_size(file) == 0) {
       if (files_.size() == 1)
         throw std::runtime_error(file.string() + ": the bag is empty (0 bytes)");
       lose(file.filename().string() + " is empty");
@@ -81,7 +81,13 @@ void Ros2BagReader::openFile() {
   const fs::path& path = files_[next_file_++];
   messages_.reset();
   file_.emplace(path, SqliteFile::Use::kRead);
+  std::string missing;
   try {
+    // A view could work for ever, or make up values of any size.
+    for (const char* table : {"topics", "messages"}) {
+      if (!file_->hasTable(table)) missing = std::string("it has no table '") + table + "'";
+    }
+    if (!missing.empty()) throw std::runtime_error(missing);
     readTopics();
     last_id_ = 0;
     messages_.emplace(
@@ -89,7 +95,7 @@ void Ros2BagReader::openFile() {
   } catch (const std::runtime_error&) {
     throw std::runtime_error(path.string() +
                              ": this is no ROS 2 bag, or its beginning is damaged (" +
-                             file_->problem() + ")");
+                             (missing.empty() ? file_->problem() : missing) + ")");
   }
 }
 
@@ -124,7 +130,8 @@ bool Ros2BagReader::next(BagMessage& message) {
       }
     }
     const auto row = messages_->step();
-    if (row == SqliteQuery::Row::kThere) {
+    // In a damaged file pages may lead to each other, and rows come again and again.
+    if (row == SqliteQuery::Row::kThere && messages_->integer(0) > last_id_) {
       last_id_ = messages_->integer(0);
       const auto topic = topic_of_id_.find(messages_->integer(1));
       if (topic == topic_of_id_.end()) continue;

@@ -3,8 +3,11 @@
 
 #include "apps/bag/sqlite_file.hpp"
 
+#include "cloud/file_limits.hpp"
+
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace heel {
@@ -14,23 +17,55 @@ void SqliteQuery::Finalize::operator()(sqlite3_stmt* statement) const {
   sqlite3_finalize(statement);
 }
 
+struct SqliteFile::Work {
+  std::uint64_t allowed = 0;
+  std::uint64_t left = 0;
+};
+void SqliteFile::DeleteWork::operator()(Work* work) const { delete work; }
+
+void SqliteFile::allowWork() {
+  if (work_) work_->left = work_->allowed;
+}
+
+bool SqliteFile::open(const std::string& address, int flags) {
+  sqlite3* database = nullptr;
+  const int result = sqlite3_open_v2(address.c_str(), &database, flags, nullptr);
+  database_.reset(database);
+  return result == SQLITE_OK;
+}
+
+/// Holds what is read to what the file can have in it.
+void SqliteFile::guard(const std::filesystem::path& file) {
+  constexpr int kStep = 1000;  // of SQLite's instructions, between two looks
+  std::error_code none;
+  std::uintmax_t bytes = 1U << 20U;
+  for (const char* ending : {"", "-wal"}) {
+    const auto size = std::filesystem::file_size(file.string() + ending, none);
+    if (!none) bytes += size;
+  }
+  const auto longest = static_cast<int>(std::min<std::uintmax_t>(bytes, 1000000000));
+  sqlite3_limit(database_.get(), SQLITE_LIMIT_LENGTH, longest);
+  work_.reset(new Work{10000 + bytes / 20, 0});
+  allowWork();
+  const auto look = [](void* work) { return static_cast<Work*>(work)->left-- == 0 ? 1 : 0; };
+  sqlite3_progress_handler(database_.get(), kStep, look, work_.get());
+  run("PRAGMA trusted_schema = OFF");
+  run("PRAGMA cell_size_check = ON");
+  // A file that was cut off is refused as a whole, unless the schema is "writable".
+  run("PRAGMA writable_schema = ON");
+}
+
 SqliteFile::SqliteFile(const std::filesystem::path& file, Use use) : name_(file.string()) {
-  const auto open = [&](const std::string& address, int flags) {
-    sqlite3* database = nullptr;
-    const int result = sqlite3_open_v2(address.c_str(), &database, flags, nullptr);
-    database_.reset(database);
-    return result == SQLITE_OK;
-  };
   if (use == Use::kCreate) {
     if (!open(name_, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE)) fail();
     return;
   }
+  checkIsFile(file);
   if (!open(name_, SQLITE_OPEN_READONLY)) fail();
+  guard(file);
+  if (query("PRAGMA schema_version").step() == SqliteQuery::Row::kThere) return;
   // A file with a journal can't be read where nothing may be written, unless it is told to be
   // final.
-  // A file that was cut off is refused as a whole, unless the schema is "writable".
-  run("PRAGMA writable_schema = ON");
-  if (query("PRAGMA schema_version").step() == SqliteQuery::Row::kThere) return;
   std::string escaped;
   for (const char c : std::filesystem::absolute(file).string()) {
     if (c == '%' || c == '?' || c == '#') {
@@ -40,7 +75,7 @@ SqliteFile::SqliteFile(const std::filesystem::path& file, Use use) : name_(file.
     }
   }
   if (!open("file:" + escaped + "?immutable=1", SQLITE_OPEN_READONLY | SQLITE_OPEN_URI)) fail();
-  run("PRAGMA writable_schema = ON");
+  guard(file);
 }
 
 std::string SqliteFile::problem() const {
@@ -62,7 +97,8 @@ SqliteQuery SqliteFile::query(const std::string& sql) {
 }
 
 bool SqliteFile::hasTable(const std::string& table) {
-  SqliteQuery found = query("SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = ?");
+  SqliteQuery found =
+      query("SELECT 1 FROM sqlite_master WHERE type = 'table' AND rootpage > 0 AND name = ?");
   found.bind(1, table);
   const auto row = found.step();
   if (row == SqliteQuery::Row::kBroken) fail();
@@ -98,6 +134,7 @@ SqliteQuery& SqliteQuery::bind(int parameter, const std::uint8_t* bytes, std::si
 }
 
 SqliteQuery::Row SqliteQuery::step() {
+  file_.allowWork();
   const int result = sqlite3_step(statement_.get());
   if (result == SQLITE_ROW) return Row::kThere;
   return result == SQLITE_DONE ? Row::kEnd : Row::kBroken;

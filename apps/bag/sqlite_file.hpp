@@ -17,7 +17,8 @@ namespace heel {
 
 class SqliteQuery;
 
-/// A database file that is open.
+/// A database file that is open. One that is read may be hostile: what its schema says is not run,
+/// no value may be larger than the file, and a statement ends that works on and on without a row.
 class SqliteFile {
  public:
   enum class Use { kRead, kCreate };
@@ -27,6 +28,7 @@ class SqliteFile {
   /// @throws std::runtime_error  as all of this class.
   void run(const std::string& sql);
   SqliteQuery query(const std::string& sql);
+  /// A table that is stored: neither a view nor what an extension makes up.
   bool hasTable(const std::string& table);
   /// Ends the use of the file; whatever could not be written is told here.
   void close();
@@ -34,11 +36,22 @@ class SqliteFile {
   [[noreturn]] void fail() const;
   std::string problem() const;
 
+  /// A row has come: the statement may work on.
+  void allowWork();
+
  private:
   struct Close {
     void operator()(sqlite3* database) const;
   };
+  struct Work;  ///< What a statement may still do before its next row.
+  struct DeleteWork {
+    void operator()(Work* work) const;
+  };
+  bool open(const std::string& address, int flags);
+  void guard(const std::filesystem::path& file);
+
   std::string name_;
+  std::unique_ptr<Work, DeleteWork> work_;
   std::unique_ptr<sqlite3, Close> database_;
 };
 

@@ -3,6 +3,8 @@
 
 #include "apps/bag/bag.hpp"
 
+#include "apps/bag/ros1_records.hpp"
+#include "apps/bag/sqlite_file.hpp"
 #include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -204,6 +206,69 @@ TEST(Ros2Bag, NeverReplacesAFolderOfOtherThings) {
   writeText(folder / "b/letter.txt", "dear");
   EXPECT_THAT(messageOf([&] { createBag(folder / "b"); }), HasSubstr("something else"));
   EXPECT_EQ(readText(folder / "b/letter.txt"), "dear");
+}
+
+TEST(Ros1Bag, WhoseChunkAsksForTooMuchLosesItAndSaysSo) {
+  const TempFolder folder;
+  Ros1Bytes bytes(kRos1Magic.begin(), kRos1Magic.end());
+  Ros1Fields chunk;
+  chunk.set(Ros1Record::kChunk)
+      .set("compression", std::string_view("bz2"))
+      .set("size", 0xF0000000U);
+  appendRecord(bytes, chunk, Ros1Bytes(40, 'B'));
+  writeText(folder / "a.bag", {bytes.begin(), bytes.end()});
+  const auto bag = openBag(folder / "a.bag");
+  BagMessage raw;
+  EXPECT_FALSE(bag->next(raw));
+  EXPECT_THAT(bag->lost(), HasSubstr("a.bag: a chunk that ends at byte"));
+  EXPECT_THAT(bag->lost(), HasSubstr("asks for 3840 MiB of memory"));
+}
+
+/// A ROS 2 bag with the statements run on it.
+std::filesystem::path changedBag(const TempFolder& folder, const std::string& sql) {
+  const auto path = folder / "a.db3";
+  const auto bag = createBag(path);
+  bag->write("/scan", 1, scanOf(1));
+  bag->commit();
+  SqliteFile(path, SqliteFile::Use::kCreate).run(sql);
+  return path;
+}
+
+TEST(Ros2Bag, WhoseTablesAreMadeUpIsRefused) {
+  for (const std::string table : {"topics", "messages"}) {
+    for (const std::string select :
+         {"WITH RECURSIVE r(n) AS (SELECT 1 UNION ALL SELECT n + 1 FROM r) SELECT n AS id, n AS "
+          "name, n AS type, 'cdr' AS serialization_format, 1 AS topic_id, n AS timestamp, x'00' AS "
+          "data FROM r",
+          "SELECT 1 AS id, 1 AS topic_id, 1 AS timestamp, zeroblob(900000000) AS data"}) {
+      const TempFolder folder;
+      const auto path =
+          changedBag(folder, "DROP TABLE " + table + "; CREATE VIEW " + table + " AS " + select);
+      EXPECT_THAT(messageOf([&] { openBag(path); }), HasSubstr("it has no table '" + table + "'"));
+    }
+  }
+}
+
+TEST(Ros2Bag, WhoseValuesAreMadeUpGivesNone) {
+  const TempFolder folder;
+  const auto path = changedBag(
+      folder,
+      "DROP TABLE messages; CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, "
+      "timestamp INTEGER, data BLOB GENERATED ALWAYS AS (zeroblob(900000000)) VIRTUAL); INSERT "
+      "INTO "
+      "messages(topic_id, timestamp) VALUES(1, 1)");
+  const auto bag = openBag(path);
+  BagMessage raw;
+  EXPECT_FALSE(bag->next(raw));
+  EXPECT_THAT(bag->lost(), HasSubstr("a.db3"));
+}
+
+TEST(SqliteFile, EndsAStatementThatWorksOnWithoutARow) {
+  const TempFolder folder;
+  SqliteFile file(changedBag(folder, ""), SqliteFile::Use::kRead);
+  SqliteQuery endless = file.query(
+      "WITH RECURSIVE r(n) AS (SELECT 1 UNION ALL SELECT n + 1 FROM r) SELECT max(n) FROM r");
+  EXPECT_EQ(endless.step(), SqliteQuery::Row::kBroken);
 }
 
 }  // namespace
