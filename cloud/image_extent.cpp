@@ -5,6 +5,7 @@
 
 #include "cloud/file_limits.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <stdexcept>
 #include <string_view>
@@ -120,6 +121,17 @@ void checkImageMemory(const std::string& what, const std::uint8_t* bytes, std::s
   checkMemory(what + " of " + std::to_string(extent->width) + "x" + std::to_string(extent->height) +
                   " pixels",
               timesAtMost(timesAtMost(extent->width, extent->height), bytes_per_pixel), size);
+}
+
+void checkCameraMemory(const std::string& origin, double width, double height) {
+  constexpr std::size_t kBytesPerPixel = 16;  // of the images and of what is made of them
+  if (!(width >= 1.0 && height >= 1.0)) {
+    throw std::runtime_error(origin + ": the size of the images is not given");
+  }
+  const auto w = static_cast<std::size_t>(std::min(width, 1e9));
+  const auto h = static_cast<std::size_t>(std::min(height, 1e9));
+  checkMemory(origin + ": a camera of " + std::to_string(w) + "x" + std::to_string(h) + " pixels",
+              timesAtMost(timesAtMost(w, h), kBytesPerPixel));
 }
 
 }  // namespace heel

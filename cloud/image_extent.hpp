@@ -26,4 +26,10 @@ std::optional<ImageExtent> imageExtent(const std::uint8_t* bytes, std::size_t si
 void checkImageMemory(const std::string& what, const std::uint8_t* bytes, std::size_t size,
                       std::size_t bytes_per_pixel);
 
+/// Whether images of a camera may be worked on, of the size that its calibration tells.
+/// @throws std::runtime_error  one sentence that begins with `origin`, if they have no size, or ask
+/// for
+///         too much memory.
+void checkCameraMemory(const std::string& origin, double width, double height);
+
 }  // namespace heel

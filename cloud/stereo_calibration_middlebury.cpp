@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "cloud/image_extent.hpp"
 #include "cloud/stereo_calibration.hpp"
 
 #include <algorithm>
@@ -53,13 +54,11 @@ StereoRig readMiddleburyCalibration(const fs::path& file) {
     }
   }
   const auto K = numbers(file, lines, "cam0", 9);
+  const double width = numbers(file, lines, "width", 1)[0];
+  const double height = numbers(file, lines, "height", 1)[0];
+  checkCameraMemory(file.string(), width, height);
   StereoCamera camera;
-  camera.left = {static_cast<int>(numbers(file, lines, "width", 1)[0]),
-                 static_cast<int>(numbers(file, lines, "height", 1)[0]),
-                 K[0],
-                 K[4],
-                 K[2],
-                 K[5]};
+  camera.left = {static_cast<int>(width), static_cast<int>(height), K[0], K[4], K[2], K[5]};
   camera.baseline_m = numbers(file, lines, "baseline", 1)[0] / 1000.0;
   camera.disparity_offset = numbers(file, lines, "doffs", 1)[0];
   if (!(camera.baseline_m > 0.0)) fail(file, "there is no baseline between the cameras");

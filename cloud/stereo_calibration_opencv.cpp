@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
 #include <initializer_list>
 #include <map>
 #include <stdexcept>
@@ -32,6 +33,24 @@ std::string plainName(const std::string& name) {
   return plain;
 }
 
+/// OpenCV's parser goes into itself at each bracket, tag or list within another, with no end.
+bool isTooDeep(const fs::path& file) {
+  constexpr int kMost = 100;
+  std::ifstream in(file, std::ios::binary);
+  int depth = 0;
+  for (std::string line; std::getline(in, line);) {
+    // A list in YAML may also be deeper with each blank or dash before it.
+    if (std::min(line.find_first_not_of(" -"), line.size()) > kMost) return true;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const char c = line[i], next = i + 1 < line.size() ? line[i + 1] : ' ';
+      if (c == '[' || c == '{' || (c == '<' && next != '/' && next != '?' && next != '!')) ++depth;
+      if (c == ']' || c == '}' || (c == '<' && next == '/') || (c == '/' && next == '>')) --depth;
+      if (depth > kMost) return true;
+    }
+  }
+  return false;
+}
+
 /// Everything at the top level of some cv::FileStorage files; of equal names, the first counts.
 class StoredValues {
  public:
@@ -39,6 +58,7 @@ class StoredValues {
     for (const auto& file : files) {
       origin_ += (origin_.empty() ? "" : " + ") + file.string();
       if (!fs::is_regular_file(file)) fail(file.string(), "there is no such file");
+      if (isTooDeep(file)) fail(file.string(), "its values are too deep within each other");
       try {
         storages_.emplace_back(file.string(), cv::FileStorage::READ);
         const cv::FileNode root = storages_.back().root();
@@ -52,14 +72,21 @@ class StoredValues {
 
   const std::string& origin() const { return origin_; }
 
+  static constexpr double kMostOfASide = 100.0;
+
   /// The first of `names` that is there, else an empty matrix.
   cv::Mat find(std::initializer_list<const char*> names, int rows, int cols) const {
     for (const char* name : names) {
       const auto node = nodes_.find(name);
       if (node == nodes_.end()) continue;
       cv::Mat stored, matrix;
+      // A matrix is as large as it says, whatever it holds.
+      const auto cells = [&](const char* key) {
+        const cv::FileNode side = node->second.isMap() ? node->second[key] : cv::FileNode();
+        return side.isInt() || side.isReal() ? static_cast<double>(side) : 0.0;
+      };
       try {
-        node->second >> stored;
+        if (cells("rows") <= kMostOfASide && cells("cols") <= kMostOfASide) node->second >> stored;
         stored.convertTo(matrix, CV_64F);
       } catch (const cv::Exception&) {
         matrix.release();

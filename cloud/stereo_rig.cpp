@@ -3,6 +3,8 @@
 
 #include "cloud/stereo_rig.hpp"
 
+#include "cloud/image_extent.hpp"
+
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -34,8 +36,7 @@ void check(const StereoCamera& camera, const cv::Mat& right_P, const std::string
     throw std::runtime_error(origin + ": " + reason);
   };
   const double b = camera.baseline_m;
-  if (camera.left.width <= 0 || camera.left.height <= 0)
-    fail("the size of the images is not given");
+  checkCameraMemory(origin, camera.left.width, camera.left.height);
   if (!(camera.left.fx > 0.0) || !(camera.left.fy > 0.0)) fail("a focal length is not positive");
   if (std::abs(right_P.at<double>(1, 3)) > std::abs(right_P.at<double>(0, 3))) {
     fail("the cameras stand above each other; only pairs side by side can be matched");

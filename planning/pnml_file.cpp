@@ -20,6 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMostTokens = 1000000;
+/// The drawing of a net has room for hundreds of nodes on each side.
+constexpr double kFurthest = 4000.0;
 
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r\n");
@@ -100,6 +102,9 @@ class PnmlReader {
     const Eigen::Vector2d p(at.attribute("x").as_double(std::nan("")),
                             at.attribute("y").as_double(std::nan("")));
     if (!p.allFinite()) fail(element, "is drawn at a place that is no place");
+    if (p.cwiseAbs().maxCoeff() > kFurthest) {
+      fail(element, "is drawn further away than " + std::to_string(static_cast<int>(kFurthest)));
+    }
     return p;
   }
 

@@ -74,7 +74,11 @@ OccupancyGrid mapFromLog(const std::filesystem::path& path, MapScans which, doub
     if (!reading.reference) {
       throw std::runtime_error(path.string() + ": has no reference poses to make a map with");
     }
-    map.add(*reading.reference * T_base_scanner, reading.scan);
+    try {
+      map.add(*reading.reference * T_base_scanner, reading.scan);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(path.string() + ": " + error.what());
+    }
   }
   if (count == 0) throw std::runtime_error(path.string() + ": has no laser scans");
   return map.grid();

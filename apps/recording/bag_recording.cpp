@@ -6,6 +6,7 @@
 #include "apps/recording/bag_cloud.hpp"
 #include "apps/recording/bag_poses.hpp"
 #include "apps/recording/pcd_file.hpp"
+#include "cloud/image_extent.hpp"
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -98,6 +99,7 @@ void BagRecording::setUpRgbd(const BagSurvey& survey, const BagCamera& camera) {
   const bool is_distorted =
       std::any_of(info.D.begin(), info.D.end(), [](double d) { return std::abs(d) > 1e-12; });
   if (is_rectified || !is_distorted) return;
+  checkCameraMemory(path_ + ", camera_info of " + first_.topic, info.width, info.height);
   const cv::Mat K = matrixOf(info.K);
   cv::initUndistortRectifyMap(K, cv::Mat(info.D), cv::noArray(), K,
                               {info_.camera.left.width, info_.camera.left.height}, CV_32FC1,

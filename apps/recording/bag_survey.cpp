@@ -230,7 +230,7 @@ BagSurvey surveyBag(const std::filesystem::path& path) {
   surveyor.finish();
   survey.lost = reader->lost();
   if (survey.messages == 0) {
-    const std::string damage = survey.lost.substr(0, survey.lost.find(';'));
+    const std::string damage = survey.lost.substr(0, survey.lost.rfind("; what else"));
     throw std::runtime_error(damage.empty() ? path.string() + ": there is no message in the bag"
                                             : damage + "; no message in it can be read");
   }

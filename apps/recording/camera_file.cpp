@@ -3,6 +3,9 @@
 
 #include "apps/recording/camera_file.hpp"
 
+#include "cloud/file_limits.hpp"
+#include "cloud/image_extent.hpp"
+
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -19,14 +22,21 @@ namespace {
 class Reader {
  public:
   explicit Reader(const std::filesystem::path& file) : file_(file.string()) {
+    checkIsFile(file);
     try {
       root_ = YAML::LoadFile(file_);
     } catch (const YAML::BadFile&) {
       throw std::runtime_error(file_ + " cannot be read");
     } catch (const YAML::Exception& error) {
-      throw std::runtime_error(file_ + " is not YAML: " + error.what());
+      throw std::runtime_error(file_ + " is not YAML: line " + std::to_string(error.mark.line + 1) +
+                               ", " + error.msg);
     }
     if (!root_.IsMap()) fail("holds no settings of the form 'name: value'");
+    for (const auto& entry : root_) {
+      const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "a list";
+      if (std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end()) continue;
+      fail("has the key '" + key + "', which is unknown; there are " + allKeys());
+    }
   }
 
   [[noreturn]] void fail(const std::string& why) const {
@@ -57,10 +67,13 @@ class Reader {
   }
 
   Eigen::Isometry3d transform(const std::string& key) const {
+    const YAML::Node node = root_[key];
     std::vector<double> values;
-    if (!YAML::convert<std::vector<double>>::decode(root_[key], values) || values.size() != 16) {
-      fail("has a '" + key + "' that is not a list of 16 numbers");
+    for (std::size_t i = 0; node.IsSequence() && i < node.size(); ++i) {
+      values.emplace_back();
+      if (!YAML::convert<double>::decode(node[i], values.back())) values.clear();
     }
+    if (values.size() != 16) fail("has a '" + key + "' that is not a list of 16 numbers");
     Eigen::Isometry3d T;
     T.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values.data());
     constexpr double kRounding = 1e-3;  // a file gives a few decimals
@@ -73,6 +86,17 @@ class Reader {
   }
 
  private:
+  static constexpr std::array kKeys = {
+      "width",   "height",          "fx",        "fy", "cx", "cy", "depth_scale",
+      "rate_hz", "T_ground_camera", "baseline_m"};  // that 'heel simulate' writes, for whoever
+                                                    // reads it
+
+  static std::string allKeys() {
+    std::string all;
+    for (const char* key : kKeys) all += (all.empty() ? "" : ", ") + std::string(key);
+    return all;
+  }
+
   std::string file_;
   YAML::Node root_;
 };
@@ -89,6 +113,7 @@ CameraFile readCameraFile(const std::filesystem::path& file) {
                                reader.positive("fx"),       reader.positive("fy"),
                                reader.number("cx"),         reader.number("cy")};
   }
+  if (out.camera) checkCameraMemory(file.string(), out.camera->width, out.camera->height);
   if (reader.has("depth_scale")) out.depth_scale = reader.positive("depth_scale");
   if (reader.has("rate_hz")) out.rate_hz = reader.positive("rate_hz");
   if (reader.has("T_ground_camera")) out.T_ground_camera = reader.transform("T_ground_camera");

@@ -22,7 +22,8 @@ struct CameraFile {
   std::optional<Eigen::Isometry3d> T_ground_camera;  ///< Row-major 4x4 in the file.
 };
 
-/// @throws std::runtime_error  if it is not there or not YAML, a value is not a number or not
+/// @throws std::runtime_error  if it is not there or not YAML, a key is unknown, a value is not a
+/// number or not
 ///         possible, some of the six intrinsics are missing, or T_ground_camera is not a rotation
 ///         and a translation.
 CameraFile readCameraFile(const std::filesystem::path& file);

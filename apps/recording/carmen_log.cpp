@@ -3,6 +3,8 @@
 
 #include "apps/recording/carmen_log.hpp"
 
+#include "cloud/file_limits.hpp"
+
 #include <zlib.h>
 
 #include <array>
@@ -20,12 +22,15 @@ constexpr double kPi = 3.14159265358979323846;
 /// What scanners of that time report when nothing came back is 81.9 m and the like.
 constexpr float kNothing_m = 80.0F;
 constexpr int kMostBeams = 10000;
+/// Of characters; the longest scan has 10000 ranges.
+constexpr std::size_t kLongestLine = 1U << 20U;
 
 }  // namespace
 
 struct CarmenLog::State {
-  explicit State(const std::filesystem::path& path)
-      : name(path.string()), file(gzopen(path.c_str(), "rb")) {
+  explicit State(const std::filesystem::path& path) : name(path.string()) {
+    checkIsFile(path);
+    file = gzopen(path.c_str(), "rb");
     if (file == nullptr) throw std::runtime_error(name + ": can't be opened");
   }
   ~State() { gzclose(file); }
@@ -38,14 +43,15 @@ struct CarmenLog::State {
 
   bool nextLine() {
     line.clear();
+    ++line_number;
     std::array<char, 4096> part;
     while (gzgets(file, part.data(), static_cast<int>(part.size())) != nullptr) {
       line += part.data();
+      if (part.front() == '\0' || line.size() > kLongestLine) fail("this is no line of a log");
       if (!line.empty() && line.back() == '\n') break;
     }
     int problem = Z_OK;
     gzerror(file, &problem);
-    ++line_number;
     if (problem != Z_OK && problem != Z_STREAM_END) fail("the compressed stream is broken");
     rest = line;
     return !line.empty();
@@ -83,7 +89,7 @@ struct CarmenLog::State {
   }
 
   std::string name;
-  gzFile file;
+  gzFile file = nullptr;
   std::string line;
   std::string_view rest;
   long line_number = 0;

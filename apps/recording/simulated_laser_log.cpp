@@ -3,6 +3,8 @@
 
 #include "apps/recording/simulated_laser_log.hpp"
 
+#include "cloud/file_limits.hpp"
+
 #include <charconv>
 #include <limits>
 #include <stdexcept>
@@ -11,8 +13,10 @@ namespace heel {
 
 void SimulatedLaserLog::Table::open(const std::filesystem::path& file, const std::string& header) {
   name = file.string();
+  checkIsFile(file);
   in.open(file);
-  if (!in || !std::getline(in, line)) throw std::runtime_error(name + ": can't be read");
+  if (!in) throw std::runtime_error(name + ": can't be read");
+  if (!std::getline(in, line)) throw std::runtime_error(name + ": the file is empty");
   if (line.rfind(header, 0) != 0) {
     throw std::runtime_error(name + ":1: does not begin with '" + header + "'");
   }

@@ -3,6 +3,8 @@
 
 #include "apps/recording/stamps.hpp"
 
+#include "cloud/file_limits.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -35,6 +37,7 @@ std::string_view trimmed(std::string_view text) {
 /// Calls `take` for each line that is neither blank nor a comment; it says whether it understood.
 void forEachLine(const std::filesystem::path& list, const std::string& form,
                  const std::function<bool(std::string_view)>& take) {
+  checkIsFile(list);
   std::ifstream in(list);
   if (!in) throw std::runtime_error(list.string() + " cannot be read");
   std::string line;

@@ -159,7 +159,10 @@ std::vector<YamlMap> YamlMap::list(const std::string& key, const std::string& wh
 
 std::vector<std::string> YamlMap::keys() {
   std::vector<std::string> out;
-  for (const auto& entry : node_) out.push_back(entry.first.as<std::string>());
+  for (const auto& entry : node_) {
+    if (!entry.first.IsScalar()) failAt(file_, entry.first.Mark(), "a key is no word");
+    out.push_back(entry.first.Scalar());
+  }
   known_.insert(out.begin(), out.end());
   return out;
 }

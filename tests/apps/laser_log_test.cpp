@@ -75,6 +75,18 @@ TEST(CarmenLog, SaysWhichLineIsBroken) {
   EXPECT_NE(test::messageOf([&] { openLaserLog(folder / "none.log"); }), "");
 }
 
+TEST(CarmenLog, EndsAtALineThatDoesNotEnd) {
+  const test::TempFolder folder;
+  for (const char byte : {'1', ' ', '\0'}) {
+    const auto log = openLaserLog(folder.write("long.log", std::string(5000000, byte)));
+    LaserReading reading;
+    const std::string message = test::messageOf([&] { log->next(reading); });
+    EXPECT_NE(message.find("long.log:1: this is no line of a log"), std::string::npos) << message;
+  }
+  EXPECT_NE(test::messageOf([] { openLaserLog("/dev/zero"); }).find("not a file"),
+            std::string::npos);
+}
+
 TEST(CarmenLog, HasTheRawOdometryOfARealDrive) {
   HEEL_NEED_DATA("laser_logs/freiburg-079.log.gz");
   const auto log = openLaserLog(test::dataFolder() / "laser_logs/freiburg-079.log.gz");
@@ -109,6 +121,10 @@ TEST(SimulatedLaserLog, SaysWhichFileIsMissingOrBroken) {
   const test::TempFolder folder;
   EXPECT_NE(test::messageOf([&] { openLaserLog(folder.path()); }).find("scan.csv"),
             std::string::npos);
+  folder.write("scan.csv", "");
+  EXPECT_NE(
+      test::messageOf([&] { openLaserLog(folder.path()); }).find("scan.csv: the file is empty"),
+      std::string::npos);
   folder.write("scan.csv", "stamp_s,first_rad,step_rad,ranges_m\n0.0,-1,x\n");
   EXPECT_NE(test::messageOf([&] { openLaserLog(folder.path()); }).find("odometry.csv"),
             std::string::npos);

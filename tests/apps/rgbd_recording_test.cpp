@@ -143,6 +143,19 @@ TEST_F(RgbdFolder, LeavesOutColourWithoutDepthAtThatTime) {
             color(2).string() + ": there is no depth image within 0.020000 s of it");
 }
 
+TEST_F(RgbdFolder, WithOneStampFarAheadLosesThatFrameAlone) {
+  for (const char* list : {"rgb.txt", "depth.txt"}) {
+    std::string text = heel::test::readText(folder / list);
+    const auto line = text.find('\n', text.find("2.png"));
+    const auto begin = text.rfind('\n', line - 1) + 1;
+    text.replace(begin, text.find(' ', begin) - begin, "1000000000");
+    writeText(folder / list, text);
+  }
+  readAll();
+  ASSERT_THAT(recording->skipped(), SizeIs(1));
+  EXPECT_THAT(recording->skipped()[0].reason, HasSubstr("the time jumps ahead to 1000000000"));
+}
+
 TEST_F(RgbdFolder, WithoutCameraFileSaysWhatToWrite) {
   std::filesystem::remove(folder / "camera.yaml");
   const std::string message = messageOf([&] { openRecording(folder.path()); });
@@ -167,6 +180,13 @@ TEST_F(RgbdFolder, NamesWhatIsWrongInTheCameraFile) {
             file + " has a 'T_ground_camera' that is not a list of 16 numbers");
   EXPECT_EQ(message("[0,0,1,0", "[0,0,2,0"),
             file + " has a 'T_ground_camera' that is not a rotation and a translation");
+  EXPECT_EQ(message("1.5, 0,0,0,1", "1.5, 0,0,x,1"),
+            file + " has a 'T_ground_camera' that is not a list of 16 numbers");
+  EXPECT_THAT(
+      message("T_ground_camera", "T_ground_camara"),
+      HasSubstr(file + " has the key 'T_ground_camara', which is unknown; there are width"));
+  EXPECT_THAT(message("width: 16\nheight: 12", "width: 99999\nheight: 99999"),
+              HasSubstr("a camera of 99999x99999 pixels asks for"));
   EXPECT_THAT(message(kCamera, "just words"), HasSubstr("holds no settings"));
   EXPECT_THAT(message("fx: 20", "fx: [20"), HasSubstr("is not YAML"));
 }

@@ -185,6 +185,21 @@ TEST_F(StereoCalibration, HandsRectifiedImagesOnUntouched) {
   EXPECT_THROW(rig.rectify(left, right.colRange(0, 600), l, r), std::invalid_argument);
 }
 
+TEST_F(StereoCalibration, RefusesASizeThatAsksForTooMuchMemory) {
+  cv::FileStorage storage((folder_ / "huge.yml").string(), cv::FileStorage::WRITE);
+  storage << "image_width" << 60000 << "image_height" << 60000;
+  store(storage, {});
+  storage.release();
+  EXPECT_THAT(test::messageOf([&] { readStereoRig(folder_ / "huge.yml"); }),
+              AllOf(HasSubstr("huge.yml"), HasSubstr("60000x60000 pixels asks for")));
+  EXPECT_THAT(test::messageOf([&] {
+                readStereoRig(write("calib.txt",
+                                    "cam0=[900 0 300; 0 900 200; 0 0 1]\ndoffs=0\n"
+                                    "baseline=100\nwidth=1e300\nheight=60000\n"));
+              }),
+              AllOf(HasSubstr("calib.txt"), HasSubstr("asks for")));
+}
+
 TEST_F(StereoCalibration, NamesTheFileAndTheReason) {
   const auto said = [&](const fs::path& file) {
     return test::messageOf([&] { readStereoRig(file); });
@@ -199,6 +214,17 @@ TEST_F(StereoCalibration, NamesTheFileAndTheReason) {
               AllOf(HasSubstr("text.yml"), HasSubstr("not an OpenCV calibration")));
   EXPECT_THAT(said(write("torn.yml", "%YAML:1.0\n---\nM1: !!opencv-matrix\n   rows: [")),
               HasSubstr("not an OpenCV calibration"));
+  EXPECT_THAT(said(write("deep.yml", "%YAML:1.0\n---\nM1: " + std::string(50000, '['))),
+              AllOf(HasSubstr("deep.yml"), HasSubstr("too deep")));
+  EXPECT_THAT(said(write("deep.yml", "%YAML:1.0\n---\nM1:\n" + std::string(50000, '-'))),
+              HasSubstr("too deep"));
+  std::string tags = "<?xml version=\"1.0\"?>\n<opencv_storage>\n";
+  for (int i = 0; i < 50000; ++i) tags += "<a>";
+  EXPECT_THAT(said(write("deep.xml", tags)), HasSubstr("too deep"));
+  EXPECT_THAT(said(write("huge.yml",
+                         "%YAML:1.0\n---\nM1: !!opencv-matrix\n   rows: 40000\n"
+                         "   cols: 40000\n   dt: d\n   data: [ 1. ]\n")),
+              AllOf(HasSubstr("huge.yml"), HasSubstr("has not the right shape")));
   EXPECT_THAT(stored({}, {"", "D1", "M2", "D2", "R", "T"}),
               AllOf(HasSubstr("bad.yml"), HasSubstr("(M1) is missing")));
   EXPECT_THAT(stored({}, {"M1", "D1", "M2", "", "R", "T"}), HasSubstr("(D2) is missing"));

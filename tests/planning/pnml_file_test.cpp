@@ -112,6 +112,9 @@ TEST_F(PnmlFile, SaysWhatIsWrongWithAnElement) {
             "place 'p' has the initialMarking '-1', which is not a number from 0 to 1000000");
   EXPECT_EQ(error(net("<place id='p'><graphics><position x='1'/></graphics><name/></place>")),
             "place 'p' is drawn at a place that is no place");
+  EXPECT_EQ(
+      error(net("<place id='p'><graphics><position x='1' y='-3e9'/></graphics><name/></place>")),
+      "place 'p' is drawn further away than 4000");
 }
 
 TEST_F(PnmlFile, SaysWhatIsWrongWithAnArc) {
