@@ -40,6 +40,19 @@ bool IndexedRecording::next(Frame& frame) {
   return false;
 }
 
+/// Whether most of the frames that follow would be lost after this one, for their times are before
+/// its own: then this one's is wrong.
+bool IndexedRecording::isAhead(std::size_t index) const {
+  constexpr std::size_t kFollowing = 100;
+  const std::size_t end = std::min(stamps_s_.size(), index + 1 + kFollowing);
+  std::size_t lost = 0, kept = 0;
+  for (std::size_t i = index + 1; i < end; ++i) {
+    if (stamps_s_[i] > stamps_s_[index]) ++kept;
+    if (stamps_s_[i] > last_stamp_s_ && stamps_s_[i] < stamps_s_[index]) ++lost;
+  }
+  return lost > 1 && lost > kept;
+}
+
 void IndexedRecording::checkStamp(std::size_t index) {
   const double stamp_s = stamps_s_[index];
   if (!(stamp_s > last_stamp_s_)) {
@@ -47,6 +60,10 @@ void IndexedRecording::checkStamp(std::size_t index) {
     throw std::runtime_error(
         frameName(index) + ": the time " + (stalls ? "stands still" : "runs backwards") +
         ", from " + std::to_string(last_stamp_s_) + " s to " + std::to_string(stamp_s) + " s");
+  }
+  if (isAhead(index)) {
+    throw std::runtime_error(frameName(index) + ": the time jumps ahead to " +
+                             std::to_string(stamp_s) + " s, and the next frames are before it");
   }
   last_stamp_s_ = stamp_s;
 }

@@ -33,6 +33,7 @@ class IndexedRecording : public Recording {
   virtual void read(std::size_t index, Frame& frame) = 0;
 
  private:
+  bool isAhead(std::size_t index) const;
   void checkStamp(std::size_t index);
 
   std::vector<double> stamps_s_;
