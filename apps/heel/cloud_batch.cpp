@@ -3,6 +3,8 @@
 
 #include "apps/heel/cloud_batch.hpp"
 
+#include "apps/report/terminal.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
@@ -46,7 +48,9 @@ void removeFormer(const fs::path& result) {
 
 void tellFailures(const std::vector<std::string>& reasons, std::size_t clouds) {
   if (reasons.empty()) return;
-  for (const std::string& reason : reasons) std::fprintf(stderr, "heel: %s\n", reason.c_str());
+  for (const std::string& reason : reasons) {
+    std::fprintf(stderr, "heel: %s\n", sentenceForTerminal(reason).c_str());
+  }
   throw std::runtime_error(std::to_string(reasons.size()) + " of " + std::to_string(clouds) +
                            " clouds failed; the others are done");
 }

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "apps/heel/commands.hpp"
+#include "apps/report/terminal.hpp"
 
 #include <CLI/CLI.hpp>
 #include <pcl/console/print.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -46,9 +46,8 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 /// Ends the program with a sentence on one line, whatever a library put into its message.
-int fail(std::string sentence) {
-  std::replace(sentence.begin(), sentence.end(), '\n', ' ');
-  std::fprintf(stderr, "heel: %s\n", sentence.c_str());
+int fail(const std::string& sentence) {
+  std::fprintf(stderr, "heel: %s\n", heel::sentenceForTerminal(sentence).c_str());
   return 1;
 }
 
@@ -62,11 +61,12 @@ void silenceLibraries() {
 }  // namespace
 
 void heel::warn(const std::string& warning) {
-  std::fprintf(stderr, "heel: warning: %s\n", warning.c_str());
+  std::fprintf(stderr, "heel: warning: %s\n", sentenceForTerminal(warning).c_str());
 }
 
 int main(int argc, char** argv) {
   silenceLibraries();
+  const heel::TerminalOutput output;
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on a file's size is then an error like a full disk
   CLI::App app{
       "heel: a mobile robot follows one person.\n"
