@@ -161,8 +161,10 @@ OccupancyGrid loadMapServer(const fs::path& yaml) {
   const MapYaml map(yaml);
   MapImageParams params;
   const double cell_size_m = map.number("resolution");
-  if (!(cell_size_m > 0.0)) fail(yaml, "'resolution' is not positive");
+  if (!isCellSize(cell_size_m)) fail(yaml, "'resolution' is not from 0.0001 to 100 m");
   params.origin_m = map.origin();
+  constexpr double kFurthest_m = 1e6;
+  if (params.origin_m.cwiseAbs().maxCoeff() > kFurthest_m) fail(yaml, "'origin' is too far away");
   if (map.has("negate")) params.negate = map.flag("negate");
   if (map.has("occupied_thresh")) params.occupied_thresh = map.share("occupied_thresh");
   if (map.has("free_thresh")) params.free_thresh = map.share("free_thresh");

@@ -15,6 +15,11 @@ namespace heel {
 
 enum class Occupancy : std::uint8_t { kFree, kOccupied, kUnknown };
 
+/// Whether cells may have an edge of this length: finer or coarser, no floor can be worked on.
+constexpr bool isCellSize(double cell_size_m) {
+  return cell_size_m >= 1e-4 && cell_size_m <= 100.0;  // not NaN
+}
+
 /// A cell of a grid, by column and row.
 struct GridCell {
   int x = 0;

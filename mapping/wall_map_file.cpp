@@ -8,7 +8,6 @@
 
 #include <octomap/OcTree.h>
 
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -79,9 +78,7 @@ Header readHeader(const std::filesystem::path& file, const std::string& bytes) {
     if (key == "size" && !(words >> header.nodes)) fail(file, "its 'size' is not a number");
     if (key == "res") words >> header.cell_size_m;
     if (key != "data") continue;
-    if (!(header.cell_size_m > 0.0) || !std::isfinite(header.cell_size_m)) {
-      fail(file, "its 'res' is not a positive number");
-    }
+    if (!isCellSize(header.cell_size_m)) fail(file, "its 'res' is not from 0.0001 to 100 m");
     if (lines.eof()) break;
     header.end = static_cast<std::size_t>(lines.tellg());
     return header;

@@ -33,4 +33,7 @@ void addView(CLI::App& app);
 void addEvaluate(CLI::App& app);
 void addExperiment(CLI::App& app);
 
+/// Gives each verb the option --max-memory; call it when all verbs are there.
+void addMemoryLimit(CLI::App& app);
+
 }  // namespace heel

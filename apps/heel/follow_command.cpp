@@ -6,8 +6,10 @@
 #include "apps/heel/commands.hpp"
 #include "apps/heel/follow_output.hpp"
 #include "apps/heel/lap_clock.hpp"
+#include "apps/heel/number_range.hpp"
 #include "apps/heel/resident_memory.hpp"
 #include "apps/heel/scene_argument.hpp"
+#include "apps/report/csv_file.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "planning/plan_file.hpp"
 
@@ -93,11 +95,14 @@ class MemoryWatch {
 };
 
 void print(const FollowSummary& summary, const Options& options, const FollowOutput& output) {
-  std::printf("%s after %.1f s: %.2f m at %.2f m/s (not counting %.1f s of seeking)\n",
+  const auto shown = [](double value, const char* unit, const char* none) {
+    return std::isfinite(value) ? fixedText(value, 2) + unit : std::string(none);
+  };
+  std::printf("%s after %.1f s: %.2f m at %s (not counting %.1f s of seeking)\n",
               summary.outcome.c_str(), summary.elapsed_s, summary.distance_m,
-              summary.moving_speed_mps, summary.seek_s);
-  std::printf("  contacts %d, least clearance %.2f m, wrong person %.1f s\n", summary.contacts,
-              summary.min_clearance_m, summary.wrong_person_s);
+              shown(summary.moving_speed_mps, " m/s", "no known speed").c_str(), summary.seek_s);
+  std::printf("  contacts %d, least clearance %s, wrong person %.1f s\n", summary.contacts,
+              shown(summary.min_clearance_m, " m", "not known").c_str(), summary.wrong_person_s);
   std::printf("results in %s: %s\n", options.out.string().c_str(), output.fileNames().c_str());
 }
 
@@ -165,7 +170,7 @@ void addFollow(CLI::App& app) {
   verb->add_option("--rate", options->rate_hz,
                    "pictures and commands [Hz]; the period is rounded to 0.01 s (default: the "
                    "scene's pictures, 10 commands)")
-      ->check(CLI::Range(1.0, 100.0));
+      ->check(between(1.0, 100.0));
   verb->add_flag("--no-film", options->no_film, "write no film");
   addResultBag(*verb, options->bag);
   verb->callback([options] { run(*options); });

@@ -5,6 +5,7 @@
 #include "apps/heel/bag_options.hpp"
 #include "apps/heel/commands.hpp"
 #include "apps/heel/localize_output.hpp"
+#include "apps/heel/number_range.hpp"
 #include "apps/heel/scene_argument.hpp"
 #include "apps/simulation/scene_grid.hpp"
 #include "mapping/map_server_file.hpp"
@@ -113,7 +114,7 @@ void addLocalize(CLI::App& app) {
       ->transform(CLI::CheckedTransformer(scans))
       ->option_text("WHICH");
   verb->add_option("--cell", options->cell_size_m, "edge of a cell of the map [m]")
-      ->check(CLI::Range(0.01, 1.0))
+      ->check(between(0.01, 1.0))
       ->capture_default_str();
   CLI::Option* global =
       verb->add_flag("--global", options->params.global, "the robot may be anywhere at first");

@@ -14,6 +14,7 @@
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <string>
 
 namespace {
@@ -98,10 +99,13 @@ int main(int argc, char** argv) {
   heel::addView(app);
   heel::addEvaluate(app);
   heel::addExperiment(app);
+  heel::addMemoryLimit(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return error.get_exit_code() == 0 ? app.exit(error) : fail(explain(app, error));
+  } catch (const std::bad_alloc&) {
+    return fail("there is not enough memory for this");
   } catch (const std::exception& error) {
     return fail(error.what());
   }

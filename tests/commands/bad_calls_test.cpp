@@ -5,6 +5,7 @@
 /// Help, and calls that can't be understood.
 
 #include "tests/commands/heel.hpp"
+#include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 
@@ -65,6 +66,38 @@ TEST(Call, WithoutARequiredArgumentNamesIt) {
 TEST(Call, WithTextForANumberNamesBoth) {
   EXPECT_TRUE(failsWith(heel({"learn", "somewhere", "--background", "long"}),
                         {"--background", "long", "'heel learn --help'"}));
+}
+
+TEST(Call, WithANumberThatCannotBeNamesIt) {
+  for (const std::string bad : {"nan", "1e9", "-1", "inf"}) {
+    EXPECT_TRUE(failsWith(heel({"planview", "some.pcd", "--cell", bad}), {"--cell", bad}));
+    EXPECT_TRUE(failsWith(heel({"simulate", "home", "--out", "o", "--duration", bad}),
+                          {"--duration", bad}));
+    EXPECT_TRUE(
+        failsWith(heel({"map", "home", "--out", "o", "--resolution", bad}), {"--resolution", bad}));
+  }
+}
+
+TEST(Call, TellsTheLimitOfMemoryThatItWasGiven) {
+  const TempFolder folder;
+  writeText(folder / "a.jpg", std::string("\xFF\xD8\xFF\xC0\0\x0B\x08\xFF\xFF\xFF\xFF", 11));
+  const auto with = [&](const std::string& limit) {
+    return heel({"map", folder / "a.jpg", "--resolution", "1", "--out", folder / "out",
+                 "--max-memory", limit});
+  };
+  EXPECT_TRUE(failsWith(with("2GB"), {"a.jpg: the image of 65535x65535 pixels", "2048 MiB is"}));
+  EXPECT_TRUE(failsWith(with("lots"), {"--max-memory"}));
+}
+
+TEST(Call, ShowsNoControlCharacters) {
+  const TempFolder folder;
+  writeText(folder / "a.pcd",
+            "VERSION .7\nFIELDS x y z a\x1b[31m\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n"
+            "WIDTH 1\nHEIGHT 1\nPOINTS 1\nDATA ascii\n1 2 3 4\n");
+  const HeelRun run = heel({"inspect", folder / "a.pcd"});
+  EXPECT_TRUE(succeeds(run));
+  EXPECT_THAT(run.out, HasSubstr("x y z a?[31m"));
+  EXPECT_TRUE(failsWith(heel({"inspect", "no\x1b\a"}), {"no??: there is no"}));
 }
 
 TEST(Call, TellsItsVersion) {

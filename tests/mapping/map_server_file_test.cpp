@@ -93,6 +93,7 @@ TEST_F(MapServerFile, ATurnedOriginIsRefusedInAClearSentence) {
 TEST_F(MapServerFile, WhatIsWrongGetsASentenceWithTheKey) {
   const std::pair<std::string, std::string> wrong[] = {
       {"resolution", "0"},        {"resolution", "fine"}, {"resolution", ".nan"},
+      {"resolution", "1e9"},      {"resolution", "1e-9"}, {"origin", "[1e300, 0, 0]"},
       {"resolution", "[1, 2]"},   {"origin", "[0, 0]"},   {"origin", "[.inf, 0, 0]"},
       {"negate", "perhaps"},      {"free_thresh", "0.9"}, {"occupied_thresh", "65"},
       {"free_thresh", "several"}, {"mode", "scale"}};
@@ -115,6 +116,8 @@ TEST_F(MapServerFile, ABadImageIsNamed) {
   EXPECT_THAT(imageIs("cut.pgm", "P5\n3 2\n255\n12345"), HasSubstr("cut.pgm: the image is trunc"));
   EXPECT_THAT(imageIs("head.pgm", "P5\n3"), HasSubstr("head.pgm: the image"));
   EXPECT_THAT(imageIs("huge.pgm", "P5\n99999999 99999999\n255\n1"), HasSubstr("truncated"));
+  EXPECT_THAT(imageIs("vast.jpg", std::string("\xFF\xD8\xFF\xC0\0\x0B\x08\xFF\xFF\xFF\xFF", 11)),
+              HasSubstr("vast.jpg: the image of 65535x65535 pixels asks for"));
   EXPECT_THAT(imageIs("empty.pgm", ""), HasSubstr("empty.pgm: the image is empty"));
   EXPECT_THAT(imageIs("text.png", "a letter"), HasSubstr("text.png: the image cannot be decoded"));
   cv::imwrite(folder_ / "whole.png", cv::Mat(40, 40, CV_8UC1, cv::Scalar(254)));

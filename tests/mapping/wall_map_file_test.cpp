@@ -95,6 +95,7 @@ TEST_F(WallMapFile, WhatIsNoWallMapIsNamed) {
   };
   EXPECT_THAT(whyNot(with("id OcTree", "id ColorOcTree")), HasSubstr("'ColorOcTree'"));
   EXPECT_THAT(whyNot(with("res 0.05", "res -1")), HasSubstr("'res'"));
+  EXPECT_THAT(whyNot(with("res 0.05", "res 1e9")), HasSubstr("'res'"));
   EXPECT_THAT(whyNot(with("res 0.05", "res fine")), HasSubstr("'res'"));
   EXPECT_THAT(whyNot(with("\nsize ", "\nsize 1")), HasSubstr("nodes"));
   EXPECT_THAT(whyNot(with("\nsize ", "\nsize many ")), HasSubstr("'size'"));
