@@ -178,6 +178,9 @@ StereoRig readOpenCvCalibration(const std::vector<fs::path>& files, cv::Size ima
     if (T.total() != 3) fail(stored.origin(), "the translation (T) has not three elements");
     if (cv::norm(T) < 1e-9) fail(stored.origin(), "there is no baseline between the cameras");
     if (size.empty()) fail(stored.origin(), "the size of the images is not given");
+    for (const RawCamera* raw : {&left, &right}) {
+      checkDistortion(stored.origin(), raw->distortion.total());
+    }
     cv::Mat Q;
     cv::stereoRectify(left.K, left.distortion, right.K, right.distortion, size, R, T.reshape(1, 3),
                       left.R, right.R, left.P, right.P, Q, cv::CALIB_ZERO_DISPARITY, 0.0);

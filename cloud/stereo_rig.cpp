@@ -31,13 +31,15 @@ StereoCamera rectifiedCamera(const cv::Mat& left, const cv::Mat& right, cv::Size
   return camera;
 }
 
-void check(const StereoCamera& camera, const cv::Mat& right_P, const std::string& origin) {
+void check(const StereoCamera& camera, const cv::Mat& left_P, const cv::Mat& right_P,
+           const std::string& origin) {
   const auto fail = [&](const std::string& reason) {
     throw std::runtime_error(origin + ": " + reason);
   };
   const double b = camera.baseline_m;
   checkCameraMemory(origin, camera.left.width, camera.left.height);
   if (!(camera.left.fx > 0.0) || !(camera.left.fy > 0.0)) fail("a focal length is not positive");
+  if (!cv::checkRange(right_P) || !cv::checkRange(left_P)) fail("a number is not finite");
   if (std::abs(right_P.at<double>(1, 3)) > std::abs(right_P.at<double>(0, 3))) {
     fail("the cameras stand above each other; only pairs side by side can be matched");
   }
@@ -59,10 +61,19 @@ bool isIdentity(const RawCamera& camera) {
 
 }  // namespace
 
+void checkDistortion(const std::string& origin, std::size_t numbers) {
+  for (const std::size_t known : {0U, 4U, 5U, 8U, 12U, 14U}) {
+    if (numbers == known) return;
+  }
+  throw std::runtime_error(origin + ": a distortion of " + std::to_string(numbers) +
+                           " numbers is not known (4, 5, 8, 12 or 14)");
+}
+
 StereoRig::StereoRig(RawCamera left, RawCamera right, cv::Size image_size,
                      const std::string& origin)
     : camera_(rectifiedCamera(left.P, right.P, image_size)) {
-  check(camera_, right.P, origin);
+  check(camera_, left.P, right.P, origin);
+  for (const RawCamera* raw : {&left, &right}) checkDistortion(origin, raw->distortion.total());
   if (isIdentity(left) && isIdentity(right)) return;
   cv::initUndistortRectifyMap(left.K, left.distortion, left.R, left.P, image_size, CV_16SC2,
                               left_map_, left_weights_);

@@ -21,6 +21,11 @@ struct RawCamera {
   cv::Mat P;           ///< 3x4: projects the rectified frame.
 };
 
+/// @throws std::runtime_error  one sentence that begins with `origin`, if a camera has a distortion
+/// of
+///         so many numbers as OpenCV has no model for.
+void checkDistortion(const std::string& origin, std::size_t numbers);
+
 /// Two calibrated cameras. Immutable once made; `const` members are thread-safe.
 class StereoRig {
  public:

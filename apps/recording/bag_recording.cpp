@@ -100,6 +100,7 @@ void BagRecording::setUpRgbd(const BagSurvey& survey, const BagCamera& camera) {
       std::any_of(info.D.begin(), info.D.end(), [](double d) { return std::abs(d) > 1e-12; });
   if (is_rectified || !is_distorted) return;
   checkCameraMemory(path_ + ", camera_info of " + first_.topic, info.width, info.height);
+  checkDistortion(path_ + ", camera_info of " + first_.topic, info.D.size());
   const cv::Mat K = matrixOf(info.K);
   cv::initUndistortRectifyMap(K, cv::Mat(info.D), cv::noArray(), K,
                               {info_.camera.left.width, info_.camera.left.height}, CV_32FC1,

@@ -231,6 +231,10 @@ TEST_F(StereoCalibration, NamesTheFileAndTheReason) {
   EXPECT_THAT(stored({}, {"M1", "D1", "M2", "D2", "", "T"}), HasSubstr("(R) is missing"));
   EXPECT_THAT(stored({}, {"M1", "D1", "M2", "D2", "R", ""}), HasSubstr("(T) is missing"));
   RawPair pair;
+  pair.D2 = cv::Mat::ones(1, 6, CV_64F);
+  EXPECT_THAT(stored(pair, {"M1", "D1", "M2", "D2", "R", "T"}),
+              AllOf(HasSubstr("bad.yml: a distortion of 6 numbers is not known")));
+  pair = {};
   pair.T = cv::Mat::zeros(3, 1, CV_64F);
   EXPECT_THAT(stored(pair, {"M1", "D1", "M2", "D2", "R", "T"}), HasSubstr("no baseline"));
   pair.T.at<double>(0) = -120.0;

@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tests/fuzz/readers.hpp"
+
+#include "apps/bag/bag.hpp"
+#include "apps/recording/bag_cloud.hpp"
+#include "apps/recording/bag_image_reader.hpp"
+#include "apps/recording/bag_survey.hpp"
+#include "apps/recording/camera_file.hpp"
+#include "apps/recording/cloud_file.hpp"
+#include "apps/recording/image_file.hpp"
+#include "apps/recording/laser_log.hpp"
+#include "apps/recording/stamps.hpp"
+#include "apps/report/result_files.hpp"
+#include "apps/simulation/scene.hpp"
+#include "cloud/stereo_calibration.hpp"
+#include "mapping/map_server_file.hpp"
+#include "mapping/wall_map_builder.hpp"
+#include "mapping/wall_map_file.hpp"
+#include "planning/following_plan.hpp"
+#include "planning/plan_file.hpp"
+#include "segmentation/appearance_model_io.hpp"
+#include "tests/support/cloud_files.hpp"
+#include "tests/support/filled_message.hpp"
+
+#include <opencv2/imgcodecs.hpp>
+
+namespace heel::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Seeds = std::vector<std::string>;
+
+fs::path put(const fs::path& folder, const std::string& name, const std::string& bytes) {
+  writeText(folder / name, bytes);
+  return folder / name;
+}
+
+template <class Draw>
+std::string drawn(const fs::path& folder, const std::string& name, const Draw& draw) {
+  draw(folder / name);
+  return readText(folder / name);
+}
+
+Seeds cloudSeeds(const fs::path& folder, const std::string& ending) {
+  const auto ascii = folder / ("ascii" + ending);
+  if (ending == ".pcd") {
+    writeAsciiPcd(ascii, {pcdPoint(1, 2, 3, 4, 5, 6), "nan nan nan 0"});
+  } else {
+    writeAsciiPly(ascii, {"1 2 3 4 5 6", "7 8 9 1 2 3"});
+  }
+  return {readText(ascii), drawn(folder, "packed" + ending, [&](const fs::path& file) {
+            writeCloud(file, readCloud(ascii));
+          })};
+}
+
+void readBag(const fs::path& file) {
+  surveyBag(file);
+  const auto bag = openBag(file);
+  for (BagMessage raw; bag->next(raw);) continue;
+}
+
+Seeds bagSeeds(const fs::path& folder, const std::string& ending) {
+  return {drawn(folder, "seed" + ending, [](const fs::path& file) {
+    const auto bag = createBag(file);
+    bag->write("/image", 1, filled<ImageMsg>());
+    bag->write("/scan", 2, filled<LaserScanMsg>());
+    bag->write("/odom", 3, filled<OdometryMsg>());
+    bag->write("/tf", 4, filled<TFMessageMsg>());
+    bag->commit();
+  })};
+}
+
+/// The first byte tells which message the others are.
+template <class... Messages>
+struct MessageList {
+  static void read(BagForm form, const std::string& bytes) {
+    if (bytes.empty()) return;
+    std::size_t i = 0;
+    const std::size_t chosen = static_cast<std::uint8_t>(bytes[0]) % sizeof...(Messages);
+    (void)((i++ == chosen && (readOne<Messages>(form, bytes), true)) || ...);
+  }
+  static Seeds seeds(BagForm form) {
+    Seeds all;
+    (all.push_back(seedOf<Messages>(form, all.size())), ...);
+    return all;
+  }
+
+ private:
+  template <class Message>
+  static void readOne(BagForm form, const std::string& bytes) {
+    Message message;
+    readMessage(form, reinterpret_cast<const std::uint8_t*>(bytes.data()) + 1, bytes.size() - 1,
+                message);
+    cv::Mat image;
+    BagImageReader images;
+    if constexpr (std::is_same_v<Message, PointCloud2Msg>) toColorCloud(message);
+    if constexpr (std::is_same_v<Message, ImageMsg> ||
+                  std::is_same_v<Message, CompressedImageMsg>) {
+      isDepthEncoding(textOf(message)) ? images.readDepth(message, image)
+                                       : images.readColor(message, image);
+    }
+  }
+  static const std::string& textOf(const ImageMsg& message) { return message.encoding; }
+  static const std::string& textOf(const CompressedImageMsg& message) { return message.format; }
+
+  template <class Message>
+  static std::string seedOf(BagForm form, std::size_t i) {
+    std::vector<std::uint8_t> bytes;
+    writeMessage(form, filled<Message>(), bytes);
+    return std::string(1, static_cast<char>(i)) + std::string(bytes.begin(), bytes.end());
+  }
+};
+using AllMessages = MessageList<ImageMsg, CompressedImageMsg, CameraInfoMsg, PointCloud2Msg,
+                                LaserScanMsg, OdometryMsg, PathMsg, OccupancyGridMsg, TFMessageMsg,
+                                PoseArrayMsg, PoseStampedMsg, MarkerArrayMsg>;
+
+Seeds mapSeeds(const fs::path& folder) {
+  const OccupancyGrid grid({0.0, 0.0}, 0.5, 3, 2);
+  return {drawn(folder, "seed.yaml", [&](const fs::path& file) { saveMapServer(grid, file); }),
+          readText(folder / "seed.pgm")};
+}
+
+Seeds imageSeeds(const fs::path&) {
+  Seeds seeds;
+  for (const char* format : {".png", ".jpg", ".bmp", ".pgm", ".tif"}) {
+    std::vector<std::uint8_t> bytes;
+    cv::imencode(format, cv::Mat(5, 7, CV_8UC1, cv::Scalar(9)), bytes);
+    seeds.emplace_back(bytes.begin(), bytes.end());
+  }
+  return seeds;
+}
+
+const char* const kStereo =
+    "%YAML:1.0\n---\nimage_width: 64\nimage_height: 48\n"
+    "P1: !!opencv-matrix\n   rows: 3\n   cols: 4\n   dt: d\n"
+    "   data: [ 90., 0., 32., 0., 0., 90., 24., 0., 0., 0., 1., 0. ]\n"
+    "P2: !!opencv-matrix\n   rows: 3\n   cols: 4\n   dt: d\n"
+    "   data: [ 90., 0., 32., -9., 0., 90., 24., 0., 0., 0., 1., 0. ]\n";
+const char* const kCameraInfo =
+    "image_width: 64\nimage_height: 48\ndistortion_model: plumb_bob\n"
+    "camera_matrix: {rows: 3, cols: 3, data: [90, 0, 32, 0, 90, 24, 0, 0, 1]}\n"
+    "distortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n"
+    "rectification_matrix: {rows: 3, cols: 3, data: [1, 0, 0, 0, 1, 0, 0, 0, 1]}\n"
+    "projection_matrix: {rows: 3, cols: 4, data: [90, 0, 32, -9, 0, 90, 24, 0, 0, 0, 1, 0]}\n";
+
+AppearanceModel smallModel() {
+  ColorHistogram person, room;
+  for (int i = 0; i < 300; ++i) person.add(200, static_cast<std::uint8_t>(i % 9), 30);
+  for (int i = 0; i < 300; ++i) room.add(90, 90, static_cast<std::uint8_t>(90 + i % 9));
+  AppearanceParams params;
+  params.bands = upperBody();
+  return AppearanceModel(params, {person}, room);
+}
+
+void readLog(const fs::path& file) {
+  const auto log = openLaserLog(file);
+  for (LaserReading reading; log->next(reading);) continue;
+}
+
+}  // namespace
+
+const std::vector<FuzzReader>& fuzzReaders() {
+  static const std::vector<FuzzReader> kReaders = {
+      {"pcd", [](const auto& f, const auto& b) { readCloud(put(f, "a.pcd", b)); },
+       [](const auto& f) { return cloudSeeds(f, ".pcd"); }},
+      {"ply", [](const auto& f, const auto& b) { readCloud(put(f, "a.ply", b)); },
+       [](const auto& f) { return cloudSeeds(f, ".ply"); }},
+      {"ros1_bag", [](const auto& f, const auto& b) { readBag(put(f, "a.bag", b)); },
+       [](const auto& f) { return bagSeeds(f, ".bag"); }},
+      {"ros2_bag", [](const auto& f, const auto& b) { readBag(put(f, "a.db3", b)); },
+       [](const auto& f) { return bagSeeds(f, ".db3"); }},
+      {"ros1_message", [](const auto&, const auto& b) { AllMessages::read(BagForm::kRos1, b); },
+       [](const auto&) { return AllMessages::seeds(BagForm::kRos1); }},
+      {"cdr_message", [](const auto&, const auto& b) { AllMessages::read(BagForm::kRos2, b); },
+       [](const auto&) { return AllMessages::seeds(BagForm::kRos2); }},
+      {"carmen", [](const auto& f, const auto& b) { readLog(put(f, "a.log", b)); },
+       [](const auto&) {
+         return Seeds{"ODOM 5 5 0 0 0 0 1 h 1\nFLASER 4 1 2 81.9 3.5 1 0 0 1 0 0 0.2 h 0.2\n"};
+       }},
+      {"camera", [](const auto& f, const auto& b) { readCameraFile(put(f, "camera.yaml", b)); },
+       [](const auto&) {
+         return Seeds{
+             "width: 16\nheight: 12\nfx: 20\nfy: 21\ncx: 7.5\ncy: 5.5\ndepth_scale: 1000\n"
+             "T_ground_camera: [0,0,1,0, -1,0,0,0, 0,-1,0,1.5, 0,0,0,1]\n"};
+       }},
+      {"stereo", [](const auto& f, const auto& b) { readStereoRig(put(f, "stereo.yaml", b)); },
+       [](const auto&) { return Seeds{kStereo}; }},
+      {"camera_info",
+       [](const auto& f, const auto& b) {
+         readCameraInfo(put(f, "left.yaml", kCameraInfo), put(f, "right.yaml", b));
+       },
+       [](const auto&) { return Seeds{kCameraInfo}; }},
+      {"model", [](const auto& f, const auto& b) { loadAppearance(put(f, "person.yaml", b)); },
+       [](const auto& f) {
+         return Seeds{
+             drawn(f, "seed.yaml", [](const auto& file) { saveAppearance(smallModel(), file); })};
+       }},
+      {"scene", [](const auto& f, const auto& b) { loadScene(put(f, "a.yaml", b).string()); },
+       [](const auto&) {
+         return Seeds{
+             "name: small\nwalls:\n  - {from: [0, 0], to: [4, 0]}\n"
+             "people:\n  - {name: ann, height_m: 1.7, at: [1, 1]}\n"};
+       }},
+      {"map",
+       [](const auto& f, const auto& b) {
+         put(f, "seed.pgm", "P5\n3 2\n255\nabcdef");
+         loadMapServer(put(f, "a.yaml", b));
+       },
+       [](const auto& f) { return Seeds{mapSeeds(f)[0]}; }},
+      {"map_image", [](const auto& f, const auto& b) { gridFromImage(put(f, "a.pgm", b), 0.05); },
+       [](const auto& f) { return Seeds{mapSeeds(f)[1]}; }},
+      {"wall_map", [](const auto& f, const auto& b) { loadWallMap(put(f, "a.bt", b)).floorGrid(); },
+       [](const auto& f) {
+         WallMapBuilder builder(0.1);
+         builder.addFreeFloor({0.0, 0.0}, {0.5, 0.5});
+         const WallMap map = builder.build();
+         return Seeds{drawn(f, "seed.bt", [&](const auto& file) { saveWallMap(map, file); })};
+       }},
+      {"plan",
+       [](const auto& f, const auto& b) { loadPlan(put(f, "a.pnml", b), followingVocabulary()); },
+       [](const auto&) {
+         return Seeds{readText(fs::path(HEEL_SOURCE_DIR) / "apps/plans/paper.pnml")};
+       }},
+      {"tracks", [](const auto& f, const auto& b) { readTracks(put(f, "tracks.csv", b)); },
+       [](const auto&) {
+         return Seeds{
+             "stamp_s,track_id,is_target,x_m,y_m,vx_mps,vy_mps,score,status\n"
+             "1,1,1,0.5,0,0,0,0.9,confirmed\n"};
+       }},
+      {"stamps", [](const auto& f, const auto& b) { readStampedFiles(put(f, "rgb.txt", b)); },
+       [](const auto&) { return Seeds{"# colour\n0.5 rgb/1.png\n0.75 rgb/2.png\n"}; }},
+      {"image",
+       [](const auto&, const auto& b) {
+         cv::Mat image;
+         decodeImage("the image", {b.begin(), b.end()}, cv::IMREAD_COLOR, image);
+       },
+       imageSeeds}};
+  return kReaders;
+}
+
+}  // namespace heel::test
