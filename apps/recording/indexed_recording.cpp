@@ -4,6 +4,7 @@
 #include "apps/recording/indexed_recording.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -16,10 +17,13 @@ IndexedRecording::IndexedRecording(const std::filesystem::path& path, RecordingI
   info_ = std::move(info);
   info_.name = std::filesystem::canonical(path).filename().string();
   info_.frame_count = stamps_s_.size();
-  if (!stamps_s_.empty()) {
-    const auto [first, last] = std::minmax_element(stamps_s_.begin(), stamps_s_.end());
-    info_.duration_s = *last - *first;
+  double first_s = last_stamp_s_, last_s = last_stamp_s_;  // of the frames that count
+  for (std::size_t i = 0; i < stamps_s_.size(); ++i) {
+    if (!(stamps_s_[i] > last_s) || isAhead(i, last_s)) continue;
+    last_s = stamps_s_[i];
+    if (!std::isfinite(first_s)) first_s = last_s;
   }
+  if (std::isfinite(first_s)) info_.duration_s = last_s - first_s;
 }
 
 bool IndexedRecording::next(Frame& frame) {
@@ -42,13 +46,13 @@ bool IndexedRecording::next(Frame& frame) {
 
 /// Whether most of the frames that follow would be lost after this one, for their times are before
 /// its own: then this one's is wrong.
-bool IndexedRecording::isAhead(std::size_t index) const {
+bool IndexedRecording::isAhead(std::size_t index, double last_s) const {
   constexpr std::size_t kFollowing = 100;
   const std::size_t end = std::min(stamps_s_.size(), index + 1 + kFollowing);
   std::size_t lost = 0, kept = 0;
   for (std::size_t i = index + 1; i < end; ++i) {
     if (stamps_s_[i] > stamps_s_[index]) ++kept;
-    if (stamps_s_[i] > last_stamp_s_ && stamps_s_[i] < stamps_s_[index]) ++lost;
+    if (stamps_s_[i] > last_s && stamps_s_[i] < stamps_s_[index]) ++lost;
   }
   return lost > 1 && lost > kept;
 }
@@ -61,7 +65,7 @@ void IndexedRecording::checkStamp(std::size_t index) {
         frameName(index) + ": the time " + (stalls ? "stands still" : "runs backwards") +
         ", from " + std::to_string(last_stamp_s_) + " s to " + std::to_string(stamp_s) + " s");
   }
-  if (isAhead(index)) {
+  if (isAhead(index, last_stamp_s_)) {
     throw std::runtime_error(frameName(index) + ": the time jumps ahead to " +
                              std::to_string(stamp_s) + " s, and the next frames are before it");
   }

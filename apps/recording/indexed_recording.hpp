@@ -33,7 +33,7 @@ class IndexedRecording : public Recording {
   virtual void read(std::size_t index, Frame& frame) = 0;
 
  private:
-  bool isAhead(std::size_t index) const;
+  bool isAhead(std::size_t index, double last_s) const;
   void checkStamp(std::size_t index);
 
   std::vector<double> stamps_s_;

@@ -154,6 +154,7 @@ TEST_F(RgbdFolder, WithOneStampFarAheadLosesThatFrameAlone) {
   readAll();
   ASSERT_THAT(recording->skipped(), SizeIs(1));
   EXPECT_THAT(recording->skipped()[0].reason, HasSubstr("the time jumps ahead to 1000000000"));
+  EXPECT_NEAR(recording->info().duration_s, 0.6, 1e-9);
 }
 
 TEST_F(RgbdFolder, WithoutCameraFileSaysWhatToWrite) {
