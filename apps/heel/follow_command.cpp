@@ -9,7 +9,6 @@
 #include "apps/heel/number_range.hpp"
 #include "apps/heel/resident_memory.hpp"
 #include "apps/heel/scene_argument.hpp"
-#include "apps/report/csv_file.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "planning/plan_file.hpp"
 
@@ -95,14 +94,11 @@ class MemoryWatch {
 };
 
 void print(const FollowSummary& summary, const Options& options, const FollowOutput& output) {
-  const auto shown = [](double value, const char* unit, const char* none) {
-    return std::isfinite(value) ? fixedText(value, 2) + unit : std::string(none);
-  };
-  std::printf("%s after %.1f s: %.2f m at %s (not counting %.1f s of seeking)\n",
+  std::printf("%s after %.1f s: %.2f m at %.2f m/s (not counting %.1f s of seeking)\n",
               summary.outcome.c_str(), summary.elapsed_s, summary.distance_m,
-              shown(summary.moving_speed_mps, " m/s", "no known speed").c_str(), summary.seek_s);
-  std::printf("  contacts %d, least clearance %s, wrong person %.1f s\n", summary.contacts,
-              shown(summary.min_clearance_m, " m", "not known").c_str(), summary.wrong_person_s);
+              summary.moving_speed_mps, summary.seek_s);
+  std::printf("  contacts %d, least clearance %.2f m, wrong person %.1f s\n", summary.contacts,
+              summary.min_clearance_m, summary.wrong_person_s);
   std::printf("results in %s: %s\n", options.out.string().c_str(), output.fileNames().c_str());
 }
 
