@@ -174,7 +174,8 @@ void Ros1BagReader::openChunk() {
 std::size_t Ros1BagReader::recordInChunk() {
   const std::uint8_t* at = chunk_.data() + chunk_at_;
   const std::size_t left = chunk_.size() - chunk_at_;
-  if (left < 8 || numberAt(at) > left - 8) return 0;
+  constexpr std::size_t kLeastHeader = 8;  // the field "op=.": seen soon, where all is 0
+  if (left < 8 || numberAt(at) < kLeastHeader || numberAt(at) > left - 8) return 0;
   const std::size_t header = numberAt(at), data = numberAt(at + 4 + header);
   if (data > left - 8 - header || !inner_.parse(at + 4, header) || !inner_.kind()) return 0;
   return 8 + header + data;
