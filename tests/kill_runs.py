@@ -297,6 +297,8 @@ def run_all(heel, folder, count, draw):
             print(f"run {number}: {fault}", file=sys.stderr)
             return 1
         counts[what] = counts.get(what, 0) + 1
+        if (number + 1) % 100 == 0:
+            print(f"{number + 1} runs", file=sys.stderr, flush=True)
     told = ", ".join(f"{value} {name}" for name, value in sorted(counts.items()))
     print(f"{count} runs ({told}): nothing was lost, and each next run worked")
     return 0

@@ -130,12 +130,10 @@ void showInWindow(const Options& options, Scenes& scenes, SceneWindow& window) {
   bool is_open = true;
   eachScene(options, scenes, 1, [&](const ViewScene& scene, double since_s) {
     last = scene;
-    is_open = !isStopRequested() &&
-              window.show(scene, since_s > 0.0 ? std::min(since_s, kLongest_s) : 0.0);
+    is_open = window.show(scene, since_s > 0.0 ? std::min(since_s, kLongest_s) : 0.0);
     return is_open;
   });
-  while (is_open && !isStopRequested()) is_open = window.show(last, kLongest_s);
-  if (isStopRequested()) throw Stopped("stopped");
+  while (is_open) is_open = window.show(last, kLongest_s);
 }
 
 void writePictures(const Options& options, Scenes& scenes, std::size_t frames) {

@@ -65,7 +65,8 @@ bool staysWithin(const fs::path& folder, const fs::path& name) {
 /// Tells the disk to keep what was written, and is told whether there was room.
 void sync(const fs::path& path, const fs::path& named) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool is_kept = file >= 0 && (fsync(file) == 0 || errno == EINVAL);
+  // What may not be opened, a folder of somebody else, or can't be synced is left to the system.
+  const bool is_kept = file < 0 ? errno == EACCES : fsync(file) == 0 || errno == EINVAL;
   const std::string why = lastError();
   if (file >= 0) ::close(file);
   if (!is_kept) failToWrite(named, why);
@@ -116,9 +117,7 @@ Output::Output(const OutputPlan& plan) : plan_(plan) {
   if (!error && !is_folder && fs::is_directory(target)) {
     error = std::make_error_code(std::errc::is_a_directory);
   }
-  if (error) {
-    failToWrite(plan.path, error.message());
-  }
+  if (error) failToWrite(plan.path, error.message());
   struct stat here {};
   struct stat above {};
   if (is_folder && stat(target.c_str(), &here) == 0 && stat(parent.c_str(), &above) == 0 &&
