@@ -51,9 +51,9 @@ std::unique_ptr<BagReader> openBag(const fs::path& path) {
   return std::make_unique<Ros2BagReader>(path);
 }
 
-std::unique_ptr<BagWriter> createBag(const fs::path& path) {
-  if (path.extension() == ".bag") return std::make_unique<Ros1BagWriter>(path);
-  return std::make_unique<Ros2BagWriter>(path);
+std::unique_ptr<BagWriter> createBag(const BagPlan& plan) {
+  if (plan.path.extension() == ".bag") return std::make_unique<Ros1BagWriter>(plan);
+  return std::make_unique<Ros2BagWriter>(plan);
 }
 
 }  // namespace heel

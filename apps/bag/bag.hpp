@@ -98,8 +98,9 @@ class BagWriter {
   }
 
   /// Completes the bag and gives it its name, in the place of one that has it.
+  /// @param complete  False if more was to come: then it does not replace one that is complete.
   /// @throws std::runtime_error  as write().
-  virtual void commit() = 0;
+  virtual void commit(bool complete = true) = 0;
 
  protected:
   struct Topic {
@@ -127,9 +128,20 @@ class BagWriter {
   std::vector<std::uint8_t> bytes_;
 };
 
+/// Where a bag goes, and what it may not replace.
+struct BagPlan {
+  std::filesystem::path path;
+  std::vector<std::filesystem::path> inputs = {};  ///< What is read while it is written.
+  std::string by = "bag";  ///< Who writes: a bag of that name is replaced only if they made it.
+};
+
 /// Begins a bag: `X.bag` in ROS 1's form, `X.db3` as the one file of ROS 2's, any other name as
 /// ROS 2's folder (metadata.yaml and a .db3).
-/// @throws std::runtime_error  if it can't be made, or a folder of that name holds other things.
-std::unique_ptr<BagWriter> createBag(const std::filesystem::path& path);
+/// @throws std::invalid_argument  if it may not go there, see Output.
+/// @throws std::runtime_error  if it can't be made.
+std::unique_ptr<BagWriter> createBag(const BagPlan& plan);
+inline std::unique_ptr<BagWriter> createBag(const std::filesystem::path& path) {
+  return createBag(BagPlan{path});
+}
 
 }  // namespace heel

@@ -3,7 +3,7 @@
 
 #include "apps/bag/ros1_bag_writer.hpp"
 
-#include "apps/report/atomic_file.hpp"
+#include "apps/report/output.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -24,26 +24,23 @@ std::int64_t validTime(std::int64_t ns) {
 
 }  // namespace
 
-Ros1BagWriter::Ros1BagWriter(std::filesystem::path file)
-    : path_(std::move(file)),
-      temporary_(temporaryBeside(path_)),
-      out_(temporary_, std::ios::binary | std::ios::trunc) {
+Ros1BagWriter::Ros1BagWriter(const BagPlan& plan)
+    : output_(std::make_unique<Output>(
+          OutputPlan{plan.by, OutputKind::kFile, plan.path, plan.inputs, {}})),
+      out_(output_->file().written, std::ios::binary | std::ios::trunc) {
   if (!out_) {
-    throw std::runtime_error(path_.string() + " cannot be written: " + std::strerror(errno));
+    throw OutputError(plan.path.string() + " cannot be written: " + std::strerror(errno));
   }
   write(Ros1Bytes(kRos1Magic.begin(), kRos1Magic.end()));
   writeBagHeader(0);
 }
 
-Ros1BagWriter::~Ros1BagWriter() {
-  std::error_code ignored;
-  if (!finished_) std::filesystem::remove(temporary_, ignored);
-}
+Ros1BagWriter::~Ros1BagWriter() = default;
 
 void Ros1BagWriter::write(const Ros1Bytes& bytes) {
   out_.write(reinterpret_cast<const char*>(bytes.data()),
              static_cast<std::streamsize>(bytes.size()));
-  if (!out_) throw std::runtime_error(path_.string() + " cannot be written: is the disk full?");
+  if (!out_) throw OutputError(output_->path().string() + " cannot be written: is the disk full?");
   at_ += bytes.size();
 }
 
@@ -127,7 +124,7 @@ void Ros1BagWriter::endChunk() {
   chunk_bytes_.clear();
 }
 
-void Ros1BagWriter::commit() {
+void Ros1BagWriter::commit(bool complete) {
   endChunk();
   const std::uint64_t index_at = at_;
   for (std::size_t i = 0; i < topics_.size(); ++i) write(connection(i));
@@ -150,9 +147,8 @@ void Ros1BagWriter::commit() {
   out_.seekp(static_cast<std::streamoff>(kRos1Magic.size()));
   writeBagHeader(index_at);
   out_.close();
-  if (!out_) throw std::runtime_error(path_.string() + " cannot be written: is the disk full?");
-  commitTemporary(temporary_, path_);
-  finished_ = true;
+  if (!out_) throw OutputError(output_->path().string() + " cannot be written: is the disk full?");
+  output_->commit(complete);
 }
 
 }  // namespace heel

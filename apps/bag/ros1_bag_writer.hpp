@@ -10,18 +10,21 @@
 
 #include <fstream>
 #include <map>
+#include <memory>
 
 namespace heel {
+
+class Output;
 
 /// Writes a bag of format 2.0 in chunks that are not packed: what is large, pictures, is already.
 class Ros1BagWriter final : public BagWriter {
  public:
-  /// @throws std::runtime_error  if the file can't be made.
-  explicit Ros1BagWriter(std::filesystem::path file);
+  /// @throws std::invalid_argument, std::runtime_error  as createBag().
+  explicit Ros1BagWriter(const BagPlan& plan);
   ~Ros1BagWriter() override;
 
   BagForm form() const override { return BagForm::kRos1; }
-  void commit() override;
+  void commit(bool complete) override;
 
  private:
   void add(std::size_t topic) override;
@@ -44,14 +47,13 @@ class Ros1BagWriter final : public BagWriter {
     std::map<std::uint32_t, std::uint32_t> counts;  // of messages, by connection
   };
 
-  std::filesystem::path path_, temporary_;
+  std::unique_ptr<Output> output_;
   std::ofstream out_;
   std::uint64_t at_ = 0;
   Ros1Bytes chunk_bytes_;
   Chunk chunk_;
   std::map<std::uint32_t, std::vector<Entry>> entries_;  // of this chunk, by connection
   std::vector<Chunk> chunks_;                            // done
-  bool finished_ = false;
 };
 
 }  // namespace heel

@@ -3,10 +3,10 @@
 
 #include "apps/bag/ros2_bag_writer.hpp"
 
-#include "apps/report/atomic_file.hpp"
+#include "apps/report/output.hpp"
 
 #include <algorithm>
-#include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -40,67 +40,53 @@ std::string quoted(const std::string& text) {
   return result + "\"";
 }
 
-/// Whether a folder may be replaced: it holds nothing, or a bag.
-bool mayReplace(const fs::path& folder) {
-  return !fs::exists(folder) || (fs::is_directory(folder) &&
-                                 (fs::is_empty(folder) || fs::exists(folder / "metadata.yaml")));
-}
-
 }  // namespace
 
-Ros2BagWriter::Ros2BagWriter(fs::path path)
-    : path_(std::move(path)), is_folder_(path_.extension() != ".db3") {
-  if (path_.filename().empty()) path_ = path_.parent_path();  // it was given as "name/"
-  temporary_ = temporaryBeside(path_);
-  fs::path database = temporary_;
-  std::error_code problem;
-  fs::remove_all(temporary_, problem);
-  if (is_folder_) {
-    if (!mayReplace(path_)) {
-      throw std::runtime_error(path_.string() + ": there is something else of that name already");
-    }
-    file_name_ = path_.filename().string() + "_0.db3";
-    database /= file_name_;
-    fs::create_directories(temporary_, problem);
-    if (problem) throw std::runtime_error(path_.string() + ": can't be made: " + problem.message());
-  }
-  file_.emplace(database, SqliteFile::Use::kCreate);
-  // Until it has its name nobody else reads it, and after a crash it is of no use.
-  file_->run(
-      "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF;"
-      "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL,"
-      " serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL);"
-      "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL,"
-      " timestamp INTEGER NOT NULL, data BLOB NOT NULL);"
-      "CREATE INDEX timestamp_idx ON messages (timestamp ASC); BEGIN");
-  insert_.emplace(file_->query("INSERT INTO messages(topic_id, timestamp, data) VALUES (?, ?, ?)"));
+Ros2BagWriter::Ros2BagWriter(const BagPlan& plan) : is_folder_(plan.path.extension() != ".db3") {
+  const OutputKind kind = is_folder_ ? OutputKind::kFolder : OutputKind::kFile;
+  output_ =
+      std::make_unique<Output>(OutputPlan{plan.by, kind, plan.path, plan.inputs, {}, is_folder_});
+  // "name/" is called name
+  const fs::path name = plan.path.has_filename() ? plan.path : plan.path.parent_path();
+  file_name_ = name.filename().string() + (is_folder_ ? "_0.db3" : "");
+  writeWith(*output_ / file_name_, [&](const fs::path& file) {
+    file_.emplace(file, SqliteFile::Use::kCreate);
+    // Until it has its name nobody else reads it, and after a crash it is of no use.
+    file_->run(
+        "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF;"
+        "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL,"
+        " serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL);"
+        "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL,"
+        " timestamp INTEGER NOT NULL, data BLOB NOT NULL);"
+        "CREATE INDEX timestamp_idx ON messages (timestamp ASC); BEGIN");
+    insert_.emplace(
+        file_->query("INSERT INTO messages(topic_id, timestamp, data) VALUES (?, ?, ?)"));
+  });
 }
 
-Ros2BagWriter::~Ros2BagWriter() {
-  if (finished_) return;
-  insert_.reset();
-  file_.reset();
-  std::error_code ignored;
-  fs::remove_all(temporary_, ignored);
-}
+Ros2BagWriter::~Ros2BagWriter() = default;
 
 void Ros2BagWriter::add(std::size_t topic) {
   const Topic& about = topics_[topic];
-  file_->query("INSERT INTO topics VALUES (?, ?, ?, 'cdr', ?)")
-      .bind(1, static_cast<std::int64_t>(topic + 1))
-      .bind(2, about.name)
-      .bind(3, withMsg(about.type))
-      .bind(4, qosOf(about.latched))
-      .run();
+  writeWith(*output_ / file_name_, [&](const fs::path&) {
+    file_->query("INSERT INTO topics VALUES (?, ?, ?, 'cdr', ?)")
+        .bind(1, static_cast<std::int64_t>(topic + 1))
+        .bind(2, about.name)
+        .bind(3, withMsg(about.type))
+        .bind(4, qosOf(about.latched))
+        .run();
+  });
   counts_.push_back(0);
 }
 
 void Ros2BagWriter::put(std::size_t topic, std::int64_t stamp_ns,
                         const std::vector<std::uint8_t>& bytes) {
-  insert_->bind(1, static_cast<std::int64_t>(topic + 1))
-      .bind(2, stamp_ns)
-      .bind(3, bytes.data(), bytes.size())
-      .run();
+  writeWith(*output_ / file_name_, [&](const fs::path&) {
+    insert_->bind(1, static_cast<std::int64_t>(topic + 1))
+        .bind(2, stamp_ns)
+        .bind(3, bytes.data(), bytes.size())
+        .run();
+  });
   first_ns_ = message_count_ == 0 ? stamp_ns : std::min(first_ns_, stamp_ns);
   last_ns_ = message_count_ == 0 ? stamp_ns : std::max(last_ns_, stamp_ns);
   ++counts_[topic];
@@ -108,7 +94,7 @@ void Ros2BagWriter::put(std::size_t topic, std::int64_t stamp_ns,
 }
 
 void Ros2BagWriter::writeMetadata() const {
-  std::ofstream out(temporary_ / "metadata.yaml");
+  std::ostringstream out;
   const std::string total = std::to_string(message_count_);
   out << "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: sqlite3\n"
       << "  duration:\n    nanoseconds: " << last_ns_ - first_ns_ << "\n"
@@ -125,22 +111,18 @@ void Ros2BagWriter::writeMetadata() const {
       << "\n        nanoseconds_since_epoch: " << first_ns_
       << "\n      duration:\n        nanoseconds: " << last_ns_ - first_ns_
       << "\n      message_count: " << total << "\n";
-  out.close();
-  if (!out) throw std::runtime_error(path_.string() + " cannot be written: is the disk full?");
+  writeFile(*output_ / "metadata.yaml", out.str());
 }
 
-void Ros2BagWriter::commit() {
+void Ros2BagWriter::commit(bool complete) {
   insert_.reset();
-  file_->run("COMMIT");
-  file_->close();
+  writeWith(*output_ / file_name_, [&](const fs::path&) {
+    file_->run("COMMIT");
+    file_->close();
+  });
   file_.reset();
-  if (is_folder_) {
-    writeMetadata();
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  commitTemporary(temporary_, path_);
-  finished_ = true;
+  if (is_folder_) writeMetadata();
+  output_->commit(complete);
 }
 
 }  // namespace heel

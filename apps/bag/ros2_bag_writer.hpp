@@ -8,19 +8,22 @@
 #include "apps/bag/bag.hpp"
 #include "apps/bag/sqlite_file.hpp"
 
+#include <memory>
 #include <optional>
 
 namespace heel {
 
+class Output;
+
 /// Writes a folder with metadata.yaml and one .db3 file, or that file alone.
 class Ros2BagWriter final : public BagWriter {
  public:
-  /// @throws std::runtime_error  if it can't be made, or the folder holds other things.
-  explicit Ros2BagWriter(std::filesystem::path path);
+  /// @throws std::invalid_argument, std::runtime_error  as createBag().
+  explicit Ros2BagWriter(const BagPlan& plan);
   ~Ros2BagWriter() override;
 
   BagForm form() const override { return BagForm::kRos2; }
-  void commit() override;
+  void commit(bool complete) override;
 
  private:
   void add(std::size_t topic) override;
@@ -28,7 +31,7 @@ class Ros2BagWriter final : public BagWriter {
            const std::vector<std::uint8_t>& bytes) override;
   void writeMetadata() const;
 
-  std::filesystem::path path_, temporary_;
+  std::unique_ptr<Output> output_;  // before the database that is in it
   bool is_folder_;
   std::string file_name_;  // of the database in the folder
   std::optional<SqliteFile> file_;
@@ -36,7 +39,6 @@ class Ros2BagWriter final : public BagWriter {
   std::vector<std::size_t> counts_;  // of messages, by topic
   std::size_t message_count_ = 0;
   std::int64_t first_ns_ = 0, last_ns_ = 0;
-  bool finished_ = false;
 };
 
 }  // namespace heel

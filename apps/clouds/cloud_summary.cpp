@@ -20,16 +20,10 @@ std::vector<std::string> columnsWith(const std::vector<std::string>& own) {
   return columns;
 }
 
-const std::filesystem::path& made(const std::filesystem::path& folder) {
-  makeResultFolder(folder);
-  return folder;
-}
-
 }  // namespace
 
-CloudSummary::CloudSummary(const std::filesystem::path& folder,
-                           const std::vector<std::string>& columns)
-    : folder_(made(folder)), csv_(folder / "summary.csv", columnsWith(columns)) {}
+CloudSummary::CloudSummary(const Output& output, const std::vector<std::string>& columns)
+    : csv_(output / "summary.csv", columnsWith(columns)), json_(output / "summary.json") {}
 
 void CloudSummary::add(const std::filesystem::path& file, const CloudFate& fate,
                        const std::function<void(CsvWriter&)>& addFields) {
@@ -56,8 +50,8 @@ void CloudSummary::add(const std::filesystem::path& file, const CloudFate& fate,
   }
 }
 
-std::size_t CloudSummary::failed() const {
-  const auto found = outcomes_.find(CloudFate::kFailed);
+std::size_t CloudSummary::count(const std::string& outcome) const {
+  const auto found = outcomes_.find(outcome);
   return found == outcomes_.end() ? 0 : found->second;
 }
 
@@ -72,15 +66,13 @@ std::string CloudSummary::outcomes() const {
   return text;
 }
 
-void CloudSummary::commit(const nlohmann::ordered_json& more) {
-  nlohmann::ordered_json json = {{"files", files_}, {"outcomes", outcomes_}};
+void CloudSummary::close(const nlohmann::ordered_json& more) {
+  nlohmann::ordered_json json = {
+      {"complete", count(CloudFate::kStopped) == 0}, {"files", files_}, {"outcomes", outcomes_}};
   json.update(more);
   json["reasons"] = reasons_;
-  AtomicFile file(folder_ / "summary.json");
-  writeJson(file, json);
-  file.close();
-  csv_.commit();
-  file.commit();
+  csv_.close();
+  writeJson(json_, json);
 }
 
 std::string toText(const CloudFacts& facts) {

@@ -27,33 +27,33 @@ struct CloudFate {
 
   bool hasFailed() const { return outcome == kFailed; }
   static constexpr const char* kFailed = "failed";
+  static constexpr const char* kStopped = "stopped";  ///< A signal came before its turn.
 };
 
 /// Writes summary.csv row by row: the file, its fate and its facts, and what the verb adds to them.
-/// Nothing has its name before commit().
 class CloudSummary {
  public:
   /// @param columns  Those that the verb adds.
-  /// @throws std::runtime_error  if the folder or a file can't be made or written; so do the
-  ///         others.
-  CloudSummary(const std::filesystem::path& folder, const std::vector<std::string>& columns);
+  /// @throws OutputError  if a file can't be written; so do the others.
+  CloudSummary(const Output& output, const std::vector<std::string>& columns);
 
   /// @param addFields  Writes the verb's own fields of the row.
   void add(const std::filesystem::path& file, const CloudFate& fate,
            const std::function<void(CsvWriter&)>& addFields);
 
   std::size_t files() const { return files_; }
-  std::size_t failed() const;
+  std::size_t failed() const { return count(CloudFate::kFailed); }
+  std::size_t count(const std::string& outcome) const;
 
   /// "5 written, 3 failed", the most frequent first.
   std::string outcomes() const;
 
   /// Writes summary.json too: how many files met which fate, `more`, and the reasons.
-  void commit(const nlohmann::ordered_json& more);
+  void close(const nlohmann::ordered_json& more);
 
  private:
-  std::filesystem::path folder_;
   CsvWriter csv_;
+  OutputPath json_;
   std::size_t files_ = 0;
   std::map<std::string, std::size_t> outcomes_;
   nlohmann::ordered_json reasons_ = nlohmann::ordered_json::array();

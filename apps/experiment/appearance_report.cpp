@@ -77,7 +77,7 @@ std::string hexOf(const Rgb& color) {
   return text.data();
 }
 
-void writePeople(const std::filesystem::path& file, const std::vector<WardrobeRuns>& wardrobes) {
+void writePeople(const OutputPath& file, const std::vector<WardrobeRuns>& wardrobes) {
   CsvWriter csv(file, {"wardrobe", "person", "top", "trousers", "hair", "skin", "learned_frames",
                        "learning_ended"});
   for (const WardrobeRuns& wardrobe : wardrobes) {
@@ -93,10 +93,10 @@ void writePeople(const std::filesystem::path& file, const std::vector<WardrobeRu
           .endRow();
     }
   }
-  csv.commit();
+  csv.close();
 }
 
-void writeRuns(const std::filesystem::path& file, const std::vector<WardrobeRuns>& wardrobes,
+void writeRuns(const OutputPath& file, const std::vector<WardrobeRuns>& wardrobes,
                double min_share) {
   CsvWriter csv(file,
                 {"wardrobe", "model", "model_of", "person", "similar_pair", "frames_in_view",
@@ -127,10 +127,10 @@ void writeRuns(const std::filesystem::path& file, const std::vector<WardrobeRuns
       }
     }
   }
-  csv.commit();
+  csv.close();
 }
 
-void writePairs(const std::filesystem::path& file, const std::vector<WardrobeRuns>& wardrobes) {
+void writePairs(const OutputPath& file, const std::vector<WardrobeRuns>& wardrobes) {
   CsvWriter csv(file, {"wardrobe", "model", "target", "other", "frames", "target_appearance",
                        "other_appearance", "target_blob_score", "other_blob_score",
                        "followed_target", "followed_other", "target_higher"});
@@ -153,7 +153,7 @@ void writePairs(const std::filesystem::path& file, const std::vector<WardrobeRun
       }
     }
   }
-  csv.commit();
+  csv.close();
 }
 
 /// What a cell of the picture shows, see writeAppearanceFiles().
@@ -205,13 +205,13 @@ std::vector<AppearanceRow> appearanceTable(const std::vector<WardrobeRuns>& ward
   return rows;
 }
 
-void writeAppearanceFiles(const std::filesystem::path& folder,
+void writeAppearanceFiles(const Output& output, const std::string& folder,
                           const std::vector<WardrobeRuns>& wardrobes, double min_share) {
   if (wardrobes.empty()) return;
-  makeResultFolder(folder);
-  if (!wardrobes.front().acquired.empty()) writePeople(folder / "people.csv", wardrobes);
-  writeRuns(folder / "runs.csv", wardrobes, min_share);
-  writePairs(folder / "pairs.csv", wardrobes);
+  if (!wardrobes.front().acquired.empty())
+    writePeople(output / (folder + "/people.csv"), wardrobes);
+  writeRuns(output / (folder + "/runs.csv"), wardrobes, min_share);
+  writePairs(output / (folder + "/pairs.csv"), wardrobes);
   nlohmann::ordered_json summary;
   summary["wardrobes"] = wardrobes.size();
   summary["min_share"] = min_share;
@@ -237,8 +237,8 @@ void writeAppearanceFiles(const std::filesystem::path& folder,
                                          {"false_positives", row.all.false_positives.count}});
     }
   }
-  writeJson(folder / "summary.json", summary);
-  writePicture(folder / "confusion.png", drawMatrices(wardrobes, min_share));
+  writeJson(output / (folder + "/summary.json"), summary);
+  writePicture(output / (folder + "/confusion.png"), drawMatrices(wardrobes, min_share));
 }
 
 }  // namespace heel

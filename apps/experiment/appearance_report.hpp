@@ -6,8 +6,8 @@
 #pragma once
 
 #include "apps/experiment/appearance_experiment.hpp"
+#include "apps/report/output.hpp"
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -38,8 +38,9 @@ std::vector<AppearanceRow> appearanceTable(const std::vector<WardrobeRuns>& ward
 /// a run), pairs.csv (one a two-people test), summary.json and confusion.png: of
 /// one wardrobe the share of the time in which each was followed, of several the share of the
 /// wardrobes in which each was detected.
-/// @throws std::runtime_error  as CsvWriter.
-void writeAppearanceFiles(const std::filesystem::path& folder,
+/// @param folder  Of the output: they go there.
+/// @throws OutputError  as CsvWriter.
+void writeAppearanceFiles(const Output& output, const std::string& folder,
                           const std::vector<WardrobeRuns>& wardrobes, double min_share);
 
 }  // namespace heel

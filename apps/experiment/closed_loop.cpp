@@ -3,6 +3,7 @@
 
 #include "apps/experiment/closed_loop.hpp"
 
+#include "apps/report/run_end.hpp"
 #include "apps/simulation/scene_map.hpp"
 
 #include <algorithm>
@@ -123,6 +124,10 @@ FollowLog runClosedLoop(const Scene& scene, const PetriPlan& plan, const ClosedL
     }
     if (step->outcome != PlanOutcome::kRunning) {
       log.outcome = step->outcome == PlanOutcome::kFailed ? "failed" : "done";
+      break;
+    }
+    if (isStopRequested()) {
+      log.outcome = kStoppedRun;
       break;
     }
     if (readings.stamp_s >= params.limit_s) break;

@@ -38,8 +38,8 @@ RobotDescription describeRobot(const Simulator& simulator);
 
 /// The scene's first person enters and is learned and followed, until they have walked all of their
 /// path and the robot is with them ("reached"), the plan fails ("failed") or comes to a goal of its
-/// own ("done"), nobody could be learned ("nobody learned"), or the time is over ("timeout"). All
-/// randomness comes from the seed.
+/// own ("done"), nobody could be learned ("nobody learned"), the time is over ("timeout"), or a
+/// signal asked for the end ("stopped"). All randomness comes from the seed.
 /// @param plan      A Petri net plan; see loadPlan().
 /// @param observer  May draw and time; it can't change anything.
 FollowLog runClosedLoop(const Scene& scene, const PetriPlan& plan, const ClosedLoopParams& params,

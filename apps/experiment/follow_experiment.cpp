@@ -4,6 +4,7 @@
 #include "apps/experiment/follow_experiment.hpp"
 
 #include "apps/experiment/random_episode.hpp"
+#include "apps/report/run_end.hpp"
 #include "planning/plan_file.hpp"
 
 #include <algorithm>
@@ -21,6 +22,7 @@ namespace {
 struct Job {
   FollowEpisode episode;
   bool is_random = false;
+  bool has_ended = false;
 };
 
 std::vector<Job> jobsOf(const FollowExperimentParams& params,
@@ -93,7 +95,7 @@ FollowExperiment runFollowExperiment(const FollowExperimentParams& params,
   std::mutex mutex;
   std::exception_ptr error;
   const auto work = [&] {
-    for (std::size_t i = next++; i < jobs.size(); i = next++) {
+    for (std::size_t i = next++; i < jobs.size() && !isStopRequested(); i = next++) {
       try {
         run(jobs[i], params);
       } catch (...) {
@@ -103,7 +105,8 @@ FollowExperiment runFollowExperiment(const FollowExperimentParams& params,
         return;
       }
       const std::lock_guard<std::mutex> lock(mutex);
-      if (done) done(jobs[i].episode);
+      jobs[i].has_ended = jobs[i].episode.summary.outcome != kStoppedRun;
+      if (done && jobs[i].has_ended) done(jobs[i].episode);
     }
   };
   const unsigned count = params.jobs > 0 ? static_cast<unsigned>(params.jobs)
@@ -113,6 +116,7 @@ FollowExperiment runFollowExperiment(const FollowExperimentParams& params,
   for (std::thread& thread : threads) thread.join();
   if (error) std::rethrow_exception(error);
   for (Job& job : jobs) {
+    if (!job.has_ended) continue;
     auto& list = job.is_random ? experiment.episodes : experiment.table1;
     list.push_back(std::move(job.episode));
   }

@@ -28,6 +28,7 @@ struct FollowExperimentParams {
 
 /// The three experiments in the scene `office`, each with the paper's plan and with ours, then the
 /// random episodes. In the first experiment the person is alone; in the others another walks about.
+/// A signal that asks for the end leaves out the runs that have not ended.
 /// @param done  Told of each run when it has ended, one at a time.
 /// @throws std::runtime_error  as loadScene() and loadPlan().
 FollowExperiment runFollowExperiment(const FollowExperimentParams& params,

@@ -3,6 +3,7 @@
 
 #include "apps/experiment/log_localization.hpp"
 
+#include "apps/report/run_end.hpp"
 #include "mapping/scan_map.hpp"
 
 #include <algorithm>
@@ -100,6 +101,10 @@ LogLocalizationResult localizeLog(const std::filesystem::path& path, const Occup
   bool started = false;
   int lost = 0;
   for (std::size_t i = 0; log->next(reading); ++i) {
+    if (isStopRequested()) {
+      result.complete = false;
+      break;
+    }
     if (fair && makesMap(*params.left_out, i, count)) continue;
     const FloorPose increment = last_odometry.inverse() * reading.odometry;
     last_odometry = reading.odometry;

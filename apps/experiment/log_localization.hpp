@@ -46,6 +46,7 @@ struct LogLocalizationStep {
 
 /// All of them together.
 struct LogLocalizationResult {
+  bool complete = true;  ///< False if a signal ended it before.
   int scans = 0;
   int weighed = 0;  ///< The robot had moved.
   double way_m = 0.0;

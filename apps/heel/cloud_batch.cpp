@@ -9,6 +9,7 @@
 
 #include <cstdio>
 #include <set>
+#include <stdexcept>
 
 namespace heel {
 
@@ -21,38 +22,32 @@ void addCloudBatch(CLI::App& verb, CloudBatch& batch, const std::string& inputs)
       ->capture_default_str();
 }
 
-std::vector<fs::path> resultNames(const std::vector<fs::path>& clouds, const fs::path& folder,
-                                  const std::string& ending) {
-  std::set<fs::path> inputs, taken;
-  for (const fs::path& cloud : clouds) inputs.insert(fs::weakly_canonical(cloud));
-  std::vector<fs::path> results;
+std::vector<std::string> resultNames(const std::vector<fs::path>& clouds,
+                                     const std::string& ending) {
+  std::set<std::string> taken;
+  std::vector<std::string> results;
   for (const fs::path& cloud : clouds) {
-    fs::path result = folder / cloud.filename();
-    result += ending;
-    if (inputs.count(fs::weakly_canonical(result)) > 0) {
-      throw std::runtime_error(result.string() + ": would overwrite a cloud that is read");
-    }
+    std::string result = cloud.filename().string() + ending;
     if (!taken.insert(result).second) {
-      throw std::runtime_error(cloud.string() + ": another cloud's result has the same name, " +
-                               result.string());
+      throw std::invalid_argument(cloud.string() + ": another cloud's result has the same name, " +
+                                  result);
     }
     results.push_back(std::move(result));
   }
   return results;
 }
 
-void removeFormer(const fs::path& result) {
-  std::error_code ignored;
-  if (!fs::is_directory(result, ignored)) fs::remove(result, ignored);
-}
-
-void tellFailures(const std::vector<std::string>& reasons, std::size_t clouds) {
-  if (reasons.empty()) return;
-  for (const std::string& reason : reasons) {
-    std::fprintf(stderr, "heel: %s\n", sentenceForTerminal(reason).c_str());
+void tellFailures(const CloudFailures& failures, std::size_t clouds, std::size_t stopped) {
+  for (const std::string& why : failures.reasons) {
+    std::fprintf(stderr, "heel: %s\n", sentenceForTerminal(why).c_str());
   }
-  throw std::runtime_error(std::to_string(reasons.size()) + " of " + std::to_string(clouds) +
-                           " clouds failed; the others are done");
+  const std::string of = " of " + std::to_string(clouds) + " clouds ";
+  if (stopped > 0) throw Stopped("stopped: " + std::to_string(stopped) + of + "are not done");
+  if (failures.reasons.empty()) return;
+  const std::string what =
+      std::to_string(failures.reasons.size()) + of + "failed; the others are done";
+  if (failures.is_ours) throw OutputError(what);
+  throw std::runtime_error(what);
 }
 
 }  // namespace heel

@@ -8,9 +8,10 @@
 #include "apps/clouds/cloud_summary.hpp"
 #include "apps/clouds/ordered_loop.hpp"
 #include "apps/report/progress_bar.hpp"
+#include "apps/report/run_end.hpp"
 
+#include <atomic>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,34 +31,43 @@ struct CloudBatch {
 /// Adds IN and --threads.
 void addCloudBatch(CLI::App& verb, CloudBatch& batch, const std::string& inputs);
 
-/// Where each cloud's result goes: its own name in the folder, with another ending if one is given.
-/// @throws std::runtime_error  if two would be the same file, or one of the clouds is written over.
-std::vector<std::filesystem::path> resultNames(const std::vector<std::filesystem::path>& clouds,
-                                               const std::filesystem::path& folder,
-                                               const std::string& ending = "");
+/// What each cloud's result is called: its own name, with another ending if one is given.
+/// @throws std::invalid_argument  if two would be the same.
+std::vector<std::string> resultNames(const std::vector<std::filesystem::path>& clouds,
+                                     const std::string& ending = "");
 
-/// Tells on stderr why clouds failed, a sentence each; then fails, if there were any.
-/// @throws std::runtime_error  that counts them.
-void tellFailures(const std::vector<std::string>& reasons, std::size_t clouds);
+/// Clouds of a batch that could not be worked on.
+struct CloudFailures {
+  std::vector<std::string> reasons;  ///< A sentence each.
+  bool is_ours = false;              ///< A result could not be written.
+};
 
-/// Removes the result that a former run left, where there is no new one.
-void removeFormer(const std::filesystem::path& result);
+/// Tells on stderr why clouds failed; then fails, if there were any.
+/// @param stopped  So many were not done, because a signal asked for the end.
+/// @throws Stopped, OutputError, std::runtime_error  that counts them.
+void tellFailures(const CloudFailures& failures, std::size_t clouds, std::size_t stopped = 0);
 
 /// Calls `work(file index, fate)` for each cloud and takes an error for its fate; adds each result
-/// to the summary, in order, by `add(index, fate, result)`.
+/// to the summary, in order, by `add(index, fate, result)`. Once a signal asks for the end, the
+/// others are passed over, as kStopped.
 /// @tparam Work  Returns a result that can be default-constructed: that of a cloud that failed.
-/// @return the reasons of those that failed.
 template <typename Work, typename Add>
-std::vector<std::string> workOnClouds(const std::string& title, std::size_t clouds,
-                                      unsigned threads, const Work& work, const Add& add) {
+CloudFailures workOnClouds(const std::string& title, std::size_t clouds, unsigned threads,
+                           const Work& work, const Add& add) {
   using Result = decltype(work(std::size_t{}, std::declval<CloudFate&>()));
-  std::vector<std::string> reasons;
+  CloudFailures failures;
+  std::atomic<bool> is_ours{false};
   ProgressBar progress(title, clouds);
-  const auto tried = [&work](std::size_t i) {
+  const auto tried = [&](std::size_t i) {
     std::pair<CloudFate, Result> done;
+    if (isStopRequested()) {
+      done.first.outcome = CloudFate::kStopped;
+      return done;
+    }
     try {
       done.second = work(i, done.first);
     } catch (const std::exception& error) {
+      if (dynamic_cast<const OutputError*>(&error) != nullptr) is_ours = true;
       done.first.outcome = CloudFate::kFailed;
       done.first.reason = error.what();
       done.second = Result();
@@ -65,11 +75,12 @@ std::vector<std::string> workOnClouds(const std::string& title, std::size_t clou
     return done;
   };
   loopInOrder(clouds, threads, tried, [&](std::size_t i, std::pair<CloudFate, Result>&& done) {
-    if (done.first.hasFailed()) reasons.push_back(done.first.reason);
+    if (done.first.hasFailed()) failures.reasons.push_back(done.first.reason);
     add(i, done.first, done.second);
     progress.show(i + 1);
   });
-  return reasons;
+  failures.is_ours = is_ours;
+  return failures;
 }
 
 }  // namespace heel

@@ -70,9 +70,10 @@ void run(const Options& options) {
   const Evaluation result =
       evaluate(alignByStamp(readTracks(options.tracks), readTruth(options.truth)), options.params);
   print(result);
-  if (!options.out.empty()) {
-    writeJson(options.out, toJson(result));
-  }
+  if (options.out.empty()) return;
+  Output output({"evaluate", OutputKind::kFile, options.out, {options.tracks, options.truth}});
+  writeJson(output.file(), toJson(result));
+  output.commit();
 }
 
 }  // namespace

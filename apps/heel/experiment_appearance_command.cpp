@@ -7,6 +7,7 @@
 #include "apps/heel/number_range.hpp"
 #include "apps/heel/scene_argument.hpp"
 #include "apps/report/progress_bar.hpp"
+#include "apps/report/run_end.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -14,6 +15,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -75,13 +77,20 @@ void printRandom(const std::vector<WardrobeRuns>& runs, double min_share) {
   }
 }
 
+/// The tables need all the runs: of some of them, nothing is written.
+void endIfStopped() {
+  if (isStopRequested()) throw Stopped("stopped: nothing is written");
+}
+
 /// Each real person's model against all of them.
-void runPeople(const Options& options) {
+void runPeople(const Options& options, const std::optional<Output>& output) {
   ProgressBar progress("people", 100);
   WardrobeRuns runs;
-  runs.models = runPeopleMatrixExperiment(
-      options.people, options.params.models, {},
-      [&](double share) { progress.show(static_cast<std::size_t>(100.0 * share)); });
+  runs.models =
+      runPeopleMatrixExperiment(options.people, options.params.models, {}, [&](double share) {
+        endIfStopped();
+        progress.show(static_cast<std::size_t>(100.0 * share));
+      });
   const double min_share = options.params.min_share;
   std::printf("%s: %zu people, each model against everyone\n",
               options.people.filename().string().c_str(), runs.models.front().matrix.size());
@@ -89,10 +98,10 @@ void runPeople(const Options& options) {
     std::printf("  %-32s FN %-10s FP %s\n", row.name.c_str(),
                 counted(row.all.false_negatives).c_str(), counted(row.all.false_positives).c_str());
   }
-  if (!options.out.empty()) writeAppearanceFiles(options.out / "people", {runs}, min_share);
+  if (output) writeAppearanceFiles(*output, "people", {runs}, min_share);
 }
 
-void runSimulated(const Options& options) {
+void runSimulated(const Options& options, const std::optional<Output>& output) {
   constexpr std::size_t kSteps = 100;
   const auto all = static_cast<std::size_t>(options.wardrobes) + 1;
   ProgressBar progress("appearance", kSteps * all);
@@ -100,17 +109,16 @@ void runSimulated(const Options& options) {
   for (std::size_t i = 0; i < all; ++i) {
     const Wardrobe wardrobe = i == 0 ? laboratoryWardrobe() : randomWardrobe(options.seed + i - 1);
     results.push_back(runAppearanceExperiment(wardrobe, options.params, [&](double share) {
+      endIfStopped();
       progress.show(kSteps * i + static_cast<std::size_t>(kSteps * share));
     }));
   }
   const std::vector<WardrobeRuns> random(results.begin() + 1, results.end());
   printLaboratory(results.front(), options.params.min_share);
   if (!random.empty()) printRandom(random, options.params.min_share);
-  if (options.out.empty()) return;
-  writeAppearanceFiles(options.out / "laboratory", {results.front()}, options.params.min_share);
-  if (!random.empty()) {
-    writeAppearanceFiles(options.out / "random", random, options.params.min_share);
-  }
+  if (!output) return;
+  writeAppearanceFiles(*output, "laboratory", {results.front()}, options.params.min_share);
+  if (!random.empty()) writeAppearanceFiles(*output, "random", random, options.params.min_share);
 }
 
 void keepModels(std::vector<OfferedModel>& models, const std::string& text) {
@@ -119,14 +127,15 @@ void keepModels(std::vector<OfferedModel>& models, const std::string& text) {
                                 return model.name.find(text) == std::string::npos;
                               }),
                models.end());
-  if (models.empty()) throw std::runtime_error("no model's name holds '" + text + "'");
+  if (models.empty()) throw std::invalid_argument("no model's name holds '" + text + "'");
 }
 
 void run(Options& options) {
   keepModels(options.params.models, options.models);
-  if (!options.people_only) runSimulated(options);
-  if (!options.people.empty()) runPeople(options);
-  if (!options.out.empty()) std::printf("wrote %s\n", options.out.string().c_str());
+  std::optional<Output> output = experimentOutput("appearance", options.out, {options.people});
+  if (!options.people_only) runSimulated(options, output);
+  if (!options.people.empty()) runPeople(options, output);
+  endExperiment(output);
 }
 
 }  // namespace

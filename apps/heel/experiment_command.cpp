@@ -111,6 +111,22 @@ void runTargets(const Options& options) {
 
 }  // namespace
 
+std::optional<Output> experimentOutput(const std::string& name, const std::filesystem::path& out,
+                                       const std::vector<std::filesystem::path>& inputs) {
+  if (out.empty()) return std::nullopt;
+  return std::optional<Output>(
+      std::in_place,
+      OutputPlan{"experiment " + name, OutputKind::kFolder, out, inputs, {"summary.json"}});
+}
+
+void endExperiment(std::optional<Output>& output) {
+  if (output) {
+    output->commit(!isStopRequested());
+    std::printf("wrote %s\n", output->path().c_str());
+  }
+  if (isStopRequested()) throw Stopped("stopped: the results are those of the runs so far");
+}
+
 void addExperiment(CLI::App& app) {
   CLI::App* verb =
       app.add_subcommand("experiment", "Measure Heel on recordings with truth, and in simulation");

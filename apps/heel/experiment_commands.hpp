@@ -5,9 +5,25 @@
 /// The experiments, each a subcommand of `heel experiment`.
 #pragma once
 
+#include "apps/report/output.hpp"
+
 #include <CLI/App.hpp>
 
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace heel {
+
+/// Where an experiment writes; nothing, if `out` is empty.
+/// @throws std::invalid_argument, OutputError  as Output.
+std::optional<Output> experimentOutput(const std::string& name, const std::filesystem::path& out,
+                                       const std::vector<std::filesystem::path>& inputs = {});
+
+/// Gives the results, if any, their place.
+/// @throws Stopped  if a signal asked for the end.
+void endExperiment(std::optional<Output>& output);
 
 void addAppearanceExperiment(CLI::App& verb);
 void addFollowExperiment(CLI::App& verb);

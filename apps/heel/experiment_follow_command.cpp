@@ -6,12 +6,15 @@
 #include "apps/heel/scene_argument.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "apps/report/result_files.hpp"
+#include "apps/report/run_end.hpp"
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 namespace heel {
 namespace {
@@ -34,7 +37,7 @@ void printRow(const FollowEpisode& episode) {
 void run(Options& options) {
   options.params.scenes = sceneFolder();
   options.params.plans = planFolder();
-  makeResultFolder(options.out);
+  std::optional<Output> output = experimentOutput("follow", options.out);
   const int runs = (options.params.table1 ? 6 : 0) + options.params.episodes;
   ProgressBar progress("runs", static_cast<std::size_t>(runs));
   std::size_t count = 0;
@@ -53,9 +56,12 @@ void run(Options& options) {
       "seeking %.0f %%\n",
       all.episodes, all.reached, all.with_contact, 100.0 * all.wrongShare(),
       all.elapsed_s > 0.0 ? 100.0 * all.seek_s / all.elapsed_s : 0.0);
-  writeEpisodesCsv(options.out / "episodes.csv", experiment);
-  writeFollowExperimentPage(options.out / "report.html", experiment);
-  std::printf("wrote %s: report.html, episodes.csv\n", options.out.string().c_str());
+  if (isStopRequested()) experiment.title += " (incomplete: it was stopped)";
+  writeEpisodesCsv(*output / "episodes.csv", experiment);
+  writeFollowExperimentPage(*output / "report.html", experiment);
+  writeJson(*output / "summary.json",
+            {{"complete", !isStopRequested()}, {"episodes", experiment.episodes.size()}});
+  endExperiment(output);
 }
 
 }  // namespace

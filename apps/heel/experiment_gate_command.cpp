@@ -7,6 +7,7 @@
 #include "apps/report/csv_file.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "apps/report/result_files.hpp"
+#include "apps/report/run_end.hpp"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace heel {
@@ -51,10 +53,9 @@ struct Sum {
   }
 };
 
-void writeFiles(const std::filesystem::path& folder, const std::vector<GateRun>& runs,
-                const Sum& with, const Sum& without) {
-  makeResultFolder(folder);
-  CsvWriter csv(folder / "gate.csv", {"seed", "gate", "right_target_s", "wrong_target_s",
+void writeFiles(const Output& output, const std::vector<GateRun>& runs, const Sum& with,
+                const Sum& without) {
+  CsvWriter csv(output / "gate.csv", {"seed", "gate", "right_target_s", "wrong_target_s",
                                       "frames_in_view", "recall", "duration_s"});
   for (const GateRun& run : runs) {
     for (const bool gated : {true, false}) {
@@ -69,29 +70,31 @@ void writeFiles(const std::filesystem::path& folder, const std::vector<GateRun>&
           .endRow();
     }
   }
-  csv.commit();
-  writeJson(folder / "summary.json", {{"recordings", runs.size()},
+  csv.close();
+  writeJson(output / "summary.json", {{"complete", !isStopRequested()},
+                                      {"recordings", runs.size()},
                                       {"with_gate", with.toJson()},
                                       {"without_gate", without.toJson()}});
 }
 
 void run(Options& options) {
+  std::optional<Output> output = experimentOutput("gate", options.out);
   const auto count = static_cast<std::size_t>(options.recordings);
   ProgressBar progress("gate", count);
   std::vector<GateRun> runs;
   Sum with, without;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count && !isStopRequested(); ++i) {
     runs.push_back(runGateExperiment(options.seed + i, options.params));
     with.add(runs.back().with_gate);
     without.add(runs.back().without_gate);
     progress.show(i + 1);
   }
-  std::printf("a target among posters and a coat of the same colour, %zu recordings\n", count);
+  std::printf("a target among posters and a coat of the same colour, %zu recordings\n",
+              runs.size());
   with.print("on:");
   without.print("off:");
-  if (options.out.empty()) return;
-  writeFiles(options.out, runs, with, without);
-  std::printf("wrote %s\n", options.out.string().c_str());
+  if (output) writeFiles(*output, runs, with, without);
+  endExperiment(output);
 }
 
 }  // namespace

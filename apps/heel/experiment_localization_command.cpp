@@ -7,6 +7,7 @@
 #include "apps/report/csv_file.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "apps/report/result_files.hpp"
+#include "apps/report/run_end.hpp"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,7 +42,7 @@ Runs runAll(const char* title, std::size_t count, RunOne one, const Scene& scene
             const Options& options) {
   ProgressBar progress(title, count);
   Runs runs;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count && !isStopRequested(); ++i) {
     runs.push_back(one(scene, options.seed + i, options.params));
     progress.show(i + 1);
   }
@@ -115,11 +117,13 @@ void addRows(CsvWriter& csv, const char* kind, const Runs& runs) {
 }
 
 void run(const Options& options) {
+  std::optional<Output> output = experimentOutput("localization", options.out);
   const Scene scene = loadScene(options.scene);
   const Runs tracking = runAll("tracking", options.tracking, runTracking, scene, options);
   const Runs global = runAll("global start", options.global, runGlobalStart, scene, options);
   const Runs kidnapped = runAll("kidnapped", options.kidnapped, runKidnapped, scene, options);
   nlohmann::ordered_json summary;
+  summary["complete"] = !isStopRequested();
   const auto add = [&](const char* name, const Runs& runs) {
     if (runs.empty()) return;
     summary[name] = summaryOf(runs);
@@ -128,17 +132,16 @@ void run(const Options& options) {
   add("tracking", tracking);
   add("global_start", global);
   add("kidnapped", kidnapped);
-  if (options.out.empty()) return;
-  makeResultFolder(options.out);
-  CsvWriter csv(options.out / "runs.csv",
+  if (!output) return endExperiment(output);
+  CsvWriter csv(*output / "runs.csv",
                 {"kind", "seed", "duration_s", "way_m", "rms_m", "rms_deg", "worst_m", "lost_share",
                  "wrong_share", "consistency", "mean_particles", "noticed_s", "right_s"});
   addRows(csv, "tracking", tracking);
   addRows(csv, "global_start", global);
   addRows(csv, "kidnapped", kidnapped);
-  csv.commit();
-  writeJson(options.out / "summary.json", summary);
-  std::printf("wrote %s\n", options.out.string().c_str());
+  csv.close();
+  writeJson(*output / "summary.json", summary);
+  endExperiment(output);
 }
 
 }  // namespace

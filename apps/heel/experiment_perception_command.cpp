@@ -7,6 +7,7 @@
 #include "apps/report/csv_file.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "apps/report/result_files.hpp"
+#include "apps/report/run_end.hpp"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace heel {
@@ -63,9 +65,8 @@ nlohmann::ordered_json toJson(const PerceptionTruthRun& run) {
           {"switches", run.mot.mismatches}};
 }
 
-void writeFiles(const std::filesystem::path& folder, const std::vector<PerceptionTruthRun>& runs) {
-  makeResultFolder(folder);
-  CsvWriter csv(folder / "recordings.csv",
+void writeFiles(const Output& output, const std::vector<PerceptionTruthRun>& runs) {
+  CsvWriter csv(output / "recordings.csv",
                 {"seed", "similar", "filter_precision", "filter_recall", "standing_precision",
                  "standing_recall", "frames_in_view", "target_recall", "wrong_person_share",
                  "wrong_target_s", "mean_error_m", "mota", "motp_m", "switches"});
@@ -86,30 +87,32 @@ void writeFiles(const std::filesystem::path& folder, const std::vector<Perceptio
         .integer(run.mot.mismatches)
         .endRow();
   }
-  csv.commit();
+  csv.close();
   nlohmann::ordered_json summary = toJson(sumOf(runs));
+  summary["complete"] = !isStopRequested();
   summary["recordings"] = runs.size();
-  writeJson(folder / "summary.json", summary);
+  writeJson(output / "summary.json", summary);
 }
 
 void run(Options& options) {
   if (options.legs) options.params.appearance.bands = wholeBody();
   if (options.match) options.params.appearance.comparison = BodyComparison::kMatch;
+  std::optional<Output> output = experimentOutput("perception", options.out);
   const auto count = static_cast<std::size_t>(options.recordings);
   ProgressBar progress("perception", count);
   std::vector<PerceptionTruthRun> runs;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count && !isStopRequested(); ++i) {
     runs.push_back(runPerceptionTruthExperiment(options.seed + i, options.params));
     progress.show(i + 1);
   }
+  if (runs.empty()) throw Stopped("stopped before the first run");
   std::vector<PerceptionTruthRun> similar, others;
   for (const PerceptionTruthRun& r : runs) (r.similar ? similar : others).push_back(r);
   printRow("beside somebody in other clothes", others);
   printRow("beside somebody in a similar top", similar);
   printRow("all", runs);
-  if (options.out.empty()) return;
-  writeFiles(options.out, runs);
-  std::printf("wrote %s\n", options.out.string().c_str());
+  if (output) writeFiles(*output, runs);
+  endExperiment(output);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include "apps/clouds/cloud_inputs.hpp"
 #include "apps/heel/cloud_batch.hpp"
 #include "apps/heel/commands.hpp"
-#include "apps/report/atomic_file.hpp"
+#include "apps/report/output.hpp"
 #include "segmentation/appearance_filter.hpp"
 #include "segmentation/appearance_model_io.hpp"
 
@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -27,9 +28,9 @@ struct Options {
   bool keep_organized = false;
 };
 
-/// Filters one cloud into `out`, written whole or not at all.
+/// Filters one cloud into `out`.
 /// @return how many points passed.
-std::size_t filterCloud(const fs::path& in, const fs::path& out, const ColorTable& table,
+std::size_t filterCloud(const fs::path& in, const OutputPath& out, const ColorTable& table,
                         const Options& options, CloudFate& fate) {
   CloudFile cloud = readCloud(in);
   fate.facts = cloud.facts;
@@ -49,61 +50,60 @@ std::size_t filterCloud(const fs::path& in, const fs::path& out, const ColorTabl
   }
   filter.filter(cloud.blob);
 
-  const fs::path temporary = temporaryBeside(out);
-  try {
-    writeCloud(temporary, cloud);
-  } catch (const std::runtime_error&) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw std::runtime_error(out.string() + ": the cloud cannot be written");
-  }
-  commitTemporary(temporary, out);
+  writeWith(out, [&](const fs::path& file) { writeCloud(file, cloud); });
   fate.outcome = "written";
   return kept.size();
 }
 
 void filterOne(const fs::path& in, const fs::path& out, const Options& options) {
-  if (fs::weakly_canonical(in) == fs::weakly_canonical(out)) {
-    throw std::runtime_error(out.string() + ": would overwrite the cloud that is filtered");
-  }
+  Output output({"filter", OutputKind::kFile, out, {in, options.model}});
   CloudFate fate;
   const ColorTable table = loadAppearance(options.model).filterTable();
-  const std::size_t kept = filterCloud(in, out, table, options, fate);
-  if (kept == 0) throw std::runtime_error(fate.reason);
+  const std::size_t kept = filterCloud(in, output.file(), table, options, fate);
+  if (kept == 0) throw NothingFound(fate.reason);
+  output.commit();
   std::printf("kept %zu of %zu points; wrote %s\n", kept, fate.facts.points(), out.c_str());
 }
 
 void filterMany(const Options& options) {
   const ColorTable table = loadAppearance(options.model).filterTable();
   const auto clouds = findClouds(options.batch.names);
-  const auto results = resultNames(clouds, options.out);
-  CloudSummary summary(options.out, {"points_out", "result"});
+  const auto results = resultNames(clouds);
+  std::vector<fs::path> inputs = clouds;
+  inputs.push_back(options.model);
+  Output output({"filter",
+                 OutputKind::kFolder,
+                 options.out,
+                 std::move(inputs),
+                 {"summary.csv", "summary.json"}});
+  CloudSummary summary(output, {"points_out", "result"});
   std::size_t points_in = 0, points_out = 0;
-  const auto reasons = workOnClouds(
+  const CloudFailures failures = workOnClouds(
       "filtering", clouds.size(), options.batch.threads,
       [&](std::size_t i, CloudFate& fate) {
-        return filterCloud(clouds[i], results[i], table, options, fate);
+        return filterCloud(clouds[i], output / results[i], table, options, fate);
       },
       [&](std::size_t i, const CloudFate& fate, std::size_t kept) {
-        if (kept == 0) removeFormer(results[i]);
         points_in += fate.hasFailed() ? 0 : fate.facts.points();
         points_out += kept;
         summary.add(clouds[i], fate, [&](CsvWriter& row) {
           row.integer(static_cast<std::int64_t>(kept));
-          row.text(kept > 0 ? results[i].filename().string() : "");
+          row.text(kept > 0 ? results[i] : "");
         });
       });
-  summary.commit({{"model", options.model.string()},
-                  {"negative", options.negative},
-                  {"keep_organized", options.keep_organized},
-                  {"points_in", points_in},
-                  {"points_out", points_out}});
+  summary.close({{"model", options.model.string()},
+                 {"negative", options.negative},
+                 {"keep_organized", options.keep_organized},
+                 {"points_in", points_in},
+                 {"points_out", points_out}});
+  output.commit(summary.count(CloudFate::kStopped) == 0);
   if (summary.failed() < clouds.size()) {
     std::printf("%zu clouds: %s; kept %zu of %zu points\n", clouds.size(),
                 summary.outcomes().c_str(), points_out, points_in);
-    std::printf("results in %s: clouds, summary.csv, summary.json\n", options.out.c_str());
+    std::printf("results in %s: clouds, summary.csv, summary.json\n", output.path().c_str());
   }
-  tellFailures(reasons, clouds.size());
+  tellFailures(failures, clouds.size(), summary.count(CloudFate::kStopped));
+  if (points_out == 0) throw NothingFound("none of the clouds has a point that passes");
 }
 
 /// Whether one cloud goes to one file, and to which; else results go to the folder --out.
@@ -112,7 +112,7 @@ std::optional<fs::path> singleResult(Options& options) {
   if (options.out.empty()) {
     if (names.size() != 2 || !isCloudName(names[1]) || isPattern(names[0]) ||
         fs::is_directory(names[0])) {
-      throw std::runtime_error("name the folder for the results with --out");
+      throw std::invalid_argument("name the folder for the results with --out");
     }
     const fs::path out = names[1];
     names.pop_back();
@@ -120,8 +120,8 @@ std::optional<fs::path> singleResult(Options& options) {
   }
   if (!isCloudName(options.out) || fs::is_directory(options.out)) return std::nullopt;
   if (names.size() != 1 || isPattern(names[0]) || fs::is_directory(names[0])) {
-    throw std::runtime_error(options.out.string() +
-                             ": is the name of one cloud; for several, --out is a folder");
+    throw std::invalid_argument(options.out.string() +
+                                ": is the name of one cloud; for several, --out is a folder");
   }
   return options.out;
 }

@@ -10,6 +10,7 @@
 #include "apps/heel/resident_memory.hpp"
 #include "apps/heel/scene_argument.hpp"
 #include "apps/report/progress_bar.hpp"
+#include "apps/report/run_end.hpp"
 #include "planning/plan_file.hpp"
 
 #include <CLI/CLI.hpp>
@@ -22,6 +23,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace heel {
 namespace {
@@ -93,23 +95,35 @@ class MemoryWatch {
   double last_MiB_ = 0.0;
 };
 
-void print(const FollowSummary& summary, const Options& options, const FollowOutput& output) {
-  std::printf("%s after %.1f s: %.2f m at %.2f m/s (not counting %.1f s of seeking)\n",
-              summary.outcome.c_str(), summary.elapsed_s, summary.distance_m,
-              summary.moving_speed_mps, summary.seek_s);
-  std::printf("  contacts %d, least clearance %.2f m, wrong person %.1f s\n", summary.contacts,
-              summary.min_clearance_m, summary.wrong_person_s);
-  std::printf("results in %s: %s\n", options.out.string().c_str(), output.fileNames().c_str());
+void print(const FollowSummary& summary, const FollowOutput& output) {
+  std::printf("%s after %.1f s: %.2f m", summary.outcome.c_str(), summary.elapsed_s,
+              summary.distance_m);
+  if (std::isfinite(summary.moving_speed_mps)) {
+    std::printf(" at %.2f m/s (not counting %.1f s of seeking)", summary.moving_speed_mps,
+                summary.seek_s);
+  }
+  std::printf("\n");
+  std::printf("  contacts %d, wrong person %.1f s", summary.contacts, summary.wrong_person_s);
+  if (std::isfinite(summary.min_clearance_m)) {
+    std::printf(", least clearance %.2f m", summary.min_clearance_m);
+  }
+  std::printf("\n");
+  std::printf("results in %s: %s\n", output.folder().c_str(), output.fileNames().c_str());
 }
 
 void run(Options& options) {
-  if (!(options.loop.limit_s > 0.0)) throw std::invalid_argument("--limit must be positive");
+  if (!(options.loop.limit_s > 0.0 && std::isfinite(options.loop.limit_s))) {
+    throw std::invalid_argument("--limit must be positive");
+  }
   if (options.rate_hz > 0.0) {  // The simulator's clock ticks in hundredths of a second.
     options.loop.period_s = std::max(1.0, std::round(100.0 / options.rate_hz)) / 100.0;
   }
   const Scene scene = sceneOf(options);
-  const PetriPlan plan = loadPlan(planFile(options.plan), followingVocabulary());
-  FollowOutput output(options.out, !options.no_film, options.bag);
+  const std::filesystem::path plan_file = planFile(options.plan);
+  const PetriPlan plan = loadPlan(plan_file, followingVocabulary());
+  std::vector<std::filesystem::path> inputs = {plan_file};
+  if (!options.random) inputs.push_back(sceneFile(options.scene));
+  FollowOutput output(options.out, !options.no_film, options.bag, inputs);
   ProgressBar progress("following", static_cast<std::size_t>(options.loop.limit_s));
   MemoryWatch memory;
   LapClock clock;
@@ -129,8 +143,10 @@ void run(Options& options) {
   log.command = commandOf(options);
   const FollowSummary summary = summarize(log);
   output.commit(log, summary);
-  print(summary, options, output);
+  print(summary, output);
   memory.print();
+  if (log.outcome == kStoppedRun) throw Stopped("stopped: the results are those of the run so far");
+  if (log.outcome == "nobody learned") throw NothingFound("nobody was learned");
 }
 
 }  // namespace

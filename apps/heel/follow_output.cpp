@@ -38,10 +38,15 @@ Tone toneOf(const FollowStep& step) {
 }  // namespace
 
 FollowOutput::FollowOutput(const std::filesystem::path& folder, bool film,
-                           const std::filesystem::path& bag)
-    : folder_(folder), film_wanted_(film) {
-  makeResultFolder(folder);
-  if (!bag.empty()) bag_.emplace(bag);
+                           const std::filesystem::path& bag,
+                           const std::vector<std::filesystem::path>& inputs)
+    : output_({"follow",
+               OutputKind::kFolder,
+               folder,
+               inputs,
+               {"report.html", "follow.mp4", "summary.json", "follow.csv", "timing.csv"}}),
+      film_wanted_(film) {
+  if (!bag.empty()) bag_.emplace(BagPlan{bag, inputs, "follow"});
 }
 
 void FollowOutput::addTime(FollowStage stage, double ms) {
@@ -96,7 +101,7 @@ void FollowOutput::draw(const Readings& readings, const FollowStep& step, const 
     video_.emplace(follower.floor(), follower.robot().drive.radius_m);
     drawn_.emplace(follower.robot().camera);
     if (film_wanted_)
-      film_.emplace(folder_ / "follow.mp4", 10.0, video_->size(), FilmUse::kBrowser);
+      film_.emplace(output_ / "follow.mp4", 10.0, video_->size(), FilmUse::kBrowser);
   }
   Frame seen;
   seen.stamp_s = readings.stamp_s;
@@ -155,15 +160,16 @@ void FollowOutput::commit(FollowLog& log, const FollowSummary& summary) {
     log.snapshots.push_back(
         {snapshot.stamp_s, snapshot.caption, cv::imdecode(snapshot.jpeg, cv::IMREAD_COLOR)});
   }
-  if (bag_) bag_->commit();
   FollowPageParams page;
   if (film_) {
     film_->close();
     page.film = film_->path().filename().string();
-    film_->commit();
   }
-  writeFollowFiles(folder_, log, summary);
-  writeFollowPage(folder_ / "report.html", log, summary, page);
+  writeFollowFiles(output_, log, summary);
+  writeFollowPage(output_ / "report.html", log, summary, page);
+  const bool complete = summary.outcome != kStoppedRun;
+  output_.commit(complete);
+  if (bag_) bag_->commit(complete);
 }
 
 std::string FollowOutput::fileNames() const {

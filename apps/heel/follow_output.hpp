@@ -25,8 +25,10 @@ class FollowOutput {
  public:
   /// @param film  Also draw the film.
   /// @param bag   Also write this bag; empty: none.
-  /// @throws std::runtime_error  if the folder or the bag can't be made.
-  FollowOutput(const std::filesystem::path& folder, bool film, const std::filesystem::path& bag);
+  /// @param inputs  What is read: it is not written over.
+  /// @throws std::invalid_argument, OutputError  if the folder or the bag can't be written.
+  FollowOutput(const std::filesystem::path& folder, bool film, const std::filesystem::path& bag,
+               const std::vector<std::filesystem::path>& inputs);
 
   /// Of the step that is added next.
   void addTime(FollowStage stage, double ms);
@@ -37,6 +39,7 @@ class FollowOutput {
   /// @throws std::runtime_error  if one can't be written.
   void commit(FollowLog& log, const FollowSummary& summary);
 
+  const std::filesystem::path& folder() const { return output_.path(); }
   std::string fileNames() const;
 
  private:
@@ -54,7 +57,7 @@ class FollowOutput {
   void keepSnapshot(const FollowSample& sample);
   bool isWorthAPicture(const FollowSample& sample) const;
 
-  std::filesystem::path folder_;
+  Output output_;
   bool film_wanted_;
   std::optional<FollowVideo> video_;
   std::optional<FilmWriter> film_;

@@ -95,7 +95,7 @@ void inspectClouds(const fs::path& what) {
   const auto clouds = findClouds({what.string()});
   std::map<Kind, std::size_t> kinds;
   std::string lines;
-  const auto reasons = workOnClouds(
+  const CloudFailures failures = workOnClouds(
       "inspecting", clouds.size(), 0,
       [&](std::size_t i, CloudFate&) { return readCloud(clouds[i]).facts; },
       [&](std::size_t i, const CloudFate& fate, const CloudFacts& facts) {
@@ -104,14 +104,14 @@ void inspectClouds(const fs::path& what) {
                  facts.fields}];
         lines += "  " + clouds[i].filename().string() + ": " + toText(facts) + "\n";
       });
-  if (reasons.size() < clouds.size()) {
-    std::printf("%zu clouds:\n", clouds.size() - reasons.size());
+  if (failures.reasons.size() < clouds.size()) {
+    std::printf("%zu clouds:\n", clouds.size() - failures.reasons.size());
     for (const auto& [kind, count] : kinds) {
       std::printf("  %zu x %s\n", count, toText(kind).c_str());
     }
     if (clouds.size() <= kFew) std::printf("each:\n%s", lines.c_str());
   }
-  tellFailures(reasons, clouds.size());
+  tellFailures(failures, clouds.size());
 }
 
 }  // namespace heel

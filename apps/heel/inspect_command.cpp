@@ -177,7 +177,9 @@ void run(const Options& options) {
   }
   const cv::Mat picture = inspect(options);
   if (picture.empty()) return;
-  writePicture(options.out, picture);
+  Output output({"inspect", OutputKind::kFile, options.out, {options.what}});
+  writePicture(output.file(), picture);
+  output.commit();
   std::printf("wrote %s\n", options.out.string().c_str());
 }
 

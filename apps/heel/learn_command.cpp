@@ -5,9 +5,8 @@
 #include "apps/heel/bag_options.hpp"
 #include "apps/heel/commands.hpp"
 #include "apps/report/annotate.hpp"
-#include "apps/report/atomic_file.hpp"
 #include "apps/report/progress_bar.hpp"
-#include "apps/report/result_files.hpp"
+#include "apps/report/run_end.hpp"
 #include "apps/report/video_writer.hpp"
 #include "segmentation/appearance_model_io.hpp"
 #include "segmentation/appearance_picture.hpp"
@@ -93,33 +92,48 @@ void print(const LearnedPerson& learned) {
 void run(const Options& options) {
   const std::string ending = options.out.extension().string();
   if (ending != ".yaml" && ending != ".yml") {
-    throw std::runtime_error(options.out.string() + ": the name of a model ends in .yaml");
+    throw std::invalid_argument(options.out.string() + ": the name of a model ends in .yaml");
   }
+  const std::string name = options.out.stem().string();
+  Output output({"learn",
+                 OutputKind::kFile,
+                 options.out,
+                 {options.recording},
+                 {name + ".png", name + "_view.png"}});
   const CameraSetup setup = findCameraSetup(*openRecording(options.recording, options.opening));
   for (const std::string& warning : setup.warnings) warn(warning);
   const auto recording = openRecording(options.recording, options.opening);
   BestView best_view(setup);
   ProgressBar progress("learning", recording->info().frame_count);
-  const LearnedPerson learned =
-      learnPerson(*recording, setup, options.params, [&](const Frame& frame, const auto& step) {
-        best_view.offer(frame, step);
+  const LearnedPerson learned = [&] {
+    std::size_t frames = 0;
+    try {
+      return learnPerson(*recording, setup, options.params, [&](const Frame& frame, const auto& s) {
+        if (isStopRequested()) throw Stopped("stopped: nobody is learned, and nothing is written");
+        ++frames;
+        best_view.offer(frame, s);
         progress.show(frame.number);
       });
+    } catch (const Stopped&) {
+      throw;
+    } catch (const std::runtime_error& error) {
+      if (frames == 0) throw;
+      throw NothingFound(error.what());  // the recording is good, but nobody is in it
+    }
+  }();
   for (const SkippedFrame& frame : learned.skipped) warn(frame.reason);
-  if (options.out.has_parent_path()) makeResultFolder(options.out.parent_path());
-  std::filesystem::path path = options.out;
-  AtomicFile picture(path.replace_extension(".png"));
-  AtomicFile view(path.replace_filename(options.out.stem().string() + "_view.png"));
+  const OutputPath picture = output / (name + ".png");
+  const OutputPath view = output / (name + "_view.png");
   writePicture(picture, drawAppearance(learned.model));
   writePicture(view, best_view.draw());
-  saveAppearance(learned.model, options.out);
-  picture.commit();
-  view.commit();
+  writeWith(output.file(),
+            [&](const std::filesystem::path& file) { saveAppearance(learned.model, file); });
+  output.commit();
   print(learned);
   const Separability separability = learned.model.separability();
   if (separability.doubt != AppearanceDoubt::kNone) warn(separability.advice);
-  std::printf("wrote %s, %s, %s\n", options.out.string().c_str(), picture.path().c_str(),
-              view.path().c_str());
+  std::printf("wrote %s, %s, %s\n", options.out.string().c_str(), picture.named.c_str(),
+              view.named.c_str());
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "apps/heel/localize_output.hpp"
 #include "apps/heel/number_range.hpp"
 #include "apps/heel/scene_argument.hpp"
+#include "apps/report/run_end.hpp"
 #include "apps/simulation/scene_grid.hpp"
 #include "mapping/map_server_file.hpp"
 
@@ -64,11 +65,13 @@ OccupancyGrid readMap(Options& options) {
 void run(Options& options) {
   using Clock = std::chrono::steady_clock;
   const OccupancyGrid map = readMap(options);
+  std::vector<fs::path> inputs = {options.log};
+  if (!options.map.empty()) inputs.push_back(mapSource(options.map));
   LogLocalizationParams& params = options.params;
   if (!options.start.empty()) {
     params.start = FloorPose{{options.start[0], options.start[1]}, options.start[2]};
   }
-  LocalizeOutput output(options.out, map);
+  LocalizeOutput output(options.out, map, inputs);
   double weighing_s = 0.0;
   const auto work = [&](const std::function<void()>& update) {
     const auto begin = Clock::now();
@@ -77,16 +80,18 @@ void run(Options& options) {
   };
   const LogLocalizationResult result = localizeLog(
       options.log, map, params, [&](const LogLocalizationStep& step) { output.add(step); }, work);
+  if (!result.complete && result.scans == 0) throw Stopped("stopped before the first scan");
   if (result.scans == 0) throw std::runtime_error(options.log.string() + ": has no scans to use");
   const double per_s = result.weighed > 0 ? result.weighed / weighing_s : 0.0;
-  output.finish(result, per_s);
+  output.commit(result, per_s);
   std::printf("%d scans over %.1f m, %d weighed, %.0f a second, lost in %.1f %%\n", result.scans,
               result.way_m, result.weighed, per_s, 100.0 * result.lost_share);
   if (result.compared > 0) {
     std::printf("against the reference: RMS %.3f m and %.2f degrees, median %.3f m, worst %.2f m\n",
                 result.rms_m, result.rms_rad * 57.29577951308232, result.median_m, result.worst_m);
   }
-  std::printf("wrote %s\n", options.out.string().c_str());
+  std::printf("wrote %s\n", output.folder().c_str());
+  if (!result.complete) throw Stopped("stopped: the results are those of the log so far");
 }
 
 }  // namespace

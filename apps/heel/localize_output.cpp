@@ -3,34 +3,32 @@
 
 #include "apps/heel/localize_output.hpp"
 
-#include "apps/report/atomic_file.hpp"
 #include "apps/report/drawing.hpp"
 #include "apps/report/result_files.hpp"
+#include "apps/report/video_writer.hpp"
 
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <string_view>
 
 namespace heel {
 namespace {
 
 constexpr double kDegrees = 57.29577951308232;
 
-std::filesystem::path madeFolder(const std::filesystem::path& folder) {
-  makeResultFolder(folder);
-  return folder;
-}
-
 }  // namespace
 
-LocalizeOutput::LocalizeOutput(const std::filesystem::path& folder, const OccupancyGrid& map)
-    : folder_(madeFolder(folder)),
+LocalizeOutput::LocalizeOutput(const std::filesystem::path& folder, const OccupancyGrid& map,
+                               const std::vector<std::filesystem::path>& inputs)
+    : output_({"localize",
+               OutputKind::kFolder,
+               folder,
+               inputs,
+               {"poses.csv", "path.png", "summary.json"}}),
       map_(map),
-      poses_(folder / "poses.csv",
+      poses_(output_ / "poses.csv",
              {"stamp_s", "x_m", "y_m", "yaw_rad", "std_x_m", "std_y_m", "std_yaw_rad", "lost",
               "fit", "particles", "reference_x_m", "reference_y_m", "reference_yaw_rad"}) {}
 
@@ -57,7 +55,7 @@ void LocalizeOutput::add(const LogLocalizationStep& step) {
   places_.push_back(place);
 }
 
-void LocalizeOutput::writePicture() const {
+void LocalizeOutput::drawWays() const {
   // Only the part of the map that holds something.
   GridCell low{map_.width(), map_.height()}, high{-1, -1};
   for (GridCell c; c.y < map_.height(); ++c.y) {
@@ -106,20 +104,15 @@ void LocalizeOutput::writePicture() const {
   drawText(picture, "reference", {kBorder, picture.rows - 52}, palette::kGood);
   drawText(picture, "estimate", {kBorder, picture.rows - 34}, palette::kTrack);
   drawText(picture, "lost", {kBorder, picture.rows - 16}, palette::kBad);
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".png", picture, bytes);
-  writeFile(folder_ / "path.png",
-            std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  writePicture(output_ / "path.png", picture);
 }
 
-void LocalizeOutput::finish(const LogLocalizationResult& result, double updates_per_s) {
+void LocalizeOutput::commit(const LogLocalizationResult& result, double updates_per_s) {
   poses_.close();
-  writePicture();
-  nlohmann::ordered_json summary{{"scans", result.scans},
-                                 {"weighed", result.weighed},
-                                 {"way_m", result.way_m},
-                                 {"lost_share", result.lost_share},
-                                 {"compared", result.compared}};
+  drawWays();
+  nlohmann::ordered_json summary{{"complete", result.complete},     {"scans", result.scans},
+                                 {"weighed", result.weighed},       {"way_m", result.way_m},
+                                 {"lost_share", result.lost_share}, {"compared", result.compared}};
   if (result.compared > 0) {
     summary["rms_m"] = result.rms_m;
     summary["rms_deg"] = result.rms_rad * kDegrees;
@@ -129,8 +122,8 @@ void LocalizeOutput::finish(const LogLocalizationResult& result, double updates_
     summary["first_right_s"] = result.first_right_s;
   }
   summary["updates_per_s"] = updates_per_s;
-  writeJson(folder_ / "summary.json", summary);
-  poses_.commit();
+  writeJson(output_ / "summary.json", summary);
+  output_.commit(result.complete);
 }
 
 }  // namespace heel

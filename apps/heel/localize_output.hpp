@@ -17,21 +17,28 @@ namespace heel {
 class LocalizeOutput {
  public:
   /// @param map  Must outlive this.
-  /// @throws std::runtime_error  if the folder or a file can't be written; so do the others.
-  LocalizeOutput(const std::filesystem::path& folder, const OccupancyGrid& map);
+  /// @param inputs  What is read: it is not written over.
+  /// @throws std::invalid_argument  if it may not be written there, see Output.
+  /// @throws OutputError  if it can't be; so do the others.
+  LocalizeOutput(const std::filesystem::path& folder, const OccupancyGrid& map,
+                 const std::vector<std::filesystem::path>& inputs);
 
   void add(const LogLocalizationStep& step);
-  void finish(const LogLocalizationResult& result, double updates_per_s);
+  /// Writes the summary and the picture, and gives all files their place.
+  void commit(const LogLocalizationResult& result, double updates_per_s);
+
+  /// Where commit() wrote.
+  const std::filesystem::path& folder() const { return output_.path(); }
 
  private:
-  void writePicture() const;
+  void drawWays() const;
 
   struct Place {
     Eigen::Vector2d estimate;
     bool lost;
     std::optional<Eigen::Vector2d> reference;
   };
-  std::filesystem::path folder_;
+  Output output_;
   const OccupancyGrid& map_;
   CsvWriter poses_;
   std::vector<Place> places_;

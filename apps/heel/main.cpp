@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "apps/heel/commands.hpp"
+#include "apps/report/run_end.hpp"
 #include "apps/report/terminal.hpp"
 
 #include <CLI/CLI.hpp>
+#include <opencv2/core.hpp>
 #include <pcl/console/print.h>
 
 #include <cerrno>
@@ -15,6 +17,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <stdexcept>
 #include <string>
 
 namespace {
@@ -47,9 +50,36 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 /// Ends the program with a sentence on one line, whatever a library put into its message.
-int fail(const std::string& sentence) {
+int fail(heel::ExitCode code, const std::string& sentence) {
   std::fprintf(stderr, "heel: %s\n", heel::sentenceForTerminal(sentence).c_str());
-  return 1;
+  return static_cast<int>(code);
+}
+
+/// What the exception that is being handled says of why the run ended.
+int failFor(const CLI::App& app) {
+  using heel::ExitCode;
+  try {
+    throw;
+  } catch (const CLI::ParseError& error) {
+    return error.get_exit_code() == 0 ? app.exit(error)
+                                      : fail(ExitCode::kUsage, explain(app, error));
+  } catch (const heel::Stopped& error) {
+    return fail(ExitCode::kStopped, error.what());
+  } catch (const heel::NothingFound& error) {
+    return fail(ExitCode::kNothingFound, error.what());
+  } catch (const heel::OutputError& error) {
+    return fail(ExitCode::kFault, error.what());
+  } catch (const std::invalid_argument& error) {
+    return fail(ExitCode::kUsage, error.what());
+  } catch (const cv::Exception& error) {
+    return fail(ExitCode::kFault, error.what());
+  } catch (const std::runtime_error& error) {
+    return fail(ExitCode::kBadInput, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(ExitCode::kBadInput, "there is not enough memory for this");
+  } catch (const std::exception& error) {
+    return fail(ExitCode::kFault, error.what());
+  }
 }
 
 /// Keeps libraries from writing to the console: what went wrong, we say ourselves, in a sentence.
@@ -69,6 +99,7 @@ int main(int argc, char** argv) {
   silenceLibraries();
   const heel::TerminalOutput output;
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on a file's size is then an error like a full disk
+  heel::endOnSignals();
   CLI::App app{
       "heel: a mobile robot follows one person.\n"
       "\n"
@@ -83,7 +114,10 @@ int main(int argc, char** argv) {
       "  heel simulate wardrobe --out recordings/wardrobe\n"
       "  heel learn recordings/wardrobe --out person.yaml\n"
       "  heel track recordings/wardrobe --model person.yaml --out out/wardrobe\n"
-      "  heel evaluate out/wardrobe/tracks.csv recordings/wardrobe/truth.csv");
+      "  heel evaluate out/wardrobe/tracks.csv recordings/wardrobe/truth.csv\n"
+      "Exit codes: 0 done; 1 a fault of ours or of the machine (a full disk); 2 a wrong call, or\n"
+      "results may not go there; 3 bad input; 4 nothing found; 130 stopped by a signal: what was\n"
+      "done until then is written, with \"complete\": false in summary.json.");
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
   heel::addLearn(app);
@@ -102,15 +136,12 @@ int main(int argc, char** argv) {
   heel::addMemoryLimit(app);
   try {
     app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return error.get_exit_code() == 0 ? app.exit(error) : fail(explain(app, error));
-  } catch (const std::bad_alloc&) {
-    return fail("there is not enough memory for this");
-  } catch (const std::exception& error) {
-    return fail(error.what());
+  } catch (...) {
+    return failFor(app);
   }
   if (std::fflush(stdout) != 0) {
-    return fail("the output cannot be written: " + std::string(std::strerror(errno)));
+    return fail(heel::ExitCode::kFault,
+                "the output cannot be written: " + std::string(std::strerror(errno)));
   }
   return 0;
 }

@@ -8,7 +8,7 @@
 #include "apps/mapper/map_picture.hpp"
 #include "apps/mapper/map_source.hpp"
 #include "apps/report/progress_bar.hpp"
-#include "apps/report/result_files.hpp"
+#include "apps/report/run_end.hpp"
 #include "apps/report/video_writer.hpp"
 #include "mapping/map_server_file.hpp"
 #include "mapping/wall_map_file.hpp"
@@ -39,18 +39,24 @@ void run(Options& options) {
     throw std::invalid_argument("--low must be under --high");
   }
   const fs::path source = mapSource(options.source);
+  Output output({"map",
+                 OutputKind::kFolder,
+                 options.out,
+                 {source},
+                 {"walls.bt", "map.yaml", "map.pgm", "map.png"}});
   std::optional<ProgressBar> progress;  // Only a recording takes long.
   options.params.progress = [&](double share) {
+    if (isStopRequested()) throw Stopped("stopped: nothing is mapped, and nothing is written");
     if (!progress) progress.emplace("mapping", 100);
     progress->show(static_cast<std::size_t>(100.0 * share));
   };
   const SourcedMap made = openMap(source, options.params);
   const OccupancyGrid floor = made.map.floorGrid(options.band);
-  if (floor.empty()) throw std::runtime_error(source.string() + ": there is nothing to map in it");
-  makeResultFolder(options.out);
-  saveWallMap(made.map, options.out / "walls.bt");
-  saveMapServer(floor, options.out / "map.yaml");
-  writePicture(options.out / "map.png", drawMap(floor, source.stem().string()));
+  if (floor.empty()) throw NothingFound(source.string() + ": there is nothing to map in it");
+  writeWith(output / "walls.bt", [&](const fs::path& file) { saveWallMap(made.map, file); });
+  writeWith(output / "map.yaml", [&](const fs::path& file) { saveMapServer(floor, file); });
+  writePicture(output / "map.png", drawMap(floor, source.stem().string()));
+  output.commit();
   std::printf("%s: %s, %s\n", source.filename().c_str(), made.source.c_str(),
               toText(floor).c_str());
   std::printf("wrote %s\n", options.out.string().c_str());

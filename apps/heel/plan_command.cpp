@@ -8,6 +8,7 @@
 #include "apps/report/csv_file.hpp"
 #include "apps/report/drawing.hpp"
 #include "apps/report/result_files.hpp"
+#include "apps/report/run_end.hpp"
 #include "apps/report/video_writer.hpp"
 #include "planning/global_planner.hpp"
 
@@ -71,15 +72,19 @@ cv::Mat drawPlan(const OccupancyGrid& map, const GlobalPlan& plan, const Options
 
 void run(const Options& options) {
   const fs::path source = mapSource(options.map);
+  Output output({"plan",
+                 OutputKind::kFolder,
+                 options.out,
+                 {source},
+                 {"plan.png", "path.csv", "summary.json"}});
   const OccupancyGrid map = openMap(source, options.source).map.floorGrid();
-  if (map.empty()) throw std::runtime_error(source.string() + ": there is nothing to map in it");
+  if (map.empty()) throw NothingFound(source.string() + ": there is nothing to map in it");
   GlobalPlanner planner(map, options.planner);
   const GlobalPlan plan =
       planner.plan({options.from[0], options.from[1]}, {options.to[0], options.to[1]});
 
-  makeResultFolder(options.out);
   const FloorPath path = resample(plan.path, kStep_m);
-  CsvWriter csv(options.out / "path.csv", {"x_m", "y_m", "clearance_m"});
+  CsvWriter csv(output / "path.csv", {"x_m", "y_m", "clearance_m"});
   double least_m = planner.clearance().reach_m();
   for (const Eigen::Vector2d& p : path) {
     const double clearance_m = planner.clearance().clearance(p);
@@ -87,7 +92,6 @@ void run(const Options& options) {
     csv.number(p.x(), 3).number(p.y(), 3).number(clearance_m, 3).endRow();
   }
   csv.close();
-  csv.commit();
   nlohmann::ordered_json summary;
   summary["version"] = 1;
   summary["map"] = options.map;
@@ -99,15 +103,15 @@ void run(const Options& options) {
     summary["min_clearance_m"] = least_m;
   }
   summary["way_points"] = plan.path.size();
-  writeJson(options.out / "summary.json", summary);
-  writePicture(options.out / "plan.png", drawPlan(map, plan, options));
+  writeJson(output / "summary.json", summary);
+  writePicture(output / "plan.png", drawPlan(map, plan, options));
+  output.commit();
   if (plan.found()) {
     std::printf("%s: %.2f m, %zu way points, clearance %.2f m at least\n", nameOf(plan.status),
                 plan.length_m, plan.path.size(), least_m);
-  } else {
-    std::printf("no path: %s\n", nameOf(plan.status));
   }
   std::printf("wrote %s\n", options.out.string().c_str());
+  if (!plan.found()) throw NothingFound(std::string("no path: ") + nameOf(plan.status));
 }
 
 }  // namespace

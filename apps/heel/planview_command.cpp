@@ -15,6 +15,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -58,7 +59,7 @@ CloudPlanParams paramsOf(const Options& options) {
   return params;
 }
 
-Planned planOne(const fs::path& in, const fs::path& picture, const AppearanceModel* model,
+Planned planOne(const fs::path& in, const OutputPath& picture, const AppearanceModel* model,
                 const CloudPlanParams& params, const Options& options, CloudFate& fate) {
   const CloudFile cloud = readCloud(in);
   fate.facts = cloud.facts;
@@ -108,38 +109,44 @@ void run(const Options& options) {
   if (!options.model.empty()) model = loadAppearance(options.model);
   const AppearanceModel* chosen = model ? &*model : nullptr;
   const auto clouds = findClouds(options.batch.names);
-  const auto pictures = resultNames(clouds, options.out, ".png");
-  CloudSummary summary(options.out, {"floor", "origin_height_m", "pitch_deg", "color_points",
-                                     "standing_points", "blobs", "people"});
-  CsvWriter blobs(options.out / "blobs.csv",
-                  {"file", "blob", "x_m", "y_m", "height_m", "points", "cells", "area_m2",
-                   "extent_m", "score", "is_person"});
+  const auto pictures = resultNames(clouds, ".png");
+  std::vector<fs::path> inputs = clouds;
+  inputs.push_back(options.model);
+  Output output({"planview",
+                 OutputKind::kFolder,
+                 options.out,
+                 std::move(inputs),
+                 {"blobs.csv", "summary.csv", "summary.json"}});
+  CloudSummary summary(output, {"floor", "origin_height_m", "pitch_deg", "color_points",
+                                "standing_points", "blobs", "people"});
+  CsvWriter blobs(output / "blobs.csv", {"file", "blob", "x_m", "y_m", "height_m", "points",
+                                         "cells", "area_m2", "extent_m", "score", "is_person"});
   std::size_t blob_count = 0, people = 0;
-  const auto reasons = workOnClouds(
+  const CloudFailures failures = workOnClouds(
       "planning", clouds.size(), options.batch.threads,
       [&](std::size_t i, CloudFate& fate) {
-        return planOne(clouds[i], pictures[i], chosen, params, options, fate);
+        return planOne(clouds[i], output / pictures[i], chosen, params, options, fate);
       },
       [&](std::size_t i, const CloudFate& fate, const Planned& planned) {
-        if (fate.hasFailed() || options.no_pictures) removeFormer(pictures[i]);
         blob_count += planned.blobs.size();
         people += planned.people;
         summary.add(clouds[i], fate, [&](CsvWriter& row) { addFields(planned, row); });
         addRows(clouds[i], planned, blobs);
       });
   blobs.close();
-  summary.commit({{"model", options.model.string()},
-                  {"up", options.up},
-                  {"blobs", blob_count},
-                  {"people", people}});
-  blobs.commit();
+  summary.close({{"model", options.model.string()},
+                 {"up", options.up},
+                 {"blobs", blob_count},
+                 {"people", people}});
+  output.commit(summary.count(CloudFate::kStopped) == 0);
   if (summary.failed() < clouds.size()) {
     std::printf("%zu cloud%s: %s; %zu blobs, %zu of a person's shape\n", clouds.size(),
                 clouds.size() == 1 ? "" : "s", summary.outcomes().c_str(), blob_count, people);
-    std::printf("results in %s: %sblobs.csv, summary.csv, summary.json\n", options.out.c_str(),
+    std::printf("results in %s: %sblobs.csv, summary.csv, summary.json\n", output.path().c_str(),
                 options.no_pictures ? "" : "pictures, ");
   }
-  tellFailures(reasons, clouds.size());
+  tellFailures(failures, clouds.size(), summary.count(CloudFate::kStopped));
+  if (blob_count == 0) throw NothingFound("there is nobody in the clouds");
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ MarkerMsg label(MarkerMsg marker, const Track& track, bool is_target) {
 
 }  // namespace
 
-ResultBag::ResultBag(const std::filesystem::path& path) : path_(path), bag_(createBag(path)) {}
+ResultBag::ResultBag(const BagPlan& plan) : path_(plan.path), bag_(createBag(plan)) {}
 
 void ResultBag::addRobot(double stamp_s, const FloorPose& pose) {
   TFMessageMsg message;

@@ -33,8 +33,9 @@ namespace heel {
 /// | `/tf` | map to base_footprint |
 class ResultBag {
  public:
-  /// @throws std::runtime_error  if it can't be written; so do the others.
-  explicit ResultBag(const std::filesystem::path& path);
+  /// @throws std::invalid_argument, std::runtime_error  as createBag(); the latter, so do the
+  /// others.
+  explicit ResultBag(const BagPlan& plan);
 
   const std::filesystem::path& path() const { return path_; }
 
@@ -46,7 +47,7 @@ class ResultBag {
   void addImage(double stamp_s, const cv::Mat& image_bgr);
 
   /// Completes the bag and gives it its name.
-  void commit() { bag_->commit(); }
+  void commit(bool complete) { bag_->commit(complete); }
 
  private:
   std::filesystem::path path_;

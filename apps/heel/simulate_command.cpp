@@ -5,6 +5,7 @@
 #include "apps/heel/number_range.hpp"
 #include "apps/heel/scene_argument.hpp"
 #include "apps/report/progress_bar.hpp"
+#include "apps/report/run_end.hpp"
 #include "apps/simulation/simulate.hpp"
 
 #include <CLI/CLI.hpp>
@@ -28,10 +29,14 @@ void run(Options& options) {
     progress.show(static_cast<std::size_t>(100.0 * share));
   };
   const SimulateResult result = simulate(scene, options.simulate);
+  if (result.frames == 0 && !result.complete) throw Stopped("stopped before the first frame");
   std::string written = options.simulate.out.string();
   if (!options.simulate.bag.empty()) written += ", " + options.simulate.bag.string();
   std::printf("%zu frames over %.1f s; wrote %s\n", result.frames, result.duration_s,
               written.c_str());
+  if (!result.complete) {
+    throw Stopped("stopped: " + options.simulate.out.string() + " holds what was done until then");
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "apps/heel/lap_clock.hpp"
 #include "apps/heel/track_output.hpp"
 #include "apps/report/progress_bar.hpp"
+#include "apps/report/run_end.hpp"
 #include "segmentation/appearance_model_io.hpp"
 
 #include <CLI/CLI.hpp>
@@ -32,7 +33,7 @@ struct Options {
   bool no_film = false;
 };
 
-void print(const TrackOutput& output, const Options& options, std::size_t skipped) {
+void print(const TrackOutput& output, std::size_t skipped) {
   std::printf("%zu frames, the target seen or predicted in %zu", output.frames(),
               output.framesWithTarget());
   if (skipped > 0) std::printf("; %zu frame%s could not be read", skipped, skipped == 1 ? "" : "s");
@@ -40,7 +41,7 @@ void print(const TrackOutput& output, const Options& options, std::size_t skippe
   for (const auto& [state, frames] : output.framesByState()) {
     std::printf("  %-10s %6zu\n", state.c_str(), frames);
   }
-  std::printf("results in %s: %s\n", options.out.string().c_str(), output.fileNames().c_str());
+  std::printf("results in %s: %s\n", output.folder().c_str(), output.fileNames().c_str());
 }
 
 void run(const Options& options) {
@@ -52,6 +53,7 @@ void run(const Options& options) {
   TrackOutputParams output_params;
   output_params.film = !options.no_film;
   output_params.bag = options.bag;
+  output_params.inputs = {options.recording, options.model};
   if (!options.bounds_m.empty()) {
     const Eigen::Vector2d lowest(options.bounds_m[0], options.bounds_m[1]);
     const Eigen::Vector2d highest(options.bounds_m[2], options.bounds_m[3]);
@@ -64,11 +66,11 @@ void run(const Options& options) {
   const auto recording = openRecording(options.recording, options.opening);
   TrackOutput output(options.out, recording->info(), setup, output_params);
   ProgressBar progress("tracking", recording->info().frame_count);
-  std::vector<std::string> warnings = setup.warnings;
-  std::vector<SkippedFrame> skipped;
+  TrackEnd end;
+  end.warnings = setup.warnings;
   Frame frame;
   StageTimes times_ms{};
-  while (recording->next(frame)) {
+  while (!isStopRequested() && recording->next(frame)) {
     LapClock clock;
     try {
       const PerceptionStep& step = perception.step(frame, {}, [&](Stage stage) {
@@ -76,15 +78,26 @@ void run(const Options& options) {
       });
       output.add(frame, perception, step, times_ms);
     } catch (const std::invalid_argument& error) {
-      skipped.push_back({frame.number, frame.name + ": " + error.what()});
+      end.skipped.push_back({frame.number, frame.name + ": " + error.what()});
     }
     progress.show(frame.number);
   }
-  skipped.insert(skipped.end(), recording->skipped().begin(), recording->skipped().end());
-  if (output.frames() == 0) throw std::runtime_error(nothingReadMessage(*recording, skipped));
-  for (const SkippedFrame& frame_left_out : skipped) warn(frame_left_out.reason);
-  output.commit(skipped, warnings);
-  print(output, options, skipped.size());
+  end.complete = !isStopRequested();
+  end.skipped.insert(end.skipped.end(), recording->skipped().begin(), recording->skipped().end());
+  if (output.frames() == 0) {
+    if (!end.complete) throw Stopped("stopped before the first frame; nothing is written");
+    throw std::runtime_error(nothingReadMessage(*recording, end.skipped));
+  }
+  for (const SkippedFrame& frame_left_out : end.skipped) warn(frame_left_out.reason);
+  output.commit(end);
+  print(output, end.skipped.size());
+  if (!end.complete) {
+    throw Stopped("stopped: the results are those of " + std::to_string(output.frames()) +
+                  " frames");
+  }
+  if (output.framesWithTarget() == 0) {
+    throw NothingFound(options.recording.string() + ": the person is in no frame");
+  }
 }
 
 }  // namespace

@@ -3,12 +3,9 @@
 
 #include "apps/heel/track_output.hpp"
 
-#include "apps/report/atomic_file.hpp"
-
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
-#include <deque>
 
 namespace heel {
 namespace {
@@ -25,19 +22,6 @@ std::string stillName(std::size_t frame) {
   return name;
 }
 
-/// Removes the film and the stills of a former run into the same folder, which would not go with
-/// the new tables.
-void removeFormerPictures(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> former = {folder / "tracks.mp4", folder / "tracks.avi"};
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    if (name.rfind("frame_", 0) == 0 && entry.path().extension() == ".png") {
-      former.push_back(entry.path());
-    }
-  }
-  for (const auto& file : former) std::filesystem::remove(file);
-}
-
 /// Frames per second at which a film of the recording shows real time.
 double rateOf(const RecordingInfo& info) {
   const bool has_rate = info.frame_count > 1 && info.duration_s > 0.0;
@@ -48,14 +32,18 @@ double rateOf(const RecordingInfo& info) {
 
 TrackOutput::TrackOutput(const std::filesystem::path& folder, const RecordingInfo& info,
                          const CameraSetup& setup, const TrackOutputParams& params)
-    : folder_(folder),
+    : output_({"track",
+               OutputKind::kFolder,
+               folder,
+               params.inputs,
+               {"tracks.csv", "frames.csv", "timing.csv", "summary.json", "tracks.mp4"}}),
       info_(info),
       setup_(setup),
       params_(params),
-      files_((makeResultFolder(folder), folder), stageNames()),
+      files_(output_, stageNames()),
       drawn_(setup) {
-  if (params.film) film_.emplace(folder / "tracks.mp4", rateOf(info), pictureSize());
-  if (!params.bag.empty()) bag_.emplace(params.bag);
+  if (params.film) film_.emplace(output_ / "tracks.mp4", rateOf(info), pictureSize());
+  if (!params.bag.empty()) bag_.emplace(BagPlan{params.bag, params.inputs, "track"});
 }
 
 void TrackOutput::add(const Frame& frame, const Perception& perception, const PerceptionStep& step,
@@ -122,15 +110,15 @@ void TrackOutput::keepStill() {
   still_step_ *= 2;
 }
 
-void TrackOutput::commit(const std::vector<SkippedFrame>& skipped,
-                         const std::vector<std::string>& warnings) {
+void TrackOutput::commit(const TrackEnd& end) {
   nlohmann::ordered_json summary;
+  summary["complete"] = end.complete;
   summary["recording"] = info_.name;
   summary["layout"] = info_.layout;
   summary["duration_s"] = info_.duration_s;
   summary["frames"] = frames_;
   summary["frames_skipped"] = nlohmann::ordered_json::array();
-  for (const SkippedFrame& frame : skipped) {
+  for (const SkippedFrame& frame : end.skipped) {
     summary["frames_skipped"].push_back({{"frame", frame.number}, {"reason", frame.reason}});
   }
   summary["frames_with_target"] = frames_with_target_;
@@ -142,24 +130,16 @@ void TrackOutput::commit(const std::vector<SkippedFrame>& skipped,
                        {"roll_rad", mounting.roll_rad},
                        {"from", setup_.is_configured ? "configuration" : "floor"},
                        {"depth_share", setup_.report.found_share}};
-  summary["warnings"] = warnings;
+  summary["warnings"] = end.warnings;
 
-  // All is written before anything gets its name; the summary, which speaks of the rest, comes
-  // last.
-  std::deque<AtomicFile> stills;
   for (const Still& still : stills_) {
-    writePicture(stills.emplace_back(folder_ / stillName(still.frame)), still.picture);
+    writePicture(output_ / stillName(still.frame), still.picture);
   }
-  AtomicFile summary_file(folder_ / "summary.json");
-  writeJson(summary_file, summary);
+  writeJson(output_ / "summary.json", summary);
   files_.close();
   if (film_) film_->close();
-  removeFormerPictures(folder_);
-  files_.commit();
-  if (film_) film_->commit();
-  if (bag_) bag_->commit();
-  for (AtomicFile& still : stills) still.commit();
-  summary_file.commit();
+  output_.commit(end.complete);
+  if (bag_) bag_->commit(end.complete);
 }
 
 std::string TrackOutput::fileNames() const {

@@ -26,6 +26,7 @@ namespace heel {
 struct TrackOutputParams {
   bool film = true;                             ///< Also draw the film and the stills.
   std::filesystem::path bag;                    ///< Also write this bag; empty: none.
+  std::vector<std::filesystem::path> inputs;    ///< What is read: it is not written over.
   std::size_t stills = 6;                       ///< Spread over the frames that have a target.
   std::optional<Eigen::AlignedBox2d> bounds_m;  ///< To draw.
 };
@@ -33,20 +34,29 @@ struct TrackOutputParams {
 /// Milliseconds that each stage of a frame took.
 using StageTimes = std::array<double, kStages>;
 
-/// Writes a run as it goes on; nothing gets its name before commit().
+/// What became of a run.
+struct TrackEnd {
+  bool complete = true;  ///< False if it was stopped.
+  std::vector<SkippedFrame> skipped;
+  std::vector<std::string> warnings;
+};
+
+/// Writes a run as it goes on; it gets its place at commit().
 class TrackOutput {
  public:
-  /// @throws std::runtime_error  if the folder or a file can't be written; so do the others.
+  /// @throws std::invalid_argument  if it may not be written there, see Output.
+  /// @throws OutputError  if it can't be; so do the others.
   TrackOutput(const std::filesystem::path& folder, const RecordingInfo& info,
               const CameraSetup& setup, const TrackOutputParams& params);
 
   void add(const Frame& frame, const Perception& perception, const PerceptionStep& step,
            const StageTimes& times_ms);
 
-  /// Writes the summary and the stills, and gives all files their names.
-  void commit(const std::vector<SkippedFrame>& skipped, const std::vector<std::string>& warnings);
+  /// Writes the summary and the stills, and gives all files their place.
+  void commit(const TrackEnd& end);
 
-  /// What commit() wrote, for people to read.
+  /// Where commit() wrote, and what, for people to read.
+  const std::filesystem::path& folder() const { return output_.path(); }
   std::string fileNames() const;
 
   std::size_t frames() const { return frames_; }
@@ -57,7 +67,7 @@ class TrackOutput {
   void addRows(const Frame& frame, const Perception& perception, const PerceptionStep& step);
   void keepStill();
 
-  std::filesystem::path folder_;
+  Output output_;
   RecordingInfo info_;
   CameraSetup setup_;
   TrackOutputParams params_;

@@ -7,9 +7,8 @@
 #include "apps/heel/drawn_perception.hpp"
 #include "apps/heel/scene_argument.hpp"
 #include "apps/mapper/map_source.hpp"
-#include "apps/recording/folder_files.hpp"
 #include "apps/report/progress_bar.hpp"
-#include "apps/report/result_files.hpp"
+#include "apps/report/run_end.hpp"
 #include "apps/report/video_writer.hpp"
 #include "apps/view/scene_picture.hpp"
 #include "apps/view/scene_window.hpp"
@@ -23,6 +22,8 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 namespace heel {
 namespace {
@@ -135,19 +136,10 @@ void showInWindow(const Options& options, Scenes& scenes, SceneWindow& window) {
   while (is_open) is_open = window.show(last, kLongest_s);
 }
 
-/// Removes the pictures of a former run.
-void removePictures(const fs::path& folder) {
-  const auto isPicture = [](const fs::path& file) {
-    const std::string name = file.filename().string();
-    return name.size() == 15 && name.rfind("view_", 0) == 0 && file.extension() == ".png" &&
-           name.find_first_not_of("0123456789", 5) == 11;
-  };
-  for (const fs::path& file : filesIn(folder, isPicture)) fs::remove(file);
-}
-
 void writePictures(const Options& options, Scenes& scenes, std::size_t frames) {
-  makeResultFolder(options.out);
-  removePictures(options.out);
+  std::vector<fs::path> inputs = {options.recording, options.model};
+  if (!options.map.empty()) inputs.push_back(mapSource(options.map));
+  Output output({"view", OutputKind::kFolder, options.out, std::move(inputs)});
   const std::size_t step = options.pictures == 0 ? 1 : (frames - 1) / options.pictures + 1;
   ProgressBar progress("viewing", frames);
   cv::Mat picture;
@@ -156,13 +148,15 @@ void writePictures(const Options& options, Scenes& scenes, std::size_t frames) {
     drawScene(scene, behindCamera(scene.drawn.T_floor_camera), {}, picture);
     char name[32];
     std::snprintf(name, sizeof name, "view_%06zu.png", scene.drawn.frame);
-    writePicture(options.out / name, picture);
+    writePicture(output / name, picture);
     ++written;
     progress.show(scene.drawn.frame);
-    return true;
+    return !isStopRequested();
   });
+  output.commit(!isStopRequested());
   std::printf("wrote %zu picture%s of %zu frames to %s\n", written, written == 1 ? "" : "s", seen,
-              options.out.c_str());
+              output.path().c_str());
+  if (isStopRequested()) throw Stopped("stopped: there are pictures of the frames until then");
 }
 
 void run(Options& options) {

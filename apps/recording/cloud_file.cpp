@@ -163,14 +163,16 @@ void writeCloud(const fs::path& file, const CloudFile& cloud) {
   if (endsIn(file, ".ply")) return writePly(file, cloud.blob);
   const QuietPcl quiet;
   int result = -1;
+  // To a stream: PCL maps a file into memory, and a full disk would then be a SIGBUS.
+  std::ofstream out(file, std::ios::binary);
   try {
-    result = pcl::PCDWriter().writeBinaryCompressed(file.string(), cloud.blob, cloud.origin,
-                                                    cloud.orientation);
+    result =
+        pcl::PCDWriter().writeBinaryCompressed(out, cloud.blob, cloud.origin, cloud.orientation);
   } catch (const std::exception&) {
     // The sentence below.
   }
-  if (result != 0) fail(file, "the cloud cannot be written");
-  checkPcdFile(file);  // a full disk leaves a short file
+  out.close();
+  if (result != 0 || !out) fail(file, "the cloud cannot be written");
 }
 
 }  // namespace heel

@@ -29,7 +29,7 @@ Eigen::Isometry3d asInBags(const Eigen::Isometry3d& T) {
 }
 
 SensorBag::SensorBag(const std::filesystem::path& path, const RecordingInfo& camera)
-    : bag_(createBag(path)), camera_(camera) {
+    : bag_(createBag(BagPlan{path, {}, "simulate"})), camera_(camera) {
   if (camera_.T_base_camera) {
     static_.transforms.push_back(
         toTransform(toPoseMsg(*camera_.T_base_camera), header(0.0, kBase), kCamera));

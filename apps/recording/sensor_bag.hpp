@@ -46,7 +46,7 @@ class SensorBag {
   void addTruth(double stamp_s, const FloorPose& robot, const std::vector<FloorPose>& people);
 
   /// Completes the bag and gives it its name.
-  void commit() { bag_->commit(); }
+  void commit(bool complete = true) { bag_->commit(complete); }
 
  private:
   HeaderMsg header(double stamp_s, const char* frame);

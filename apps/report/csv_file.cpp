@@ -63,7 +63,17 @@ std::string fixedText(double value, int decimals) {
   return text;
 }
 
-CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns)
+std::string csvText(std::string_view value) {
+  if (value.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(value);
+  std::string quoted = "\"";
+  for (const char c : value) {
+    if (c == '"') quoted += '"';
+    quoted += c == '\n' || c == '\r' ? ' ' : c;  // a row is a line
+  }
+  return quoted + '"';
+}
+
+CsvWriter::CsvWriter(const OutputPath& path, const std::vector<std::string>& columns)
     : file_(path), columns_(columns.size()) {
   for (const auto& column : columns) text(column);
   endRow();
@@ -75,16 +85,7 @@ void CsvWriter::field(std::string_view raw) {
 }
 
 CsvWriter& CsvWriter::text(std::string_view value) {
-  if (value.find_first_of(",\"\r\n") == std::string_view::npos) {
-    field(value);
-    return *this;
-  }
-  std::string quoted = "\"";
-  for (const char c : value) {
-    if (c == '"') quoted += '"';
-    quoted += c == '\n' || c == '\r' ? ' ' : c;  // a row is a line
-  }
-  field(quoted + '"');
+  field(csvText(value));
   return *this;
 }
 

@@ -5,7 +5,7 @@
 /// Tables as comma-separated text, the same bytes on every run.
 #pragma once
 
-#include "apps/report/atomic_file.hpp"
+#include "apps/report/output.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,11 +20,14 @@ namespace heel {
 /// `value` with so many decimals, whatever the locale; never "-0.000", and "" if it is not finite.
 std::string fixedText(double value, int decimals);
 
-/// Writes a table row by row. Nothing has its name before commit(), and memory does not grow.
+/// A field of a table: quoted, if it has to be.
+std::string csvText(std::string_view value);
+
+/// Writes a table row by row.
 class CsvWriter {
  public:
-  /// @throws std::runtime_error  as AtomicFile; so do the others.
-  CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& columns);
+  /// @throws OutputError  as OutputFile; so do the others.
+  CsvWriter(const OutputPath& path, const std::vector<std::string>& columns);
 
   /// Starts a field of the current row. Text is quoted where it has to be.
   CsvWriter& text(std::string_view value);
@@ -36,13 +39,13 @@ class CsvWriter {
   /// @throws std::logic_error  if it has not a field for every column.
   void endRow();
 
-  void close() { file_.close(); }  ///< See AtomicFile.
-  void commit() { file_.commit(); }
+  /// Ends the table.
+  void close() { file_.close(); }
 
  private:
   void field(std::string_view raw);
 
-  AtomicFile file_;
+  OutputFile file_;
   std::size_t columns_;
   std::size_t fields_ = 0;
   std::string row_;

@@ -3,7 +3,6 @@
 
 #include "apps/report/follow_experiment_page.hpp"
 
-#include "apps/report/atomic_file.hpp"
 #include "apps/report/csv_file.hpp"
 #include "apps/report/follow_page.hpp"
 #include "apps/report/histogram.hpp"
@@ -245,19 +244,18 @@ std::string followExperimentPage(const FollowExperiment& experiment) {
                          {"footer", howToRepeat(experiment.command)}});
 }
 
-void writeFollowExperimentPage(const std::filesystem::path& file,
-                               const FollowExperiment& experiment) {
+void writeFollowExperimentPage(const OutputPath& file, const FollowExperiment& experiment) {
   writeFile(file, followExperimentPage(experiment));
 }
 
-void writeEpisodesCsv(const std::filesystem::path& file, const FollowExperiment& experiment) {
+void writeEpisodesCsv(const OutputPath& file, const FollowExperiment& experiment) {
   CsvWriter csv(file,
                 {"group", "name", "seed", "plan", "outcome", "distance_m", "elapsed_s", "seek_s",
                  "moving_speed_mps", "contacts", "wrong_person_s", "min_clearance_m", "losses",
                  "position_rms_m", "yaw_rms_rad", "cause", "command"});
   addRows(csv, "table1", experiment.table1);
   addRows(csv, "random", experiment.episodes);
-  csv.commit();
+  csv.close();
 }
 
 }  // namespace heel

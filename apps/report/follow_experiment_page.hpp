@@ -6,6 +6,7 @@
 #pragma once
 
 #include "apps/report/follow_summary.hpp"
+#include "apps/report/output.hpp"
 
 #include <filesystem>
 #include <string>
@@ -55,12 +56,11 @@ EpisodeCounts countEpisodes(const std::vector<FollowEpisode>& episodes, const st
 std::string followExperimentPage(const FollowExperiment& experiment);
 
 /// Writes followExperimentPage() to a file.
-/// @throws std::runtime_error  as AtomicFile.
-void writeFollowExperimentPage(const std::filesystem::path& file,
-                               const FollowExperiment& experiment);
+/// @throws OutputError  as OutputFile.
+void writeFollowExperimentPage(const OutputPath& file, const FollowExperiment& experiment);
 
 /// Writes a row for each of the episodes, those of Table 1 first.
-/// @throws std::runtime_error  as AtomicFile.
-void writeEpisodesCsv(const std::filesystem::path& file, const FollowExperiment& experiment);
+/// @throws OutputError  as OutputFile.
+void writeEpisodesCsv(const OutputPath& file, const FollowExperiment& experiment);
 
 }  // namespace heel

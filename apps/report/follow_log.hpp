@@ -62,6 +62,9 @@ struct StageTime {
   double p95_ms = 0.0;
 };
 
+/// The outcome of a run that a signal ended.
+inline constexpr const char* kStoppedRun = "stopped";
+
 /// A whole run.
 struct FollowLog {
   std::string scene;

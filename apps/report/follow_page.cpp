@@ -3,7 +3,6 @@
 
 #include "apps/report/follow_page.hpp"
 
-#include "apps/report/atomic_file.hpp"
 #include "apps/report/csv_file.hpp"
 #include "apps/report/follow_map.hpp"
 #include "apps/report/follow_moments.hpp"
@@ -176,7 +175,8 @@ std::string eyebrow(const FollowLog& log) {
 
 Tone toneOf(const std::string& outcome) {
   if (outcome == "reached") return Tone::kGood;
-  const bool is_open = outcome == "timeout" || outcome == "done" || outcome.empty();
+  const bool is_open =
+      outcome == "timeout" || outcome == "done" || outcome == kStoppedRun || outcome.empty();
   return is_open ? Tone::kWarning : Tone::kBad;
 }
 
@@ -215,8 +215,8 @@ std::string followPage(const FollowLog& log, const FollowSummary& sum,
        {"script", assets::kFollowJs}});
 }
 
-void writeFollowPage(const std::filesystem::path& file, const FollowLog& log,
-                     const FollowSummary& summary, const FollowPageParams& params) {
+void writeFollowPage(const OutputPath& file, const FollowLog& log, const FollowSummary& summary,
+                     const FollowPageParams& params) {
   writeFile(file, followPage(log, summary, params));
 }
 

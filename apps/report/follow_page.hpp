@@ -7,6 +7,7 @@
 
 #include "apps/report/annotate.hpp"
 #include "apps/report/follow_summary.hpp"
+#include "apps/report/output.hpp"
 
 #include <filesystem>
 #include <string>
@@ -27,8 +28,8 @@ std::string followPage(const FollowLog& log, const FollowSummary& summary,
                        const FollowPageParams& params = {});
 
 /// Writes followPage() to a file.
-/// @throws std::runtime_error  as AtomicFile.
-void writeFollowPage(const std::filesystem::path& file, const FollowLog& log,
-                     const FollowSummary& summary, const FollowPageParams& params = {});
+/// @throws OutputError  as OutputFile.
+void writeFollowPage(const OutputPath& file, const FollowLog& log, const FollowSummary& summary,
+                     const FollowPageParams& params = {});
 
 }  // namespace heel

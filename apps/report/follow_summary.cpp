@@ -37,7 +37,7 @@ nlohmann::ordered_json numberOrNull(double value, int decimals) {
   return std::round(value * unit) / unit;
 }
 
-CsvWriter followCsv(const std::filesystem::path& file) {
+CsvWriter followCsv(const OutputPath& file) {
   return {file,
           {"stamp_s",
            "state",
@@ -162,6 +162,7 @@ nlohmann::ordered_json followJson(const FollowLog& log, const FollowSummary& sum
   json["scene"] = log.scene;
   json["seed"] = log.seed;
   json["plan"] = log.plan;
+  json["complete"] = sum.outcome != kStoppedRun;
   json["outcome"] = sum.outcome;
   json["distance_m"] = numberOrNull(sum.distance_m, 3);
   json["elapsed_s"] = numberOrNull(sum.elapsed_s, 3);
@@ -185,18 +186,9 @@ nlohmann::ordered_json followJson(const FollowLog& log, const FollowSummary& sum
   return json;
 }
 
-void writeFollowCsv(const std::filesystem::path& file, const FollowLog& log) {
-  CsvWriter csv = followCsv(file);
-  addRows(csv, log);
-  csv.commit();
-}
-
-void writeFollowFiles(const std::filesystem::path& folder, const FollowLog& log,
-                      const FollowSummary& summary) {
-  makeResultFolder(folder);
-  CsvWriter csv = followCsv(folder / "follow.csv");
-  CsvWriter timing(folder / "timing.csv", {"stage", "mean_ms", "p95_ms"});
-  AtomicFile json(folder / "summary.json");
+void writeFollowFiles(const Output& output, const FollowLog& log, const FollowSummary& summary) {
+  CsvWriter csv = followCsv(output / "follow.csv");
+  CsvWriter timing(output / "timing.csv", {"stage", "mean_ms", "p95_ms"});
   addRows(csv, log);
   const auto addTime = [&](const StageTime& time) {
     timing.text(time.name).number(time.mean_ms, 3).number(time.p95_ms, 3).endRow();
@@ -205,10 +197,7 @@ void writeFollowFiles(const std::filesystem::path& folder, const FollowLog& log,
   if (!log.stages.empty()) addTime(log.step);
   csv.close();
   timing.close();
-  writeJson(json, followJson(log, summary));
-  csv.commit();
-  timing.commit();
-  json.commit();
+  writeJson(output / "summary.json", followJson(log, summary));
 }
 
 }  // namespace heel

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "apps/report/follow_log.hpp"
+#include "apps/report/output.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -62,17 +63,13 @@ PaperRow paperRow(const FollowSummary& summary, const char* name = "");
 
 extern const std::array<PaperRow, 3> kPaperTable1;
 
-/// The summary as it stands in summary.json; what is not finite is null.
+/// The summary as it stands in summary.json; what is not finite is null. A run that was stopped is
+/// not "complete".
 nlohmann::ordered_json followJson(const FollowLog& log, const FollowSummary& summary);
 
-/// Writes a row for each sample.
-/// @throws std::runtime_error  as AtomicFile.
-void writeFollowCsv(const std::filesystem::path& file, const FollowLog& log);
-
-/// Writes summary.json, follow.csv and timing.csv of a run: all, or none. The same run gives the
-/// same bytes; only timing.csv depends on the machine.
-/// @throws std::runtime_error  as AtomicFile.
-void writeFollowFiles(const std::filesystem::path& folder, const FollowLog& log,
-                      const FollowSummary& summary);
+/// Writes summary.json, follow.csv and timing.csv of a run. The same run gives the same bytes; only
+/// timing.csv depends on the machine.
+/// @throws OutputError  as OutputFile.
+void writeFollowFiles(const Output& output, const FollowLog& log, const FollowSummary& summary);
 
 }  // namespace heel

@@ -34,28 +34,12 @@ std::vector<std::string> timingColumns(const std::vector<std::string>& stages) {
   return columns;
 }
 
-/// The folder is made before the first file in it.
-const fs::path& made(const fs::path& folder) {
-  makeResultFolder(folder);
-  return folder;
-}
-
 }  // namespace
 
-void makeResultFolder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!error && !fs::is_directory(folder)) error = std::make_error_code(std::errc::not_a_directory);
-  if (error) {
-    throw std::runtime_error(folder.string() +
-                             " cannot be made as a folder for results: " + error.message());
-  }
-}
-
-ResultFiles::ResultFiles(const fs::path& folder, const std::vector<std::string>& stages)
-    : tracks_(made(folder) / "tracks.csv", kTrackColumns),
-      frames_(folder / "frames.csv", kFrameColumns),
-      timing_(folder / "timing.csv", timingColumns(stages)) {}
+ResultFiles::ResultFiles(const Output& output, const std::vector<std::string>& stages)
+    : tracks_(output / "tracks.csv", kTrackColumns),
+      frames_(output / "frames.csv", kFrameColumns),
+      timing_(output / "timing.csv", timingColumns(stages)) {}
 
 void ResultFiles::add(const TrackRow& row) {
   tracks_.number(row.stamp_s, kStampDecimals)
@@ -93,20 +77,9 @@ void ResultFiles::close() {
   for (CsvWriter* file : {&tracks_, &frames_, &timing_}) file->close();
 }
 
-void ResultFiles::commit() {
-  close();
-  tracks_.commit();
-  frames_.commit();
-  timing_.commit();
-}
-
-void writeJson(const fs::path& file, const nlohmann::ordered_json& value) {
-  writeFile(file, value.dump(2) + "\n");
-}
-
-void writeJson(AtomicFile& file, const nlohmann::ordered_json& value) {
-  file.write(value.dump(2) + "\n");
-  file.close();
+void writeJson(const OutputPath& file, const nlohmann::ordered_json& value) {
+  using Json = nlohmann::ordered_json;
+  writeFile(file, value.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 std::vector<TrackRow> readTracks(const fs::path& file) {

@@ -54,18 +54,12 @@ struct TruthRow {
   bool exact = true;  ///< False where the place is interpolated.
 };
 
-/// Makes the folder, with those above it.
-/// @throws std::runtime_error  if it can't be made, or is a file.
-void makeResultFolder(const std::filesystem::path& folder);
-
-/// tracks.csv, frames.csv and timing.csv of a run, written as it goes on. They get their names
-/// together, at commit(); a run that fails leaves none of them, and the former ones stay.
+/// tracks.csv, frames.csv and timing.csv of a run, written as it goes on.
 class ResultFiles {
  public:
   /// @param stages  Names of the stages that are timed; columns of timing.csv are "STAGE_ms".
-  /// @throws std::runtime_error  if the folder or a file can't be made or written; so do the
-  ///         others.
-  ResultFiles(const std::filesystem::path& folder, const std::vector<std::string>& stages);
+  /// @throws OutputError  if a file can't be written; so do the others.
+  ResultFiles(const Output& output, const std::vector<std::string>& stages);
 
   void add(const TrackRow& row);
   void add(const FrameRow& row);
@@ -73,9 +67,8 @@ class ResultFiles {
   /// @param stages_ms  Milliseconds of each of the stages, in the constructor's order.
   void addTiming(std::size_t frame, const std::vector<double>& stages_ms);
 
-  /// Ends the writing; commit() then only gives the names.
+  /// Ends the writing.
   void close();
-  void commit();
 
  private:
   CsvWriter tracks_;
@@ -83,12 +76,10 @@ class ResultFiles {
   CsvWriter timing_;
 };
 
-/// Writes summary.json and the like: indented, keys in the order in which they were added.
-/// @throws std::runtime_error  as AtomicFile.
-void writeJson(const std::filesystem::path& file, const nlohmann::ordered_json& value);
-
-/// The same into a file that the caller commits.
-void writeJson(AtomicFile& file, const nlohmann::ordered_json& value);
+/// Writes summary.json and the like: indented, keys in the order in which they were added. Bytes
+/// that are not UTF-8, as names of files may have, become U+FFFD.
+/// @throws OutputError  as OutputFile.
+void writeJson(const OutputPath& file, const nlohmann::ordered_json& value);
 
 /// Reads tracks.csv.
 /// @throws std::runtime_error  with one sentence that names the file and the line.

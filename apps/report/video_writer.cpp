@@ -3,8 +3,6 @@
 
 #include "apps/report/video_writer.hpp"
 
-#include "apps/report/atomic_file.hpp"
-
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
@@ -16,55 +14,45 @@ namespace heel {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-/// OpenCV does not tell why it can't write; the system does.
-void tryToWrite(const fs::path& path) {
-  AtomicFile file(path);
-  file.write("film");
-  file.close();
-}
-
-}  // namespace
-
-FilmWriter::FilmWriter(fs::path path, double rate_hz, cv::Size size, FilmUse use)
+FilmWriter::FilmWriter(OutputPath path, double rate_hz, cv::Size size, FilmUse use)
     : path_(std::move(path)), rate_hz_(rate_hz), size_(size) {
   if (!(rate_hz > 0.0) || size.empty()) {
     throw std::invalid_argument("FilmWriter: the rate and the size must be above 0");
   }
-  tryToWrite(path_);
-  const bool wants_mp4 = path_.extension() == ".mp4";
-  if (wants_mp4 && use == FilmUse::kBrowser && open(path_, Format::kH264)) return;
-  if (wants_mp4 && open(path_, Format::kMpeg4)) return;
-  if (open(fs::path(path_).replace_extension(".avi"), Format::kMotionJpeg)) return;
-  throw std::runtime_error(path_.string() + " cannot be written: OpenCV has no film format here");
+  writeFile(path_, "film");  // OpenCV does not tell why it can't write; the system does
+  const bool wants_mp4 = path_.named.extension() == ".mp4";
+  if (wants_mp4 && use == FilmUse::kBrowser && open(".mp4", Format::kH264)) return;
+  if (wants_mp4 && open(".mp4", Format::kMpeg4)) return;
+  discard();
+  if (open(".avi", Format::kMotionJpeg)) return;
+  discard();
+  throw OutputError(path_.named.string() + " cannot be written: OpenCV has no film format here");
 }
 
 FilmWriter::~FilmWriter() {
-  if (is_pending_) discard();
+  if (film_ != nullptr) discard();
 }
 
 void FilmWriter::discard() {
   film_.reset();
   std::error_code ignored;
-  fs::remove(temporary_, ignored);
-  is_pending_ = false;
+  fs::remove(path_.written, ignored);
 }
 
-bool FilmWriter::open(const fs::path& path, Format format) {
-  path_ = path;
-  temporary_ = temporaryBeside(path);
+bool FilmWriter::open(const char* ending, Format format) {
+  path_.written.replace_extension(ending);
+  path_.named.replace_extension(ending);
   film_ = std::make_unique<cv::VideoWriter>();
   const bool is_mp4 = format != Format::kMotionJpeg;
   const int codec = format == Format::kH264    ? cv::VideoWriter::fourcc('a', 'v', 'c', '1')
                     : format == Format::kMpeg4 ? cv::VideoWriter::fourcc('m', 'p', '4', 'v')
                                                : cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
-  return film_->open(temporary_.string(), is_mp4 ? cv::CAP_FFMPEG : cv::CAP_OPENCV_MJPEG, codec,
+  return film_->open(path_.written.string(), is_mp4 ? cv::CAP_FFMPEG : cv::CAP_OPENCV_MJPEG, codec,
                      rate_hz_, size_);
 }
 
 bool FilmWriter::isWhole() const {
-  cv::VideoCapture film(temporary_.string(), cv::CAP_FFMPEG);
+  cv::VideoCapture film(path_.written.string(), cv::CAP_FFMPEG);
   return film.isOpened() && film.get(cv::CAP_PROP_FRAME_COUNT) == static_cast<double>(frames_);
 }
 
@@ -80,43 +68,26 @@ void FilmWriter::write(const cv::Mat& picture) {
 void FilmWriter::close() {
   if (film_ == nullptr) return;
   film_.reset();  // writes the film's end
-  if (frames_ == 0 || isWhole()) return;
+  if (frames_ > 0 && isWhole()) return;
   discard();
-  throw std::runtime_error(path_.string() +
-                           " cannot be written: the film is not whole; is the disk full?");
+  if (frames_ == 0) return;
+  throw OutputError(path_.named.string() +
+                    " cannot be written: the film is not whole; is the disk full?");
 }
 
-void FilmWriter::commit() {
-  if (!is_pending_) throw std::logic_error("FilmWriter: committed after its end");
-  close();
-  if (frames_ == 0) {
-    discard();
-    return;
-  }
-  is_pending_ = false;
-  commitTemporary(temporary_, path_);
-}
-
-void writePicture(const fs::path& file, const cv::Mat& picture) {
-  AtomicFile out(file);
-  writePicture(out, picture);
-  out.commit();
-}
-
-void writePicture(AtomicFile& file, const cv::Mat& picture) {
+void writePicture(const OutputPath& file, const cv::Mat& picture) {
   std::vector<std::uint8_t> bytes;
   bool encoded = false;
   try {
-    encoded = cv::imencode(file.path().extension().string(), picture, bytes);
+    encoded = cv::imencode(file.named.extension().string(), picture, bytes);
   } catch (const cv::Exception&) {
     // The sentence below says all that a reader can use.
   }
   if (!encoded) {
-    throw std::runtime_error(file.path().string() +
-                             " cannot be written: no picture format of this name");
+    throw std::invalid_argument(file.named.string() +
+                                " cannot be written: no picture format of this name");
   }
-  file.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  file.close();
+  writeFile(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace heel

@@ -5,6 +5,8 @@
 /// Annotated frames as a film and as stills.
 #pragma once
 
+#include "apps/report/output.hpp"
+
 #include <opencv2/core/mat.hpp>
 
 #include <filesystem>
@@ -16,66 +18,56 @@ class VideoWriter;
 
 namespace heel {
 
-class AtomicFile;
-
 /// What a film in MP4 is for.
 enum class FilmUse {
   kArchive,  ///< MPEG-4: the same frames give the same bytes.
   kBrowser,  ///< H.264, which browsers play, where there is an encoder; its bytes may differ.
 };
 
-/// Writes a film that gets its name only when it is complete, as AtomicFile does.
+/// Writes a film.
 ///
 /// MP4 for a path that ends in .mp4, else Motion JPEG in AVI, which OpenCV can always write. Where
 /// MP4 can't be written, `path()` ends in .avi instead.
 class FilmWriter {
  public:
   /// @param rate_hz  Frames per second of the film, > 0.
-  /// @throws std::runtime_error  if no film can be written there: one sentence.
-  FilmWriter(std::filesystem::path path, double rate_hz, cv::Size size,
-             FilmUse use = FilmUse::kArchive);
+  /// @throws OutputError  if no film can be written there: one sentence.
+  FilmWriter(OutputPath path, double rate_hz, cv::Size size, FilmUse use = FilmUse::kArchive);
   ~FilmWriter();
   FilmWriter(const FilmWriter&) = delete;
   FilmWriter& operator=(const FilmWriter&) = delete;
 
-  const std::filesystem::path& path() const { return path_; }
+  /// What it is called.
+  const std::filesystem::path& path() const { return path_.named; }
 
   /// @param picture  CV_8UC3 of the film's size.
   /// @throws std::invalid_argument  if it is not.
   void write(const cv::Mat& picture);
 
-  /// Ends the film; commit() then only gives it its name.
-  /// @throws std::runtime_error  if the film could not be written whole, for instance because the
-  ///         disk is full.
+  /// Ends the film. One without a frame, and one that was not ended, is no file.
+  /// @throws OutputError  if the film could not be written whole, for instance because the disk is
+  ///         full.
   void close();
-
-  /// Ends the film if need be, and gives it its name. A film without a frame is no file.
-  /// @throws std::runtime_error  as close().
-  void commit();
 
  private:
   enum class Format { kH264, kMpeg4, kMotionJpeg };
 
-  bool open(const std::filesystem::path& path, Format format);
+  bool open(const char* ending, Format format);
   void discard();
 
   /// OpenCV does not tell when a frame could not be written; the finished film's own count does.
   bool isWhole() const;
 
-  std::filesystem::path path_;
-  std::filesystem::path temporary_;
+  OutputPath path_;
   double rate_hz_;
   cv::Size size_;
   std::size_t frames_ = 0;
   std::unique_ptr<cv::VideoWriter> film_;  ///< Null once closed.
-  bool is_pending_ = true;                 ///< The temporary is ours to rename or remove.
 };
 
-/// Writes a picture in the format of its name (.png), whole or not at all.
-/// @throws std::runtime_error  with one sentence that names the file and the reason.
-void writePicture(const std::filesystem::path& file, const cv::Mat& picture);
-
-/// The same into a file that the caller commits.
-void writePicture(AtomicFile& file, const cv::Mat& picture);
+/// Writes a picture in the format of its name (.png).
+/// @throws std::invalid_argument  if there is no such format.
+/// @throws OutputError  with one sentence that names the file and the reason.
+void writePicture(const OutputPath& file, const cv::Mat& picture);
 
 }  // namespace heel

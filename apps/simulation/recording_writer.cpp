@@ -4,10 +4,13 @@
 #include "apps/simulation/recording_writer.hpp"
 
 #include "apps/recording/sensor_bag.hpp"
+#include "apps/report/csv_file.hpp"
+#include "apps/report/result_files.hpp"
+#include "apps/report/video_writer.hpp"
 
+#include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/core/persistence.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
 #include <array>
@@ -33,14 +36,6 @@ __attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ..
   return text.data();
 }
 
-void writeFile(const fs::path& file, const std::vector<std::uint8_t>& bytes) {
-  std::ofstream out(file, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(bytes.data()),
-            static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out) throw std::runtime_error(file.string() + ": can't be written, is the disk full?");
-}
-
 cv::Mat packedDepth(const cv::Mat& depth_m) {
   cv::Mat packed(depth_m.size(), CV_16UC1);
   std::transform(depth_m.begin<float>(), depth_m.end<float>(), packed.begin<std::uint16_t>(),
@@ -56,23 +51,13 @@ cv::Mat packedDepth(const cv::Mat& depth_m) {
 
 RecordingWriter::RecordingWriter(const fs::path& folder, const Simulator& simulator,
                                  bool pixel_truth)
-    : folder_(folder),
-      partial_(folder.string() + ".partial"),
+    : output_({"simulate", OutputKind::kFolder, folder, {}, {}, true}),
       pixel_truth_(pixel_truth),
       camera_(simulator.camera()),
       T_base_camera_(asInBags(simulator.T_base_camera())) {
-  std::error_code problem;
-  if (fs::exists(folder_, problem) && !fs::is_empty(folder_, problem)) {
-    throw std::runtime_error(folder_.string() + ": holds something already");
-  }
-  fs::remove_all(partial_, problem);
-  for (const char* name : {"left", "right", "truth/depth", "truth/people"}) {
-    if (!pixel_truth && std::string(name).rfind("truth", 0) == 0) continue;
-    fs::create_directories(partial_ / name, problem);
-    if (problem) {
-      throw std::runtime_error((partial_ / name).string() +
-                               ": can't be made: " + problem.message());
-    }
+  std::error_code ignored;
+  if (fs::exists(folder) && !fs::is_empty(folder, ignored)) {
+    throw std::invalid_argument(folder.string() + ": holds something already");
   }
   writeCameraFiles(simulator);
 }
@@ -83,60 +68,52 @@ RecordingWriter::~RecordingWriter() {
   } catch (const std::exception&) {
     // Whoever gave up before finish() has been told why.
   }
-  std::error_code ignored;
-  if (!finished_) fs::remove_all(partial_, ignored);
 }
 
 void RecordingWriter::writeCameraFiles(const Simulator& simulator) {
   const PinholeCamera& c = camera_.left;
-  cv::FileStorage stereo((partial_ / "stereo.yaml").string(), cv::FileStorage::WRITE);
   const cv::Matx34d P1(c.fx, 0, c.cx, 0, 0, c.fy, c.cy, 0, 0, 0, 1, 0);
   cv::Matx34d P2 = P1;
   P2(0, 3) = -c.fx * camera_.baseline_m;
+  cv::FileStorage stereo(".yaml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
   stereo << "image_width" << c.width << "image_height" << c.height;
   stereo << "P1" << cv::Mat(P1) << "P2" << cv::Mat(P2);
+  writeFile(output_ / "stereo.yaml", stereo.releaseAndGetString());
 
-  std::ofstream camera(partial_ / "camera.yaml");
-  camera << "# The left camera, rectified. Ground frame: the robot's base at the start (X forward, "
-            "Y left, Z up).\n"
-         << format("width: %d\nheight: %d\nfx: %.9g\nfy: %.9g\ncx: %.9g\ncy: %.9g\nrate_hz: %.9g\n",
-                   c.width, c.height, c.fx, c.fy, c.cx, c.cy,
-                   simulator.scene().robot.camera.rate_hz)
-         << format("baseline_m: %.9g\n", camera_.baseline_m) << "T_ground_camera: [";
+  std::string camera =
+      "# The left camera, rectified. Ground frame: the robot's base at the start (X forward, "
+      "Y left, Z up).\n" +
+      format("width: %d\nheight: %d\nfx: %.9g\nfy: %.9g\ncx: %.9g\ncy: %.9g\nrate_hz: %.9g\n",
+             c.width, c.height, c.fx, c.fy, c.cx, c.cy, simulator.scene().robot.camera.rate_hz) +
+      format("baseline_m: %.9g\n", camera_.baseline_m) + "T_ground_camera: [";
   for (int i = 0; i < 16; ++i) {
-    camera << format("%s%.17g", i == 0 ? "" : ", ", T_base_camera_.matrix()(i / 4, i % 4));
+    camera += format("%s%.17g", i == 0 ? "" : ", ", T_base_camera_.matrix()(i / 4, i % 4));
   }
-  camera << "]\n";
-  if (!camera) throw std::runtime_error((partial_ / "camera.yaml").string() + ": can't be written");
+  writeFile(output_ / "camera.yaml", camera + "]\n");
 }
 
-std::ofstream& RecordingWriter::table(const std::string& name, const std::string& header) {
-  std::ofstream& file = tables_[name];
-  if (!file.is_open()) {
-    file.open(partial_ / name);
-    if (!header.empty()) file << header << '\n';
-  }
+OutputFile& RecordingWriter::table(const std::string& name, const std::string& header) {
+  const auto found = tables_.find(name);
+  if (found != tables_.end()) return found->second;
+  OutputFile& file = tables_.try_emplace(name, output_ / name).first->second;
+  if (!header.empty()) file.write(header + '\n');
   return file;
 }
 
 void RecordingWriter::writeLine(const std::string& name, const std::string& header,
                                 const std::string& line) {
-  table(name, header) << line << '\n';
+  table(name, header).write(line + '\n');
 }
 
 void RecordingWriter::writeImage(const std::string& folder, const cv::Mat& image) {
-  const fs::path file = partial_ / folder / format("%06zu.png", frames_);
-  encoding_.run([file, image] {
-    std::vector<std::uint8_t> bytes;
-    // Without a level OpenCV takes its fastest, which is also the smaller for noisy pictures.
-    if (!cv::imencode(".png", image, bytes)) {
-      throw std::runtime_error(file.string() + ": can't be encoded");
-    }
-    writeFile(file, bytes);
+  // Without a level OpenCV takes its fastest, which is also the smaller for noisy pictures.
+  encoding_.run([file = output_ / (folder + format("/%06zu.png", frames_)), image] {
+    writePicture(file, image);
   });
 }
 
 void RecordingWriter::add(const Readings& readings) {
+  stamp_s_ = readings.stamp_s;
   if (frames_ == 0) T_ground_world_ = basePose(readings.truth.robot).inverse();
   if (readings.stereo != nullptr) addFrame(readings);
   addTruth(readings);
@@ -182,8 +159,8 @@ void RecordingWriter::addFrame(const Readings& readings) {
     const Eigen::Vector3d place =
         T_ground_world_ * Eigen::Vector3d(in_world.x(), in_world.y(), 0.0);
     writeLine("truth.csv", header,
-              format("%.3f,%zu,%s,%.4f,%.4f,%d", readings.stamp_s, frames_, person.name.c_str(),
-                     place.x(), place.y(), share >= 0.25 ? 1 : 0));
+              format("%.3f,%zu,", readings.stamp_s, frames_) + csvText(person.name) +
+                  format(",%.4f,%.4f,%d", place.x(), place.y(), share >= 0.25 ? 1 : 0));
   }
 }
 
@@ -191,9 +168,9 @@ void RecordingWriter::addTruth(const Readings& readings) {
   const WorldTruth& truth = readings.truth;
   for (const PersonTruth& person : truth.people) {
     writeLine("people.csv", "stamp_s,person,x_m,y_m,yaw_rad,vx_mps,vy_mps",
-              format("%.3f,%s,%.4f,%.4f,%.4f,%.4f,%.4f", readings.stamp_s, person.name.c_str(),
-                     person.position.x(), person.position.y(), person.yaw_rad, person.velocity.x(),
-                     person.velocity.y()));
+              format("%.3f,", readings.stamp_s) + csvText(person.name) +
+                  format(",%.4f,%.4f,%.4f,%.4f,%.4f", person.position.x(), person.position.y(),
+                         person.yaw_rad, person.velocity.x(), person.velocity.y()));
   }
   writeLine(
       "robot.csv", "stamp_s,x_m,y_m,yaw_rad,forward_mps,turn_radps,clearance_m,contact",
@@ -202,20 +179,12 @@ void RecordingWriter::addTruth(const Readings& readings) {
              truth.robot_speed.turn_radps, truth.clearance_m, truth.contact ? 1 : 0));
 }
 
-void RecordingWriter::finish() {
+void RecordingWriter::finish(bool complete) {
   encoding_.wait();
-  for (auto& [name, file] : tables_) {
-    file.close();
-    if (!file) {
-      throw std::runtime_error((partial_ / name).string() +
-                               ": can't be written, is the disk full?");
-    }
-  }
-  std::error_code problem;
-  fs::remove(folder_, problem);  // An empty folder of that name may be there.
-  fs::rename(partial_, folder_, problem);
-  if (problem) throw std::runtime_error(folder_.string() + ": can't be made: " + problem.message());
-  finished_ = true;
+  for (auto& [name, file] : tables_) file.close();
+  writeJson(output_ / "summary.json",
+            {{"complete", complete}, {"frames", frames_}, {"duration_s", stamp_s_}});
+  output_.commit(complete);
 }
 
 }  // namespace heel

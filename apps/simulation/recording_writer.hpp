@@ -5,12 +5,12 @@
 /// The files of a recording, as `simulate` describes them.
 #pragma once
 
+#include "apps/report/output.hpp"
 #include "apps/simulation/simulator.hpp"
 
 #include <tbb/task_group.h>
 
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <string>
 
@@ -19,7 +19,8 @@ namespace heel {
 /// Writes readings to a folder; pictures are encoded beside whatever the caller does next.
 class RecordingWriter {
  public:
-  /// @throws std::runtime_error  if the folder holds something or can't be made.
+  /// @throws std::invalid_argument  if the folder holds something.
+  /// @throws OutputError  if nothing can be written there; so do the others.
   RecordingWriter(const std::filesystem::path& folder, const Simulator& simulator,
                   bool pixel_truth);
   ~RecordingWriter();
@@ -28,8 +29,9 @@ class RecordingWriter {
 
   void add(const Readings& readings);
 
-  /// Completes the files and gives the folder its name.
-  void finish();
+  /// Completes the files and gives the folder its place.
+  /// @param complete  False if the simulation was stopped: summary.json says so.
+  void finish(bool complete);
 
   std::size_t frames() const { return frames_; }
 
@@ -37,19 +39,18 @@ class RecordingWriter {
   void writeCameraFiles(const Simulator& simulator);
   void addFrame(const Readings& readings);
   void addTruth(const Readings& readings);
-  std::ofstream& table(const std::string& name, const std::string& header);
+  OutputFile& table(const std::string& name, const std::string& header);
   void writeLine(const std::string& name, const std::string& header, const std::string& line);
   void writeImage(const std::string& folder, const cv::Mat& image);
 
-  std::filesystem::path folder_;
-  std::filesystem::path partial_;  // Where the files are until all are there.
+  Output output_;
   bool pixel_truth_;
-  bool finished_ = false;
   StereoCamera camera_;
   Eigen::Isometry3d T_base_camera_;
   Eigen::Isometry3d T_ground_world_ = Eigen::Isometry3d::Identity();
   std::size_t frames_ = 0;
-  std::map<std::string, std::ofstream> tables_;
+  double stamp_s_ = 0.0;
+  std::map<std::string, OutputFile> tables_;
   tbb::task_group encoding_;
 };
 

@@ -4,17 +4,21 @@
 #include "apps/simulation/simulate.hpp"
 
 #include "apps/recording/sensor_bag.hpp"
+#include "apps/report/run_end.hpp"
 #include "apps/simulation/recording_writer.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace heel {
 namespace {
 
 constexpr double kTick_s = 0.01;
+constexpr double kLongest_s = 1e6;  // eleven days
 
 /// The longest step, in whole ticks, that skips no measurement of any sensor.
 double stepFor(const RobotParams& robot) {
@@ -64,23 +68,33 @@ void addTo(SensorBag& bag, const Readings& readings) {
 }  // namespace
 
 SimulateResult simulate(const Scene& scene, const SimulateOptions& options) {
+  SimulateResult result;
+  result.duration_s = options.duration_s.value_or(scene.duration_s);
+  if (!(result.duration_s > 0.0 && result.duration_s <= kLongest_s)) {
+    throw std::invalid_argument("--duration must be above 0, and " +
+                                std::to_string(static_cast<long>(kLongest_s)) + " s at most");
+  }
   Simulator simulator(scene, {options.seed, options.threads, true});
   RecordingWriter writer(options.out, simulator, options.write_pixel_truth);
   std::optional<SensorBag> bag;
   if (!options.bag.empty()) bag.emplace(beginBag(options.bag, simulator));
-  SimulateResult result;
-  result.duration_s = options.duration_s.value_or(scene.duration_s);
   const double step_s = stepFor(scene.robot);
   const auto steps = std::lround(std::ceil(result.duration_s / step_s - 1e-6));
   for (long i = 0; i < steps; ++i) {
+    if (isStopRequested()) {
+      result.complete = false;
+      result.duration_s = static_cast<double>(i) * step_s;
+      break;
+    }
     const Readings& readings = simulator.step(i == 0 ? 0.0 : step_s);
     writer.add(readings);
     if (bag) addTo(*bag, readings);
     if (options.progress) options.progress(static_cast<double>(i + 1) / static_cast<double>(steps));
   }
-  if (bag) bag->commit();
-  writer.finish();
   result.frames = writer.frames();
+  if (result.frames == 0 && !result.complete) return result;
+  if (bag) bag->commit(result.complete);
+  writer.finish(result.complete);
   return result;
 }
 

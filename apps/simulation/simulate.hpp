@@ -29,6 +29,7 @@ struct SimulateOptions {
 struct SimulateResult {
   std::size_t frames = 0;
   double duration_s = 0.0;
+  bool complete = true;  ///< False if a signal ended it before.
 };
 
 /// Runs a scene with the robot standing still and writes a recording:
@@ -43,13 +44,15 @@ struct SimulateResult {
 ///   robot's base frame at the start); exact = 0 where less than a quarter of them is seen |
 /// | `people.csv`, `robot.csv` | everyone's and the robot's place in the world, seen or not |
 /// | `scan.csv`, `odometry.csv` | laser ranges and wheel odometry |
+/// | `summary.json` | how much there is, and whether it is complete |
 /// | `truth/depth/`, `truth/people/` | 16-bit depth in 0.1 mm steps (0 = none); 0, or 1 + the
 ///   number of the person |
 ///
-/// Images and truth are written whole or not at all: the folder appears when all is done.
-/// The bag (see SensorBag) has the same images, the readings of the laser and of the odometry as
-/// they were measured, and the truth of the robot and people.
-/// @throws std::runtime_error  one sentence, if `out` holds something or can't be written.
+/// The folder appears when all is done. isStopRequested() ends it early; without a frame, nothing
+/// is written. The bag (see SensorBag) has the same images, the readings of the laser and of the
+/// odometry as they were measured, and the truth of the robot and people.
+/// @throws std::invalid_argument  one sentence, if the duration is none or `out` holds something.
+/// @throws OutputError  if `out` can't be written.
 SimulateResult simulate(const Scene& scene, const SimulateOptions& options);
 
 }  // namespace heel

@@ -81,7 +81,9 @@ TEST(AppearanceExperiment, TellsCrimsonFromNavyAndWritesItDown) {
   EXPECT_EQ(matrix.identified().count, 2);
 
   const test::TempFolder folder;
-  writeAppearanceFiles(folder.path() / "a", {runs}, 0.25);
+  Output output({"experiment appearance", OutputKind::kFolder, folder.path(), {}});
+  writeAppearanceFiles(output, "a", {runs}, 0.25);
+  output.commit();
   for (const char* name :
        {"people.csv", "runs.csv", "pairs.csv", "summary.json", "confusion.png"}) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "a" / name)) << name;

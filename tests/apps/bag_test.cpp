@@ -204,7 +204,8 @@ TEST(Ros2Bag, WithoutMetadataIsReadFromItsFiles) {
 TEST(Ros2Bag, NeverReplacesAFolderOfOtherThings) {
   const TempFolder folder;
   writeText(folder / "b/letter.txt", "dear");
-  EXPECT_THAT(messageOf([&] { createBag(folder / "b"); }), HasSubstr("something else"));
+  EXPECT_THAT(messageOf<std::invalid_argument>([&] { createBag(folder / "b"); }),
+              HasSubstr("did not make"));
   EXPECT_EQ(readText(folder / "b/letter.txt"), "dear");
 }
 

@@ -34,7 +34,7 @@ TEST(CsvWriter, QuotesOnlyWhatHasToBe) {
   heel::CsvWriter csv(folder / "a.csv", {"n", "text", "value", "yes"});
   csv.integer(-3).text("plain words").number(0.5, 2).flag(true).endRow();
   csv.integer(4).text("a, \"b\"\nc").number(std::nan(""), 2).flag(false).endRow();
-  csv.commit();
+  csv.close();
   EXPECT_EQ(heel::test::readText(folder / "a.csv"),
             "n,text,value,yes\n-3,plain words,0.50,1\n4,\"a, \"\"b\"\" c\",,0\n");
 }
@@ -49,7 +49,7 @@ TEST(CsvReader, ReadsWhatTheWriterWrote) {
   const TempFolder folder;
   heel::CsvWriter writer(folder / "a.csv", {"n", "text", "value", "yes"});
   writer.integer(-3).text("a, \"b\" c").number(0.5, 2).flag(true).endRow();
-  writer.commit();
+  writer.close();
   heel::CsvReader reader(folder / "a.csv", {"yes", "n", "text", "value"});
   ASSERT_TRUE(reader.next());
   EXPECT_TRUE(reader.flag(0));

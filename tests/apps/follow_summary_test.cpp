@@ -166,8 +166,11 @@ TEST(StateSpans, LastUntilTheNextState) {
 TEST(FollowFiles, HoldTheRunAndAreTheSameOnEveryRun) {
   const TempFolder folder;
   const FollowLog log = flatRun();
-  heel::writeFollowFiles(folder / "a", log, summarize(log));
-  heel::writeFollowFiles(folder / "b", flatRun(), summarize(flatRun()));
+  for (const char* name : {"a", "b"}) {
+    heel::Output output({"follow", heel::OutputKind::kFolder, folder / name, {}});
+    heel::writeFollowFiles(output, flatRun(), summarize(flatRun()));
+    output.commit();
+  }
   for (const char* name : {"/summary.json", "/follow.csv", "/timing.csv"}) {
     EXPECT_EQ(readText(folder / (std::string("a") + name)),
               readText(folder / (std::string("b") + name)));
@@ -188,13 +191,11 @@ TEST(FollowFiles, HoldTheRunAndAreTheSameOnEveryRun) {
   EXPECT_EQ(rows, log.samples.size());
 }
 
-TEST(FollowFiles, FullDiskLeavesNone) {
-  const TempFolder folder;
-  heel::test::makeDiskFullFor(folder / "follow.csv");
-  EXPECT_THROW(heel::writeFollowFiles(folder.path(), flatRun(), summarize(flatRun())),
-               std::runtime_error);
-  EXPECT_FALSE(heel::test::isThere(folder / "summary.json"));
-  EXPECT_FALSE(heel::test::isThere(folder / "timing.csv"));
+TEST(FollowFiles, OfAStoppedRunSayThatTheyAreNotComplete) {
+  FollowLog log = flatRun();
+  EXPECT_TRUE(heel::followJson(log, summarize(log))["complete"]);
+  log.outcome = heel::kStoppedRun;
+  EXPECT_FALSE(heel::followJson(log, summarize(log))["complete"]);
 }
 
 }  // namespace

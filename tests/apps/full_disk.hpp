@@ -5,8 +5,6 @@
 /// A file for which there is no room.
 #pragma once
 
-#include "apps/report/atomic_file.hpp"
-
 #include <sys/resource.h>
 
 #include <csignal>
@@ -14,9 +12,9 @@
 
 namespace heel::test {
 
-/// Lets the temporary of `file` lead to /dev/full, which takes nothing: "No space left on device".
+/// Lets `file` lead to /dev/full, which takes nothing: "No space left on device".
 inline void makeDiskFullFor(const std::filesystem::path& file) {
-  std::filesystem::create_symlink("/dev/full", temporaryBeside(file));
+  std::filesystem::create_symlink("/dev/full", file);
 }
 
 /// While it lives, no file of this process can grow beyond `bytes`: writing fails in the middle.

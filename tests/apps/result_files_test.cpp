@@ -12,6 +12,8 @@
 
 namespace {
 
+using heel::Output;
+using heel::OutputKind;
 using heel::ResultFiles;
 using heel::test::isThere;
 using heel::test::messageOf;
@@ -33,9 +35,11 @@ void addTwoFrames(ResultFiles& files) {
 
 TEST(ResultFiles, HaveTheDocumentedColumns) {
   const TempFolder folder;
-  ResultFiles files(folder / "a/b", {"stereo", "filter"});
+  Output output({"track", OutputKind::kFolder, folder / "a/b", {}});
+  ResultFiles files(output, {"stereo", "filter"});
   addTwoFrames(files);
-  files.commit();
+  files.close();
+  output.commit();
   EXPECT_EQ(readText(folder / "a/b/tracks.csv"),
             "stamp_s,track_id,is_target,x_m,y_m,vx_mps,vy_mps,score,status\n"
             "0.200000,1,1,1.2500,-0.5000,0.3000,0.0000,12.5000,confirmed\n"
@@ -53,48 +57,17 @@ TEST(ResultFiles, HaveTheDocumentedColumns) {
 TEST(ResultFiles, AreTheSameBytesOnEveryRun) {
   const TempFolder folder;
   for (const char* run : {"1", "2"}) {
-    ResultFiles files(folder / run, {"all", "half"});
+    Output output({"track", OutputKind::kFolder, folder / run, {}});
+    ResultFiles files(output, {"all", "half"});
     addTwoFrames(files);
-    files.commit();
-    heel::writeJson(folder / (std::string(run) + "/summary.json"),
+    files.close();
+    heel::writeJson(output / "summary.json",
                     {{"z_first", 0.1}, {"a_second", {{"k", 1}, {"b", nullptr}}}});
+    output.commit();
   }
   for (const char* name : {"tracks.csv", "frames.csv", "summary.json"}) {
     EXPECT_EQ(readText(folder.path() / "1" / name), readText(folder.path() / "2" / name));
   }
-}
-
-TEST(ResultFiles, UncommittedRunLeavesTheFormerOne) {
-  const TempFolder folder;
-  writeText(folder / "tracks.csv", "former");
-  {
-    ResultFiles files(folder.path(), {"a", "b"});
-    addTwoFrames(files);
-  }
-  EXPECT_EQ(readText(folder / "tracks.csv"), "former");
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
-}
-
-TEST(ResultFiles, FullDiskForOneLeavesNoneOfThem) {
-  const TempFolder folder;
-  heel::test::makeDiskFullFor(folder / "timing.csv");
-  EXPECT_EQ(messageOf([&] {
-              ResultFiles files(folder.path(), {"a", "b"});
-              addTwoFrames(files);
-              files.commit();
-            }),
-            (folder / "timing.csv").string() + " cannot be written: No space left on device");
-  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
-}
-
-TEST(ResultFiles, FolderThatCannotBeMadeIsNamed) {
-  const TempFolder folder;
-  writeText(folder / "file", "");
-  EXPECT_EQ(
-      messageOf([&] { ResultFiles(folder / "file", {}); }),
-      (folder / "file").string() + " cannot be made as a folder for results: Not a directory");
-  EXPECT_THAT(messageOf([&] { ResultFiles(folder / "file/deeper", {}); }),
-              HasSubstr("file/deeper cannot be made as a folder for results"));
 }
 
 TEST(Json, KeepsTheOrderOfItsKeys) {
@@ -108,11 +81,19 @@ TEST(Json, KeepsTheOrderOfItsKeys) {
             "{\n  \"recording\": \"six_people\",\n  \"frames\": 108,\n  \"accuracy\": 0.85\n}\n");
 }
 
+TEST(Json, HoldsNamesThatAreNotUtf8) {
+  const TempFolder folder;
+  heel::writeJson(folder / "summary.json", {{"recording", "caf\xe9"}});
+  EXPECT_EQ(readText(folder / "summary.json"), "{\n  \"recording\": \"caf\xef\xbf\xbd\"\n}\n");
+}
+
 TEST(Tracks, AreReadAsTheyWereWritten) {
   const TempFolder folder;
-  ResultFiles files(folder.path(), {"a", "b"});
+  Output output({"track", OutputKind::kFolder, folder.path(), {}});
+  ResultFiles files(output, {"a", "b"});
   addTwoFrames(files);
-  files.commit();
+  files.close();
+  output.commit();
   const auto rows = heel::readTracks(folder / "tracks.csv");
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows[0].stamp_s, 0.2);

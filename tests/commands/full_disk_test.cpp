@@ -4,8 +4,6 @@
 /// @file
 /// Results for which there is no room.
 
-#include "tests/apps/full_disk.hpp"
-
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_model.hpp"
 #include "tests/commands/small_recording.hpp"
@@ -55,12 +53,6 @@ TEST_F(FullDisk, LeavesNoFilmAndNoTableWithoutIt) {
   EXPECT_THAT(filesBelow(folder_ / "out"), ElementsAre());
 }
 
-TEST_F(FullDisk, AtTheVeryEndLeavesNothingNew) {
-  makeDiskFullFor(folder_ / "out/summary.json");
-  EXPECT_TRUE(failsWith(heel(track()), {"summary.json", "No space left on device"}));
-  EXPECT_THAT(filesBelow(folder_ / "out"), ElementsAre());
-}
-
 TEST_F(FullDisk, KeepsTheResultsOfTheRunBefore) {
   ASSERT_TRUE(succeeds(heel(track({"--no-film"}))));
   const auto files = filesBelow(folder_ / "out");
@@ -72,12 +64,6 @@ TEST_F(FullDisk, KeepsTheResultsOfTheRunBefore) {
 
 TEST_F(FullDisk, LeavesNoModel) {
   EXPECT_TRUE(failsWith(heel(learn(), 2000), {"cannot be written"}));
-  EXPECT_THAT(filesBelow(folder_ / "out"), ElementsAre());
-}
-
-TEST_F(FullDisk, ForAPictureLeavesNoModelEither) {
-  makeDiskFullFor(folder_ / "out/model_view.png");
-  EXPECT_TRUE(failsWith(heel(learn()), {"model_view.png", "No space left on device"}));
   EXPECT_THAT(filesBelow(folder_ / "out"), ElementsAre());
 }
 

@@ -9,6 +9,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <regex>
@@ -38,10 +40,14 @@ class Capture {
 
   int descriptor() const { return fileno(file_); }
 
+  /// Read at its place, so that whoever writes it goes on at its end.
   std::string text() const {
     std::string all;
-    std::rewind(file_);
-    for (int c = std::fgetc(file_); c != EOF; c = std::fgetc(file_)) all += static_cast<char>(c);
+    std::array<char, 4096> part{};
+    for (ssize_t got = 1; got > 0;) {
+      got = pread(descriptor(), part.data(), part.size(), static_cast<off_t>(all.size()));
+      if (got > 0) all.append(part.data(), static_cast<std::size_t>(got));
+    }
     return all;
   }
 
@@ -64,6 +70,40 @@ std::string described(const HeelRun& run) {
          "\n--- stdout\n" + run.out + "--- stderr\n" + run.err;
 }
 
+/// @param meanwhile  Called with the process and what it says on stderr, as soon as it runs.
+template <typename Meanwhile>
+HeelRun run(const std::vector<std::string>& arguments, std::optional<std::size_t> largest_file,
+            const Meanwhile& meanwhile) {
+  std::vector<char*> argv = {const_cast<char*>(HEEL_COMMAND)};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  const Capture out, err;
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("no process can be started");
+  if (child == 0) {
+    dup2(out.descriptor(), STDOUT_FILENO);
+    dup2(err.descriptor(), STDERR_FILENO);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
+    if (largest_file) {
+      const rlimit limit{*largest_file, *largest_file};
+      setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    execv(HEEL_COMMAND, argv.data());
+    _exit(127);
+  }
+  meanwhile(child, err);
+  int status = 0;
+  rusage usage{};
+  wait4(child, &status, 0, &usage);
+  HeelRun result;
+  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  result.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  result.out = out.text();
+  result.err = err.text();
+  result.peak_kB = usage.ru_maxrss;
+  return result;
+}
+
 }  // namespace
 
 std::vector<std::string> HeelRun::errors() const {
@@ -80,36 +120,31 @@ std::vector<std::string> HeelRun::warnings() const {
 }
 
 HeelRun heel(const std::vector<std::string>& arguments, std::optional<std::size_t> largest_file) {
-  std::vector<char*> argv = {const_cast<char*>(HEEL_COMMAND)};
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
-  const Capture out, err;
-  const pid_t child = fork();
-  if (child < 0) throw std::runtime_error("no process can be started");
-  if (child == 0) {
-    dup2(out.descriptor(), STDOUT_FILENO);
-    dup2(err.descriptor(), STDERR_FILENO);
-    if (largest_file) {
-      const rlimit limit{*largest_file, *largest_file};
-      setrlimit(RLIMIT_FSIZE, &limit);
+  return run(arguments, largest_file, [](pid_t, const Capture&) {});
+}
+
+HeelRun heelSignalled(const std::vector<std::string>& arguments, const std::string& text,
+                      const std::vector<int>& signals) {
+  return run(arguments, std::nullopt, [&](pid_t child, const Capture& err) {
+    siginfo_t ended{};
+    while (err.text().find(text) == std::string::npos) {
+      waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
+      if (ended.si_pid != 0) return;  // too early: the test will see
+      usleep(200);
     }
-    execv(HEEL_COMMAND, argv.data());
-    _exit(127);
-  }
-  int status = 0;
-  rusage usage{};
-  wait4(child, &status, 0, &usage);
-  HeelRun run;
-  run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  run.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  run.out = out.text();
-  run.err = err.text();
-  run.peak_kB = usage.ru_maxrss;
-  return run;
+    for (const int signal : signals) kill(child, signal);
+  });
 }
 
 testing::AssertionResult succeeds(const HeelRun& run) {
   if (run.succeeded() && run.errors().empty()) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << described(run);
+}
+
+testing::AssertionResult findsNothing(const HeelRun& run) {
+  if (run.signal == 0 && run.exit_code == 4 && run.errors().size() == 1) {
+    return testing::AssertionSuccess();
+  }
   return testing::AssertionFailure() << described(run);
 }
 
@@ -130,7 +165,8 @@ std::vector<std::string> filesBelow(const std::filesystem::path& folder) {
   std::vector<std::string> names;
   if (!std::filesystem::exists(folder)) return names;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    if (!entry.is_directory()) {
+    if (!entry.is_directory() && entry.path().extension() != ".heel" &&
+        entry.path().filename() != ".heel") {
       names.push_back(std::filesystem::relative(entry.path(), folder).string());
     }
   }

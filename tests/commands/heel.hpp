@@ -35,14 +35,23 @@ struct HeelRun {
 HeelRun heel(const std::vector<std::string>& arguments,
              std::optional<std::size_t> largest_file = std::nullopt);
 
+/// Runs `heel ARGUMENTS`, and sends it these signals, one after the other, once it has said `text`
+/// on stderr.
+HeelRun heelSignalled(const std::vector<std::string>& arguments, const std::string& text,
+                      const std::vector<int>& signals);
+
 /// That it ended well.
 testing::AssertionResult succeeds(const HeelRun& run);
+
+/// That it ended well, but found nothing: exit code 4, and one error line.
+testing::AssertionResult findsNothing(const HeelRun& run);
 
 /// That it failed as it should: no signal, no result on stdout, and one error line, which starts
 /// with "heel: " and has all of `parts` in it.
 testing::AssertionResult failsWith(const HeelRun& run, const std::vector<std::string>& parts);
 
-/// Names of all files below a folder, hidden ones too, sorted; empty if there is no folder.
+/// Names of all files below a folder but manifests, hidden ones too, sorted; empty if there is no
+/// folder.
 std::vector<std::string> filesBelow(const std::filesystem::path& folder);
 
 }  // namespace heel::test

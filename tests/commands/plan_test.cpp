@@ -79,11 +79,11 @@ TEST_F(Plan, KnowsTheScenesByTheirNames) {
 
 TEST_F(Plan, SaysWhyThereIsNoPath) {
   const HeelRun wide = plan(folder_ / "rooms.yaml", "5,0.6", {"--radius", "0.5"});
-  ASSERT_TRUE(succeeds(wide));
-  EXPECT_THAT(wide.out, HasSubstr("no path: goal_unreachable"));
+  ASSERT_TRUE(findsNothing(wide));
+  EXPECT_THAT(wide.err, HasSubstr("no path: goal_unreachable"));
   const HeelRun outside = plan(folder_ / "rooms.yaml", "50,0.6");
-  ASSERT_TRUE(succeeds(outside));
-  EXPECT_THAT(outside.out, HasSubstr("no path: goal_outside"));
+  ASSERT_TRUE(findsNothing(outside));
+  EXPECT_THAT(outside.err, HasSubstr("no path: goal_outside"));
 }
 
 TEST_F(Plan, NamesWhatIsWrong) {
