@@ -37,7 +37,7 @@ fi
 
 echo
 echo "== Real people: the first to enter is learned, and followed"
-"$heel" learn "$data/six_people" --legs --out out/first.yaml
+"$heel" learn "$data/six_people" --out out/first.yaml
 for recording in six_people one_person; do
   [ -d "$data/$recording" ] || continue
   "$heel" track "$data/$recording" --model out/first.yaml --out "out/first_in_$recording"

@@ -8,12 +8,6 @@
 #include <stdexcept>
 
 namespace heel {
-namespace {
-
-constexpr float kHighest_m = 2.2F;  // Nobody's head is higher.
-
-}  // namespace
-
 AppearanceLearner::AppearanceLearner(const AppearanceParams& params)
     : params_(params), person_(params.bands.size()) {
   if (params.bands.empty()) throw std::invalid_argument("an appearance needs at least one band");
@@ -43,19 +37,11 @@ void AppearanceLearner::addPerson(const ColorCloud& cloud, const pcl::Indices& i
   }
 }
 
-void AppearanceLearner::addBody(const ColorCloud& cloud, const Eigen::Vector2d& position_m,
-                                double radius_m) {
-  const auto radius2 = static_cast<float>(radius_m * radius_m);
-  const Eigen::Vector2f middle = position_m.cast<float>();
-  const bool is_picture = cloud.height > 1;
-  body_.clear();
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const pcl::PointXYZRGB& p = cloud[i];
-    if (!((Eigen::Vector2f(p.x, p.y) - middle).squaredNorm() <= radius2)) continue;  // Or NaN.
-    if (p.z > kHighest_m) continue;
-    body_.add(static_cast<double>(p.z), is_picture ? static_cast<int>(i / cloud.width) : -1);
-  }
-  if (const auto height_m = body_.height_m()) heights_m_.push_back(*height_m);
+void AppearanceLearner::addBody(const ColorCloud& cloud, const pcl::Indices& indices,
+                                const Eigen::Vector2d& position_m) {
+  describer_.describe(cloud, position_m, look_, &indices);
+  portrait_.add(look_);
+  if (look_.stature_m) heights_m_.push_back(*look_.stature_m);
 }
 
 }  // namespace heel

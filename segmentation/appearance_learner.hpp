@@ -33,11 +33,11 @@ class AppearanceLearner {
   /// @param indices  The person's points, of any height; those without position are left out.
   void addPerson(const ColorCloud& cloud, const pcl::Indices& indices);
 
-  /// Takes the stature of the person who stands at a place in this frame. Of an organized cloud, a
-  /// head that the picture's upper edge may have cut off is not measured.
-  /// @param cloud     All points of the frame, as bodies are measured when they are compared, too.
-  /// @param radius_m  As BodyAppearanceParams::radius_m.
-  void addBody(const ColorCloud& cloud, const Eigen::Vector2d& position_m, double radius_m = 0.20);
+  /// Describes the person who stands at a place in this frame. Of an organized cloud, a head that
+  /// the picture's upper edge may have cut off is not measured.
+  /// @param indices  The person's points.
+  void addBody(const ColorCloud& cloud, const pcl::Indices& indices,
+               const Eigen::Vector2d& position_m);
 
   const ColorHistogram& room() const { return room_; }
 
@@ -45,7 +45,12 @@ class AppearanceLearner {
   const std::vector<ColorHistogram>& person() const { return person_; }
 
   /// @throws std::invalid_argument  if nothing of the person, or of the room, has been added.
-  AppearanceModel learn() const { return AppearanceModel(params_, person_, room_, stature()); }
+  AppearanceModel learn() const {
+    return AppearanceModel(params_, person_, room_, stature(), portrait());
+  }
+
+  /// The mean of all looks so far; without colours if there was none.
+  BodyDescription portrait() const { return portrait_.mean(); }
 
   /// Of all frames so far.
   std::optional<Stature> stature() const { return statureFrom(heights_m_); }
@@ -54,7 +59,9 @@ class AppearanceLearner {
   AppearanceParams params_;
   std::vector<ColorHistogram> person_;
   ColorHistogram room_;
-  StatureSample body_;             // Of the frame that is being added.
+  BodyDescriber describer_;
+  BodyDescription look_;  // Of the frame that is being added.
+  BodyPortrait portrait_;
   std::vector<double> heights_m_;  // Of the frames that showed one.
 };
 

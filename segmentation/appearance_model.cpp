@@ -66,6 +66,20 @@ double errorShare(const AppearanceBand& band) {
   return band.errors.false_negative_share + band.errors.false_positive_share;
 }
 
+/// Each stripe has the colours of the band that holds its middle.
+BodyDescription portraitOf(const std::vector<AppearanceBand>& bands) {
+  BodyDescription portrait;
+  portrait.colors.setZero(BodyDescriber::kBins, BodyDescriber::kStripes);
+  for (const AppearanceBand& band : bands) {
+    if (band.person.empty()) continue;
+    const Eigen::ArrayXf bins = BodyDescriber::binsOf(band.person);
+    for (int stripe = 0; stripe < BodyDescriber::kStripes; ++stripe) {
+      if (band.body.contains(BodyDescriber::middleOf_m(stripe))) portrait.colors.col(stripe) = bins;
+    }
+  }
+  return portrait;
+}
+
 std::string percent(double share) {
   char text[16];
   std::snprintf(text, sizeof text, "%.0f %%", 100.0 * share);
@@ -83,8 +97,12 @@ std::vector<BodyBand> wholeBody() {
 }
 
 AppearanceModel::AppearanceModel(AppearanceParams params, std::vector<ColorHistogram> person,
-                                 ColorHistogram room, std::optional<Stature> stature)
-    : params_(std::move(params)), room_(std::move(room)), stature_(stature) {
+                                 ColorHistogram room, std::optional<Stature> stature,
+                                 BodyDescription portrait)
+    : params_(std::move(params)),
+      room_(std::move(room)),
+      stature_(stature),
+      portrait_(std::move(portrait)) {
   check(params_);
   if (person.size() != params_.bands.size()) {
     throw std::invalid_argument("each band of an appearance needs its counts of the person");
@@ -103,6 +121,7 @@ AppearanceModel::AppearanceModel(AppearanceParams params, std::vector<ColorHisto
     setThreshold(i, chooseThreshold(curve, params_.threshold));
   }
   if (!has_points) throw std::invalid_argument("there are no colours of the person");
+  if (portrait_.colors.size() == 0) portrait_ = portraitOf(bands_);
 }
 
 ColorTable AppearanceModel::filterTable() const {
@@ -161,12 +180,15 @@ AppearanceModel mergeAppearances(const AppearanceModel& a, const AppearanceModel
   }
   ColorHistogram room = a.room();
   room.merge(b.room());
+  BodyPortrait portrait;
+  portrait.add(a.portrait());
+  portrait.add(b.portrait());
   // Of two measures of one height, the one that rests on more.
   const auto frames = [](const AppearanceModel& m) {
     return m.stature() ? m.stature()->frames : 0;
   };
   return AppearanceModel(a.params(), std::move(person), std::move(room),
-                         frames(a) >= frames(b) ? a.stature() : b.stature());
+                         frames(a) >= frames(b) ? a.stature() : b.stature(), portrait.mean());
 }
 
 }  // namespace heel

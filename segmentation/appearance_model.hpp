@@ -6,6 +6,7 @@
 #pragma once
 
 #include "segmentation/appearance_threshold.hpp"
+#include "segmentation/body_description.hpp"
 #include "segmentation/color_histogram.hpp"
 #include "segmentation/color_score.hpp"
 #include "segmentation/color_table.hpp"
@@ -24,12 +25,6 @@ enum class ColorModel {
   kPrincipalColors,  ///< The paper's.
   kColorRatio,       ///< The person's colours against the room's.
   kHueSaturation,    ///< A joint histogram of hue and saturation.
-};
-
-/// How a body that may be the target's is compared with the model.
-enum class BodyComparison {
-  kCoverage,  ///< By the share of it that has the target's colours: bodyAppearance().
-  kMatch,     ///< By the distribution of its colours and by its stature: BodyMatcher.
 };
 
 /// Heights over the floor that share their colours.
@@ -51,15 +46,12 @@ std::vector<BodyBand> torsoAndHead();
 /// the paper, for it learns from points below 1 m too.
 std::vector<BodyBand> wholeBody();
 
-/// How an appearance is modelled. The defaults did best on real recordings of all that learn from
-/// points higher than 1 m only.
+/// How an appearance is modelled.
 struct AppearanceParams {
   ColorModel model = ColorModel::kColorRatio;  ///< kPrincipalColors is the paper's.
-  /// Heights that are learned each by itself. wholeBody() tells people in similar tops apart;
-  /// upperBody() is the paper's.
+  /// Heights whose colours the filter learns each by itself. upperBody() is the paper's;
+  /// wholeBody(), which `heel learn` takes, finds trousers too.
   std::vector<BodyBand> bands = torsoAndHead();
-  /// kMatch confuses people less, and loses them sooner where the light changes.
-  BodyComparison comparison = BodyComparison::kCoverage;
   ThresholdParams threshold;
   ColorRatioParams color_ratio;
   PrincipalColorParams principal_colors;
@@ -105,15 +97,17 @@ class AppearanceModel {
  public:
   /// @param person  Counts of each of `params.bands`, in their order.
   /// @param room    Counts of what is not the person.
+  /// @param portrait  What all of the person looks like; absent: made of `person`.
   /// @throws std::invalid_argument  if a parameter is out of range, all of `person` is empty, or
   ///                                `room` is.
   AppearanceModel(AppearanceParams params, std::vector<ColorHistogram> person, ColorHistogram room,
-                  std::optional<Stature> stature = {});
+                  std::optional<Stature> stature = {}, BodyDescription portrait = {});
 
   const AppearanceParams& params() const { return params_; }
   const std::vector<AppearanceBand>& bands() const { return bands_; }
   const ColorHistogram& room() const { return room_; }
   const std::optional<Stature>& stature() const { return stature_; }
+  const BodyDescription& portrait() const { return portrait_; }
 
   /// The paper's filter: passes what passes the table of any band. Its scores are 0 and 255.
   ColorTable filterTable() const;
@@ -129,6 +123,7 @@ class AppearanceModel {
   std::vector<AppearanceBand> bands_;
   ColorHistogram room_;
   std::optional<Stature> stature_;
+  BodyDescription portrait_;
 };
 
 /// The model of all that either was learned from, with thresholds chosen anew.

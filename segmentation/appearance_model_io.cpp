@@ -33,13 +33,9 @@ const Names<ColorModel> kModels = {{ColorModel::kPrincipalColors, "principal_col
 const Names<ThresholdRule> kRules = {{ThresholdRule::kFewestErrors, "fewest_errors"},
                                      {ThresholdRule::kMostSelective, "most_selective"}};
 
-const Names<BodyComparison> kComparisons = {{BodyComparison::kCoverage, "coverage"},
-                                            {BodyComparison::kMatch, "match"}};
-
 template <typename Params, typename Visitor>
 void visitParams(Params& params, Visitor& visitor) {
   visitor.choice("model", params.model, kModels);
-  visitor.choice("comparison", params.comparison, kComparisons);
   visitor.begin("color_ratio");
   visitor.field("dark_offset", params.color_ratio.dark_offset);
   visitor.field("chroma_limit", params.color_ratio.chroma_limit);
@@ -165,6 +161,33 @@ ColorHistogram readColors(const Reader& reader) {
   return colors;
 }
 
+BodyDescription readPortrait(const YAML::Node& stripes) {
+  BodyDescription portrait;
+  if (!stripes.IsSequence() || stripes.size() != BodyDescriber::kStripes) {
+    complain("portrait",
+             "is not a list of " + std::to_string(BodyDescriber::kStripes) + " stripes");
+  }
+  portrait.colors.setZero(BodyDescriber::kBins, BodyDescriber::kStripes);
+  for (int stripe = 0; stripe < BodyDescriber::kStripes; ++stripe) {
+    const std::string field = "portrait[" + std::to_string(stripe) + "]";
+    if (!stripes[stripe].IsScalar()) complain(field, "is not a text");
+    std::istringstream lines(stripes[stripe].as<std::string>());
+    auto column = portrait.colors.col(stripe);
+    for (std::string line; std::getline(lines, line);) {
+      int bin = 0;
+      float share = 0.0F;
+      char rest = 0;
+      const bool is_read = std::sscanf(line.c_str(), "%d %f %c", &bin, &share, &rest) == 2;
+      if (!is_read || bin < 0 || bin >= BodyDescriber::kBins || !(share >= 0.0F && share <= 1.0F)) {
+        complain(field, "has a line that is not 'bin share': '" + line + "'");
+      }
+      column[bin] = share;
+    }
+    if (column.sum() > 1.01F) complain(field, "has shares of more than 1 in all");
+  }
+  return portrait;
+}
+
 AppearanceModel readModel(const YAML::Node& root) {
   Reader reader(root);
   int version = 0;
@@ -202,8 +225,11 @@ AppearanceModel readModel(const YAML::Node& root) {
     visitStature(stature.emplace(), reader);
     reader.end();
   }
+  BodyDescription portrait;
+  if (version >= 2) portrait = readPortrait(reader.node("portrait"));
   reader.begin("room");
-  AppearanceModel model(std::move(params), std::move(person), readColors(reader), stature);
+  AppearanceModel model(std::move(params), std::move(person), readColors(reader), stature,
+                        std::move(portrait));
   for (std::size_t i = 0; i < thresholds.size(); ++i) model.setThreshold(i, thresholds[i]);
   return model;
 }
@@ -243,6 +269,23 @@ void writeColors(YAML::Emitter& out, const ColorHistogram& colors) {
   out << YAML::Key << "colors" << YAML::Value << YAML::Literal << lines;
 }
 
+void writePortrait(YAML::Emitter& out, const BodyDescription& portrait) {
+  out << YAML::Key << "portrait"
+      << YAML::Comment("how each stripe of height is spread over the bins of colour: bin share")
+      << YAML::Value << YAML::BeginSeq;
+  for (Eigen::Index stripe = 0; stripe < portrait.colors.cols(); ++stripe) {
+    std::string lines;
+    for (Eigen::Index bin = 0; bin < portrait.colors.rows(); ++bin) {
+      const auto share = static_cast<double>(portrait.colors(bin, stripe));
+      char line[40];
+      std::snprintf(line, sizeof line, "%d %.9g\n", static_cast<int>(bin), share);
+      if (share > 0.0) lines += line;
+    }
+    out << YAML::Literal << lines;
+  }
+  out << YAML::EndSeq;
+}
+
 std::string toYaml(const AppearanceModel& model) {
   YAML::Emitter out;
   out.SetDoublePrecision(15);
@@ -268,6 +311,7 @@ std::string toYaml(const AppearanceModel& model) {
     visitStature(*model.stature(), writer);
     writer.end();
   }
+  writePortrait(out, model.portrait());
   writer.begin("room");
   writeColors(out, model.room());
   writer.end();

@@ -5,6 +5,7 @@
 /// Whether a person can be seen at a place: the paper's geometric filtering (section 3.2).
 #pragma once
 
+#include "tracking/clutter_map.hpp"
 #include "tracking/observation.hpp"
 
 #include <Eigen/Core>
@@ -35,6 +36,7 @@ struct Viewpoint {
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  ///< The camera, on the floor.
   /// How sure that place is, for gates that widen their margins by it.
   Eigen::Matrix2d covariance_m2 = Eigen::Matrix2d::Zero();
+  SightOf sight_of = {};  ///< What is seen of a place; empty: nothing is known.
 };
 
 /// Says whether a person can be seen at the observation's place, or why not. Must be deterministic;

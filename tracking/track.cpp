@@ -25,15 +25,12 @@ void checkParams(const TrackerParams& p) {
   require(positive(p.position_sigma_m), "position_sigma_m must be positive");
   require(positive(p.start_speed_sigma_mps), "start_speed_sigma_mps must be positive");
   require(probability(p.gate_prob), "gate_prob must be between 0 and 1");
-  require(p.max_residual_m > 0.0, "max_residual_m must be positive");
+  require(p.max_speed_mps >= 0.0, "max_speed_mps must not be negative");
+  require(p.slack_m > 0.0, "slack_m must be positive");
   require(probability(p.detection_prob), "detection_prob must be between 0 and 1");
   require(positive(p.new_density_per_m2), "new_density_per_m2 must be positive");
   require(std::isfinite(p.score_weight) && p.score_weight >= 0.0,
           "score_weight must not be negative");
-  require(p.log_appearance_sigma > 0.0, "log_appearance_sigma must be positive");
-  require(p.max_unlikeness >= 0.0, "max_unlikeness must not be negative");
-  require(p.max_log_change_unseen >= 0.0, "max_log_change_unseen must not be negative");
-  require(positive(p.appearance_memory_s), "appearance_memory_s must be positive");
   require(std::isfinite(p.birth_clearance_m) && p.birth_clearance_m >= 0.0,
           "birth_clearance_m must not be negative");
   require(p.confirm_hits >= 1 && p.confirm_hits <= p.confirm_frames,

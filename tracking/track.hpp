@@ -21,26 +21,17 @@ struct TrackerParams {
   double position_sigma_m = 0.12;      ///< Of an observation's place, per axis.
   double start_speed_sigma_mps = 1.0;  ///< Of a new track's unknown velocity, per axis.
   double gate_prob = 0.997;            ///< Share of a track's own observations inside its gate.
-  double max_residual_m = 0.8;         ///< No gate is wider than this, however unsure the track.
-  double detection_prob = 0.9;         ///< That a person in view is observed in a frame.
+  /// No gate is wider than the way of a person who turns about and walks at this speed, and
+  /// slack_m more.
+  double max_speed_mps = 2.0;
+  double slack_m = 0.5;         ///< See max_speed_mps.
+  double detection_prob = 0.9;  ///< That a person in view is observed in a frame.
   /// Observations from nowhere (newcomers, clutter) per square metre and frame. An observation is
   /// given to a track only where the track explains it better than this.
   double new_density_per_m2 = 0.02;
   /// Of several observations that compete for a track, one whose score is the fraction f of the
   /// best one's pays -score_weight ln(f) on the scale of squared Mahalanobis distances.
   double score_weight = 1.0;
-  /// Scatter of the logarithm of a person's appearance from frame to frame: an observation whose
-  /// logarithm is d away from its track's pays (d / sigma)^2. Infinity: blind to appearance.
-  double log_appearance_sigma = 0.35;
-  /// The most that unlike appearance costs. People turn, and step into the shade: their looks alone
-  /// must not part them from their track.
-  double max_unlikeness = 6.0;
-  /// While a track is seen, its motion says who it is. Where it was not, in the frame before, its
-  /// looks must: an observation whose appearance differs by more than this factor (as a natural
-  /// logarithm) is somebody else, who came in as it went out.
-  double max_log_change_unseen = 0.8;
-  /// Time over which a track's appearance is averaged: it forgets 1 - 1/e of its past in this time.
-  double appearance_memory_s = 0.7;
   double birth_clearance_m = 0.4;  ///< Closer to a track in view, what is left is its fragment.
   int confirm_hits = 2;            ///< A track is confirmed when seen in this many
   int confirm_frames = 3;          ///< of this many frames (at most 32), else it is dropped.
@@ -69,12 +60,10 @@ struct Track {
   double born_s = 0.0;          ///< Stamp of its first observation.
   double seen_s = 0.0;          ///< Stamp of its newest observation.
   int observation = kUnseen;    ///< Index of the observation it took in the newest frame.
+  double density_per_m2 = 0.0;  ///< Of that observation's place, as the track foretold it.
   int hits = 0;                 ///< Observations taken in all.
   double score = 0.0;           ///< Of its newest observation.
-  double log_appearance = 0.0;  ///< Running mean of its observations' logarithms.
   std::uint32_t history = 0;    ///< Bit k: seen k frames ago.
-
-  double appearance() const { return std::exp(log_appearance); }
 };
 
 /// How a frame's stamp fits the one before.

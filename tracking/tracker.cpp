@@ -16,14 +16,9 @@ namespace {
 
 constexpr double kTwoPi = 6.283185307179586;
 constexpr double kStampTolerance_s = 1e-6;  // Sums of decimal stamps are not exact.
-constexpr double kLeastAppearance = 0.01;   // Less says no more.
 constexpr double kLeastScoreShare = 1e-3;   // A score of 0 counts as this share of the best.
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-double logAppearance(const Observation& observation) {
-  return std::log(std::clamp(observation.appearance, kLeastAppearance, 1.0));
-}
 
 int countSeen(std::uint32_t history, int frames) {
   int seen = 0;
@@ -47,7 +42,7 @@ Tracker::Tracker(const TrackerParams& params, GeometricGate gate)
 }
 
 const TrackerReport& Tracker::step(double stamp_s, const std::vector<Observation>& observations,
-                                   const Viewpoint& viewpoint) {
+                                   const Viewpoint& viewpoint, const LookLikelihood& looks) {
   if (!std::isfinite(stamp_s)) {
     throw std::invalid_argument("Tracker: the stamp is not finite");
   }
@@ -62,8 +57,8 @@ const TrackerReport& Tracker::step(double stamp_s, const std::vector<Observation
   for (Track& track : tracks_) {
     track.observation = Track::kUnseen;
   }
-  associate(observations, false);
-  associate(observations, true);
+  associate(observations, looks, false);
+  associate(observations, looks, true);
   updateTracks(stamp_s, observations);
   endTracks(stamp_s);
   startTracks(stamp_s, observations);
@@ -103,7 +98,7 @@ void Tracker::gateObservations(const std::vector<Observation>& observations,
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const Observation& o = observations[i];
     ObservationUse& use = report_.uses[i];
-    if (!o.position_m.allFinite() || !std::isfinite(o.score) || !std::isfinite(o.appearance)) {
+    if (!o.position_m.allFinite() || !std::isfinite(o.score) || !o.covariance_m2.allFinite()) {
       use.verdict = GateVerdict::kNotFinite;
     } else if (gate_) {
       use.verdict = gate_(o, viewpoint);
@@ -118,14 +113,15 @@ void Tracker::gateObservations(const std::vector<Observation>& observations,
   std::sort(accepted_.begin(), accepted_.end(), [&](int a, int b) {
     const auto key = [&](int i) {
       const Observation& o = observations[at(i)];
-      return std::make_tuple(-o.score, o.position_m.x(), o.position_m.y(), o.appearance);
+      return std::make_tuple(-o.score, o.position_m.x(), o.position_m.y());
     };
     return key(a) < key(b);
   });
 }
 
 /// Gives the observations that are still free to the tentative tracks, or to all others.
-void Tracker::associate(const std::vector<Observation>& observations, bool tentative) {
+void Tracker::associate(const std::vector<Observation>& observations, const LookLikelihood& looks,
+                        bool tentative) {
   rows_.clear();
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if ((tracks_[i].status == TrackStatus::kTentative) == tentative) {
@@ -140,7 +136,7 @@ void Tracker::associate(const std::vector<Observation>& observations, bool tenta
   }
   costs_.reset(static_cast<int>(rows_.size()), static_cast<int>(free_.size()));
   for (int row = 0; row < costs_.rows(); ++row) {
-    fillCosts(row, tracks_[at(rows_[at(row)])], observations);
+    fillCosts(row, tracks_[at(rows_[at(row)])], observations, looks);
   }
   solver_.solve(costs_, 0.0, assignment_);
   for (std::size_t row = 0; row < rows_.size(); ++row) {
@@ -155,22 +151,20 @@ void Tracker::associate(const std::vector<Observation>& observations, bool tenta
   }
 }
 
-void Tracker::fillCosts(int row, const Track& track, const std::vector<Observation>& observations) {
-  const bool was_unseen = track.status == TrackStatus::kCoasting && track.hits > 0;
+void Tracker::fillCosts(int row, const Track& track, const std::vector<Observation>& observations,
+                        const LookLikelihood& looks) {
+  const double unseen_s = *stamp_s_ - track.seen_s;
+  const double reach_m = params_.slack_m + params_.max_speed_mps * unseen_s;
   double best_score = 0.0;
   for (int column = 0; column < costs_.columns(); ++column) {
-    const Observation& o = observations[at(free_[at(column)])];
-    const Innovation seen = innovation(track.motion, o.position_m, noise_m2_);
+    const int index = free_[at(column)];
+    const Observation& o = observations[at(index)];
+    const Innovation seen = innovation(track.motion, o.position_m, noiseOf(o));
     const double distance2 = squaredMahalanobis(seen);
-    if (distance2 > gate_limit_ || seen.residual_m.norm() > params_.max_residual_m) {
-      continue;
-    }
-    const double change = logAppearance(o) - track.log_appearance;
-    if (was_unseen && std::abs(change) > params_.max_log_change_unseen) continue;
-    const double unlike = change / params_.log_appearance_sigma;
+    if (distance2 > gate_limit_ || seen.residual_m.norm() > reach_m) continue;
     costs_(row, column) = base_cost_ + distance2 +
-                          std::min(unlike * unlike, params_.max_unlikeness) +
-                          std::log(kTwoPi * kTwoPi * seen.covariance_m2.determinant());
+                          std::log(kTwoPi * kTwoPi * seen.covariance_m2.determinant()) -
+                          (looks ? 2.0 * looks(track.id, index) : 0.0);
     best_score = std::max(best_score, o.score);
   }
   for (int column = 0; column < costs_.columns() && best_score > 0.0; ++column) {
@@ -185,11 +179,11 @@ void Tracker::updateTracks(double stamp_s, const std::vector<Observation>& obser
     track.history = (track.history << 1) | (seen ? 1U : 0U);
     if (seen) {
       const Observation& o = observations[at(track.observation)];
-      track.motion = update(track.motion, o.position_m, noise_m2_);
+      track.density_per_m2 =
+          std::exp(heel::logLikelihood(innovation(track.motion, o.position_m, noiseOf(o))));
+      track.motion = update(track.motion, o.position_m, noiseOf(o));
       ++track.hits;
       track.score = o.score;
-      const double gain = -std::expm1((track.seen_s - stamp_s) / params_.appearance_memory_s);
-      track.log_appearance += gain * (logAppearance(o) - track.log_appearance);
       track.seen_s = stamp_s;
     }
     if (track.status != TrackStatus::kTentative ||
@@ -216,12 +210,11 @@ void Tracker::endTracks(double stamp_s) {
 }
 
 Track& Tracker::startTrack(double stamp_s, const Eigen::Vector2d& position_m,
-                           double log_appearance) {
+                           const Eigen::Matrix2d& noise_m2) {
   Track& track = tracks_.emplace_back();
   track.id = next_id_++;
-  track.motion = startMotion(position_m, noise_m2_, params_.start_speed_sigma_mps);
+  track.motion = startMotion(position_m, noise_m2, params_.start_speed_sigma_mps);
   track.born_s = track.seen_s = stamp_s;
-  track.log_appearance = log_appearance;
   return track;
 }
 
@@ -248,7 +241,7 @@ void Tracker::startTracks(double stamp_s, const std::vector<Observation>& observ
       ++report_.fragments;
       continue;
     }
-    Track& track = startTrack(stamp_s, o.position_m, logAppearance(o));
+    Track& track = startTrack(stamp_s, o.position_m, noiseOf(o));
     track.observation = index;
     track.hits = 1;
     track.score = o.score;
@@ -267,7 +260,7 @@ int Tracker::addTrack(const Eigen::Vector2d& position_m) {
   if (!stamp_s_) {
     throw std::logic_error("Tracker: a track can't be added before the first step");
   }
-  Track& track = startTrack(*stamp_s_, position_m, logAppearance(Observation()));
+  Track& track = startTrack(*stamp_s_, position_m, noise_m2_);
   track.status = TrackStatus::kCoasting;
   return track.id;
 }

@@ -11,6 +11,7 @@
 #include "tracking/observation.hpp"
 #include "tracking/track.hpp"
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -18,8 +19,8 @@ namespace heel {
 
 /// Follows everyone in view. Each observation explains at most one track and each track takes at
 /// most one, chosen together at the least cost: squared Mahalanobis distance plus the logarithm of
-/// the innovation covariance's determinant, plus penalties for low score and unlike appearance.
-/// Tentative tracks choose from what the others leave.
+/// the innovation covariance's determinant, plus a penalty for low score, less twice what looks
+/// say. Tentative tracks choose from what the others leave.
 ///
 /// The order of the observations has no influence. Allocates only when there are more observations
 /// or tracks than ever before.
@@ -29,14 +30,19 @@ class Tracker {
   /// @throws std::invalid_argument  if a parameter is out of range; the text names it.
   explicit Tracker(const TrackerParams& params = {}, GeometricGate gate = {});
 
+  /// Logarithm of the likelihood that an observation (an index) looks as it does if it is a track's
+  /// (an id) person, over that of anybody's.
+  using LookLikelihood = std::function<double(int track_id, int observation)>;
+
   /// Takes in the observations made at `stamp_s`.
+  /// @param looks  Empty: the tracker is blind to looks.
   /// @return What happened; valid until the next call.
   /// @throws std::invalid_argument  if the stamp is not finite.
   const TrackerReport& step(double stamp_s, const std::vector<Observation>& observations,
-                            const Viewpoint& viewpoint = {});
+                            const Viewpoint& viewpoint = {}, const LookLikelihood& looks = {});
 
   /// Starts a confirmed track at a place where somebody is known to be though nobody saw them, as
-  /// of the newest stamp. Its appearance is that of an observation without evidence.
+  /// of the newest stamp.
   /// @return Its id.
   /// @throws std::invalid_argument  if the place is not finite.
   /// @throws std::logic_error       before the first step.
@@ -60,10 +66,14 @@ class Tracker {
  private:
   bool advanceTo(double stamp_s);
   void gateObservations(const std::vector<Observation>& observations, const Viewpoint& viewpoint);
-  void associate(const std::vector<Observation>& observations, bool tentative);
-  void fillCosts(int row, const Track& track, const std::vector<Observation>& observations);
+  void associate(const std::vector<Observation>& observations, const LookLikelihood& looks,
+                 bool tentative);
+  void fillCosts(int row, const Track& track, const std::vector<Observation>& observations,
+                 const LookLikelihood& looks);
   void updateTracks(double stamp_s, const std::vector<Observation>& observations);
-  Track& startTrack(double stamp_s, const Eigen::Vector2d& position_m, double log_appearance);
+  Track& startTrack(double stamp_s, const Eigen::Vector2d& position_m,
+                    const Eigen::Matrix2d& noise_m2);
+  Eigen::Matrix2d noiseOf(const Observation& seen) const { return noise_m2_ + seen.covariance_m2; }
   void startTracks(double stamp_s, const std::vector<Observation>& observations);
   void endTracks(double stamp_s);
 

@@ -42,7 +42,7 @@ DetectionRun look(const SimulatedFrames& recording, const AppearanceModel& model
     run.elsewhere += followed && !there ? 1 : 0;
     if (!person) continue;
     ++run.frames_in_view;
-    run.appearance_sum += appearanceAt(*person, perception.tracks(), params.place_error_m);
+    run.appearance_sum += targetProbabilityAt(*person, perception, params.place_error_m);
     run.followed += there ? 1 : 0;
     run.blob += std::any_of(step.observations.begin(), step.observations.end(),
                             [&](const Observation& seen) {
@@ -69,8 +69,8 @@ PairTest comparePair(const SimulatedFrames& recording, std::size_t target, std::
     const auto& other_m = now.people_m[1 - target_at];
     if (!target_m || !other_m) continue;
     ++test.frames;
-    test.target_appearance += appearanceAt(*target_m, perception.tracks(), reach_m);
-    test.other_appearance += appearanceAt(*other_m, perception.tracks(), reach_m);
+    test.target_appearance += targetProbabilityAt(*target_m, perception, reach_m);
+    test.other_appearance += targetProbabilityAt(*other_m, perception, reach_m);
     test.target_blob_score += blobScoreAt(*target_m, step.observations, reach_m);
     test.other_blob_score += blobScoreAt(*other_m, step.observations, reach_m);
     if (step.target.status != TargetStatus::kFollowed) continue;

@@ -43,7 +43,7 @@ struct PairTest {
   std::size_t target = 0;
   std::size_t other = 0;
   int frames = 0;
-  double target_appearance = 0.0;  ///< Of their confirmed track: what Heel chooses by.
+  double target_appearance = 0.0;  ///< Probability of their track: what Heel chooses by.
   double other_appearance = 0.0;
   double target_blob_score = 0.0;  ///< Sum of heights, the paper's score.
   double other_blob_score = 0.0;

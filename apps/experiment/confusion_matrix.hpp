@@ -20,7 +20,7 @@ struct DetectionRun {
   int followed = 0;             ///< The target is said to be at the person's place.
   int blob = 0;                 ///< A blob large and high enough for a person is at their place.
   int elsewhere = 0;            ///< Frames in which the target is said to be at some other place.
-  double appearance_sum = 0.0;  ///< Of the confirmed track at the person's place, 0 without one.
+  double appearance_sum = 0.0;  ///< That the track at the person's place is the target.
 
   /// Mean appearance in view; 0 if never in view.
   double appearance() const { return frames_in_view == 0 ? 0.0 : appearance_sum / frames_in_view; }

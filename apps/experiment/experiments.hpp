@@ -23,7 +23,7 @@ struct ExperimentParams {
   double detector_distance_m = 0.75;  ///< How far a detection may be from a person.
   double tracker_distance_m = 0.5;    ///< How far the target's estimate may be from them.
   double learn_radius_m = 0.35;       ///< Points this near to a person's true place are theirs.
-  AppearanceParams appearance;        ///< The model that is learned.
+  AppearanceParams appearance = ofWholeBody();  ///< The model that is learned.
 };
 
 /// Told before each piece of work that is timed, and after it.
@@ -57,7 +57,7 @@ TargetMetrics runFollowingExperiment(const std::filesystem::path& recording,
 /// looked for in the second half.
 struct TargetResult {
   std::string person;
-  TargetMetrics best_blob;  ///< The blob of the best appearance in each frame; no track.
+  TargetMetrics best_blob;  ///< The likeliest blob of each frame by its looks alone; no track.
   TargetMetrics started;    ///< Tracked, started at the person's true place.
   TargetMetrics cold;       ///< Tracked, found by looks.
 };

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "apps/experiment/random_wardrobe.hpp"
+#include "apps/follower/learn_person.hpp"
 #include "apps/follower/perception.hpp"
 #include "tracking/target_metrics.hpp"
 
@@ -21,7 +22,7 @@ struct GateExperimentParams {
   double person_s = 6.0;  ///< The same.
   double follow_s = 20.0;
   double place_error_m = 0.5;  ///< An estimate further from the target is not of them.
-  AppearanceParams appearance;
+  AppearanceParams appearance = ofWholeBody();
   PerceptionParams perception;
   std::filesystem::path scenes;  ///< Folder of the scenes that come with Heel.
 };

@@ -38,8 +38,9 @@ void ModelLessons::addPerson(const ColorCloud& cloud, const pcl::Indices& indice
   for (AppearanceLearner& learner : learners_) learner.addPerson(cloud, indices);
 }
 
-void ModelLessons::addBody(const ColorCloud& cloud, const Eigen::Vector2d& position_m) {
-  for (AppearanceLearner& learner : learners_) learner.addBody(cloud, position_m);
+void ModelLessons::addBody(const ColorCloud& cloud, const pcl::Indices& indices,
+                           const Eigen::Vector2d& position_m) {
+  for (AppearanceLearner& learner : learners_) learner.addBody(cloud, indices, position_m);
 }
 
 std::optional<AppearanceModel> ModelLessons::learn(std::size_t model) const {
@@ -47,8 +48,8 @@ std::optional<AppearanceModel> ModelLessons::learn(std::size_t model) const {
   const bool seen = std::any_of(learner.person().begin(), learner.person().end(),
                                 [](const ColorHistogram& histogram) { return !histogram.empty(); });
   if (!seen || learner.room().empty()) return std::nullopt;
-  return AppearanceModel(models_[model].params, learner.person(), learner.room(),
-                         learner.stature());
+  return AppearanceModel(models_[model].params, learner.person(), learner.room(), learner.stature(),
+                         learner.portrait());
 }
 
 }  // namespace heel

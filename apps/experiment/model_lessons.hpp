@@ -22,7 +22,8 @@ class ModelLessons {
   /// As AppearanceLearner.
   void addRoom(const cv::Mat& image_bgr, const cv::Mat& mask = cv::Mat());
   void addPerson(const ColorCloud& cloud, const pcl::Indices& indices);
-  void addBody(const ColorCloud& cloud, const Eigen::Vector2d& position_m);
+  void addBody(const ColorCloud& cloud, const pcl::Indices& indices,
+               const Eigen::Vector2d& position_m);
 
   /// The offered model of that number; absent where nothing was seen that its bands could learn.
   std::optional<AppearanceModel> learn(std::size_t model) const;

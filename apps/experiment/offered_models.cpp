@@ -20,11 +20,6 @@ std::vector<OfferedModel> offeredModels() {
     params.suppress_background = true;
     return params;
   };
-  const auto matched = [&](std::vector<BodyBand> bands) {
-    AppearanceParams params = make(ColorModel::kColorRatio, 1, std::move(bands));
-    params.comparison = BodyComparison::kMatch;
-    return params;
-  };
   return {{"paper, k = 1", make(ColorModel::kPrincipalColors, 1, upperBody())},
           {"paper, k from the data", make(ColorModel::kPrincipalColors, 0, upperBody())},
           {"paper, k = 1, torso + head", make(ColorModel::kPrincipalColors, 1, torsoAndHead())},
@@ -34,10 +29,8 @@ std::vector<OfferedModel> offeredModels() {
           {"hue-saturation", make(ColorModel::kHueSaturation, 1, upperBody())},
           {"hue-saturation, room discounted", discounted(ColorModel::kHueSaturation, 1)},
           {"ratio to the room", make(ColorModel::kColorRatio, 1, upperBody())},
-          {"ratio, torso + head (default)", AppearanceParams()},
-          {"ratio, torso + head + legs", make(ColorModel::kColorRatio, 1, wholeBody())},
-          {"match, torso + head", matched(torsoAndHead())},
-          {"match, torso + head + legs", matched(wholeBody())}};
+          {"ratio, torso + head", make(ColorModel::kColorRatio, 1, torsoAndHead())},
+          {"ratio, + legs (default)", make(ColorModel::kColorRatio, 1, wholeBody())}};
 }
 
 }  // namespace heel

@@ -43,10 +43,10 @@ std::vector<DetectionRun> lookForAll(const std::filesystem::path& path, const Ca
     for (std::size_t i = 0; i < row.size(); ++i) {
       if (judged[i].count(frame.number) == 0) continue;
       const Eigen::Vector2d place = *truth.placeOf(truth.people()[i], frame.number);
-      const double appearance = appearanceAt(place, perception.tracks(), reach_m);
+      const double appearance = targetProbabilityAt(place, perception, reach_m);
       ++row[i].frames_in_view;
       row[i].appearance_sum += appearance;
-      row[i].followed += appearance > perception_params.target.min_appearance ? 1 : 0;
+      row[i].followed += appearance > perception_params.target.take_above ? 1 : 0;
       row[i].blob += blobScoreAt(place, step.observations, reach_m) > 0.0 ? 1 : 0;
     }
   }

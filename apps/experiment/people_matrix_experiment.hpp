@@ -18,8 +18,8 @@ namespace heel {
 /// true place in the first half of their exact frames teach their model, the second half tests it.
 ///
 /// Several are in view at once, so a run's `followed` counts the frames in which the confirmed
-/// track at the person's place looks enough like the model (TargetParams::min_appearance): in which
-/// they would be taken for the target if they were alone.
+/// track at the person's place is the model's person with enough probability
+/// (TargetParams::take_above): in which they would be taken for the target if they were alone.
 /// @throws std::runtime_error  as openRecording() and readTruth().
 std::vector<ModelRuns> runPeopleMatrixExperiment(const std::filesystem::path& recording,
                                                  const std::vector<OfferedModel>& models,

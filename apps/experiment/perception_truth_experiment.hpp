@@ -6,6 +6,7 @@
 #pragma once
 
 #include "apps/experiment/random_wardrobe.hpp"
+#include "apps/follower/learn_person.hpp"
 #include "apps/follower/perception.hpp"
 #include "tracking/clear_mot.hpp"
 #include "tracking/target_metrics.hpp"
@@ -23,7 +24,7 @@ struct PerceptionTruthParams {
   double person_s = 6.0;
   double follow_s = 10.0;
   double place_error_m = 0.5;  ///< An estimate further from the target is not of them.
-  AppearanceParams appearance;
+  AppearanceParams appearance = ofWholeBody();
   PerceptionParams perception;
   std::filesystem::path scenes;  ///< Folder of the scenes that come with Heel.
 };

@@ -9,16 +9,16 @@ bool isNear(const Eigen::Vector2d& a, const std::optional<Eigen::Vector2d>& b, d
   return b && (a - *b).norm() <= distance_m;
 }
 
-double appearanceAt(const Eigen::Vector2d& place, const std::vector<Track>& tracks,
-                    double distance_m) {
-  double appearance = 0.0;
-  for (const Track& track : tracks) {
+double targetProbabilityAt(const Eigen::Vector2d& place, const Perception& perception,
+                           double distance_m) {
+  double probability = 0.0;
+  for (const Track& track : perception.tracks()) {
     const double away_m = (track.motion.position_m() - place).norm();
     if (track.status != TrackStatus::kConfirmed || away_m > distance_m) continue;
     distance_m = away_m;
-    appearance = track.appearance();
+    probability = perception.identity().targetProbability(track.id);
   }
-  return appearance;
+  return probability;
 }
 
 double blobScoreAt(const Eigen::Vector2d& place, const std::vector<Observation>& observations,

@@ -5,8 +5,7 @@
 /// What the perception makes of one place on the floor.
 #pragma once
 
-#include "tracking/observation.hpp"
-#include "tracking/track.hpp"
+#include "apps/follower/perception.hpp"
 
 #include <Eigen/Core>
 
@@ -18,9 +17,10 @@ namespace heel {
 /// Whether a place is known and no further than that.
 bool isNear(const Eigen::Vector2d& a, const std::optional<Eigen::Vector2d>& b, double distance_m);
 
-/// The appearance of the confirmed track nearest to a place; 0 without one within the distance.
-double appearanceAt(const Eigen::Vector2d& place, const std::vector<Track>& tracks,
-                    double distance_m);
+/// The probability that the confirmed track nearest to a place is the target; 0 without one within
+/// the distance.
+double targetProbabilityAt(const Eigen::Vector2d& place, const Perception& perception,
+                           double distance_m);
 
 /// The score of the blob nearest to a place; 0 without one within the distance.
 double blobScoreAt(const Eigen::Vector2d& place, const std::vector<Observation>& observations,

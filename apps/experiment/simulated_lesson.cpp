@@ -40,8 +40,9 @@ SimulatedLesson takeLesson(const std::vector<const SimulatedFrames*>& recordings
       if (!step.usable) continue;
       lesson.lessons.addRoom(frame.image_bgr, step.labels == AcquisitionStep::kScene);
       if (step.person < 0) continue;
-      lesson.lessons.addPerson(*step.view->cloud, personPoints(step));
-      lesson.lessons.addBody(*step.view->cloud,
+      const pcl::Indices person = personPoints(step);
+      lesson.lessons.addPerson(*step.view->cloud, person);
+      lesson.lessons.addBody(*step.view->cloud, person,
                              step.view->blobs[static_cast<std::size_t>(step.person)].position_m);
     }
   }

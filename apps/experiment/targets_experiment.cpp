@@ -33,10 +33,14 @@ TargetResult lookFor(const std::string& person, const AppearanceModel& model,
     best_frames.push_back(target);
     started_frames.push_back(target);
     cold_frames.push_back(target);
+    const std::vector<Evidence>& looks = started.identity().looks();
     const auto best = std::max_element(
-        seen.observations.begin(), seen.observations.end(),
-        [](const Observation& a, const Observation& b) { return a.appearance < b.appearance; });
-    if (best != seen.observations.end()) best_frames.back().estimate_m = best->position_m;
+        looks.begin(), looks.end(),
+        [](const Evidence& a, const Evidence& b) { return a[kTarget] < b[kTarget]; });
+    if (best != looks.end()) {
+      const auto i = static_cast<std::size_t>(best - looks.begin());
+      best_frames.back().estimate_m = seen.observations[i].position_m;
+    }
     if (seen.target.hasPlace()) {
       started_frames.back().estimate_m = seen.target.motion.position_m();
     }

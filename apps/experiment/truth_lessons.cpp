@@ -45,7 +45,7 @@ std::vector<ModelLessons> learnEveryone(const std::filesystem::path& path, const
         }
       }
       lessons[i].addPerson(cloud, near);
-      lessons[i].addBody(cloud, place.cast<double>());
+      lessons[i].addBody(cloud, near, place.cast<double>());
     }
   }
   return lessons;

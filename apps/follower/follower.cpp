@@ -224,13 +224,13 @@ void Follower::learn(const Frame& frame) {
 // Phase 2 (section 3.1, 3.2).
 void Follower::see(const Frame& frame) {
   const RobotPlace place{step_.robot.pose, step_.robot.covariance.topLeftCorner<2, 2>()};
-  perception_->expectAt(target_place_.isSure() ? step_.target : std::nullopt);
-  perception_->exclude(target_place_.others());
-  walkers_m_.clear();
+  std::vector<Identity::Hint> hints;
+  if (step_.target && target_place_.isSure()) hints.push_back({*step_.target, 0.5, 3.0, 2.0});
+  for (const Vector2d& other : target_place_.others()) hints.push_back({other, 0.3, -4.0, 0.0});
   for (const int id : people_around_.walkers()) {
-    walkers_m_.push_back(people_around_.find(id)->motion.position_m());
+    hints.push_back({people_around_.find(id)->motion.position_m(), 0.4, 0.0, 2.0});
   }
-  perception_->vouchFor(walkers_m_);
+  perception_->setHints(std::move(hints));
   step_.perception = &perception_->step(onSteadyClock(frame), place);
   target_ = step_.perception->target;
   for (const Track& track : perception_->tracks()) {
@@ -246,7 +246,7 @@ void Follower::decide(const RobotReadings& readings) {
   const bool was_known = step_.target.has_value();
   const auto is_in_view = [this](const Vector2d& p) { return isInView(p); };
   const auto is_unlike = [this](const Vector2d& p) {
-    return step_.perception != nullptr && perception_->isUnlike(p, params_.place.legs_within_m);
+    return step_.perception != nullptr && isSomebodyElse(p);
   };
   target_place_.step(target_, people_around_, is_in_view, is_unlike, dt_s_);
   step_.target.reset();
@@ -268,6 +268,16 @@ void Follower::decide(const RobotReadings& readings) {
   const FollowingAction action = currentAction(runner_);
   if (action != action_) begin(action);
   step_.action = action_ = action;
+}
+
+// Whether the camera sees somebody there who is not the target.
+bool Follower::isSomebodyElse(const Vector2d& place) const {
+  const std::vector<Track>& tracks = perception_->tracks();
+  return std::any_of(tracks.begin(), tracks.end(), [&](const Track& track) {
+    return track.status == TrackStatus::kConfirmed &&
+           (track.motion.position_m() - place).norm() < params_.place.legs_within_m &&
+           perception_->identity().targetProbability(track.id) < params_.worth_a_look;
+  });
 }
 
 // Whether the camera sees a whole person there, if there is one.

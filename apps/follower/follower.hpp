@@ -84,6 +84,7 @@ class Follower {
   void see(const Frame& frame);
   void decide(const RobotReadings& readings);
   bool isInView(const Eigen::Vector2d& place) const;
+  bool isSomebodyElse(const Eigen::Vector2d& place) const;
   void checkFacts();
   void begin(FollowingAction action);
   void drive();
@@ -161,7 +162,6 @@ class Follower {
   std::vector<Eigen::Vector2d> waysides_;
   GlobalPlan plan_;
   std::vector<MovingPerson> people_;
-  std::vector<Eigen::Vector2d> walkers_m_;
   std::vector<FloorDisc> standing_;  // people, with the room that they are left
   std::vector<FloorDisc> masked_;
   std::vector<Eigen::Vector3f> unmapped_;  // points in the base frame

@@ -105,12 +105,13 @@ std::optional<Vector2d> Follower::suspect() const {
 // Whom the camera sees, and has not seen for long enough to tell; null if nobody.
 const Track* Follower::somebodyLikeTarget() const {
   const Track* best = nullptr;
-  double appearance = params_.perception.target.leastAppearance();
+  double most = params_.worth_a_look;
   for (const Track& track : perception_->tracks()) {
-    if (track.status != TrackStatus::kConfirmed || track.appearance() <= appearance) continue;
+    const double probability = perception_->identity().targetProbability(track.id);
+    if (track.status != TrackStatus::kConfirmed || probability <= most) continue;
     if (attention_.isEnough(track.id)) continue;
     best = &track;
-    appearance = track.appearance();
+    most = probability;
   }
   return best;
 }

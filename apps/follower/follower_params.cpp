@@ -31,18 +31,6 @@ void check(const FollowerParams& p) {
 }  // namespace
 
 FollowerParams::FollowerParams() {
-  learn.appearance.bands = wholeBody();  // a robot that keeps its distance sees trousers, too
-  learn.appearance.comparison = BodyComparison::kMatch;
-  perception.match.sharpness = 1.3;        // lenient: a home's rooms differ in their light
-  perception.match.unknown_stature = 1.0;  // close by, heads are above the picture
-  perception.target.min_appearance = 0.5;  // matching tells people well apart: few are in between
-  perception.target.appearance_frames = 2;
-  perception.target.release_share = 0.7;
-  perception.target.release_s = 1.0;
-  perception.target.release_started = true;
-  perception.target.takeover_ratio = 1.4;
-  perception.target.sure_appearance = 0.6;
-  perception.target.most_doubt = 8;
   paths.bend_room_m = 0.12;  // round a corner with some room one sees further behind it
   paths.safety_m = 0.08;  // more than the local planner's margin, or it stops where the path goes
   goal.ahead_cost = 0.0;  // people who are followed turn and stop; round them is out of their view

@@ -35,7 +35,7 @@ const AcquisitionStep& PersonLearner::step(const Frame& frame) {
   if (step.person >= 0) {
     pointsOfPerson(step, person_);
     learner_.addPerson(*step.view->cloud, person_);
-    learner_.addBody(*step.view->cloud,
+    learner_.addBody(*step.view->cloud, person_,
                      step.view->blobs[static_cast<std::size_t>(step.person)].position_m);
   }
   return step;

@@ -17,9 +17,15 @@
 
 namespace heel {
 
+inline AppearanceParams ofWholeBody() {
+  AppearanceParams params;
+  params.bands = wholeBody();
+  return params;
+}
+
 struct LearnPersonParams {
   AcquisitionParams acquisition;
-  AppearanceParams appearance;
+  AppearanceParams appearance = ofWholeBody();
   StereoMatcherParams stereo;
 };
 

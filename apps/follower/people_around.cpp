@@ -14,8 +14,6 @@ namespace heel {
 TrackerParams PeopleAroundParams::defaultTracker() {
   TrackerParams params;
   params.position_sigma_m = 0.08;
-  params.log_appearance_sigma = std::numeric_limits<double>::infinity();  // legs look all alike
-  params.max_log_change_unseen = std::numeric_limits<double>::infinity();
   params.max_coast_s = 0.6;
   params.birth_clearance_m = 0.3;
   return params;

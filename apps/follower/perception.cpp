@@ -4,17 +4,21 @@
 #include "apps/follower/perception.hpp"
 
 #include "apps/follower/depth_images.hpp"
+#include "apps/follower/wall_gate.hpp"
 #include "segmentation/image_filter.hpp"
 
 #include <opencv2/core.hpp>
 #include <pcl/common/transforms.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <stdexcept>
 
 namespace heel {
 namespace {
+
+constexpr double kBody_m = 0.4;  // Depths this near to a place's may be of somebody there.
 
 GeometricGate gateOf(const PerceptionParams& params) {
   std::vector<GeometricGate> gates = {tooClose(params.candidates.min_distance_m)};
@@ -27,6 +31,33 @@ std::vector<AppearanceBand> learnedBands(const AppearanceModel& model) {
   std::copy_if(model.bands().begin(), model.bands().end(), std::back_inserter(bands),
                [](const AppearanceBand& band) { return !band.table.empty(); });
   return bands;
+}
+
+TargetLooks looksOf(const AppearanceModel& model) {
+  TargetLooks looks;
+  looks.target = model.portrait().colors;
+  looks.room = BodyDescriber::binsOf(model.room());
+  looks.anybody = BodyDescriber::clothes();
+  // Lamps and white balances change colours by about so much, rooms and exposures brightness.
+  constexpr double kLightSigma = 0.2, kBrightnessSigma = 0.6;
+  const auto addTint = [&looks](int red, int blue, int brighter) {
+    const double steps = BodyDescriber::kLightStep / kLightSigma;
+    const double brightness = brighter * BodyDescriber::kBrightnessStep / kBrightnessSigma;
+    looks.tints.push_back(
+        {BodyDescriber::inLight(red, blue, brighter),
+         -0.5 * ((red * red + blue * blue) * steps * steps + brightness * brightness)});
+  };
+  for (int red = -1; red <= 1; ++red) {
+    for (int blue = -1; blue <= 1; ++blue) {
+      if (red != 0 || blue != 0) addTint(red, blue, 0);
+    }
+  }
+  for (const int brighter : {-2, -1, 1, 2}) addTint(0, 0, brighter);
+  if (model.stature()) {
+    looks.stature_m = model.stature()->height_m;
+    looks.stature_sigma_m = std::hypot(0.05, model.stature()->spread_m);
+  }
+  return looks;
 }
 
 bool isCandidate(const WorldBlob& blob, const CandidateParams& params) {
@@ -69,10 +100,8 @@ Perception::Perception(const CameraSetup& setup, const AppearanceModel& model,
                                     setup.camera.left.fx > 0.0 ? setup.camera.left.fx
                                                                : PlanViewCamera().focal_length_px}),
       finder_(params.blobs),
-      tracker_(params.target, params.tracker, gateOf(params)) {
-  if (model.params().comparison == BodyComparison::kMatch) {
-    body_matcher_.emplace(model, params.match);
-  }
+      describer_(params.body),
+      tracker_(params.target, params.tracker, gateOf(params), looksOf(model)) {
   for (const AppearanceBand& band : bands_) {
     height_crops_.emplace_back(HeightCropParams{band.body.min_height_m, band.body.max_height_m});
   }
@@ -102,9 +131,15 @@ const PerceptionStep& Perception::step(const Frame& frame, const RobotPlace& rob
   findCandidates(frame, robot.pose);
   finished(Stage::kPlanView);
 
-  step_.target = tracker_.step(
-      frame.stamp_s, step_.observations,
-      {robot.pose * Eigen::Vector2d(T_base_camera_.translation().head<2>()), robot.covariance_m2});
+  Viewpoint viewpoint;
+  viewpoint.position_m = robot.pose * Eigen::Vector2d(T_base_camera_.translation().head<2>());
+  viewpoint.covariance_m2 = robot.covariance_m2;
+  if (!frame.image_bgr.empty()) {
+    viewpoint.sight_of = [this, &robot](const Eigen::Vector2d& place_m) {
+      return sightOf(place_m, robot.pose);
+    };
+  }
+  step_.target = tracker_.step(frame.stamp_s, step_.observations, viewpoint);
   step_.reason = whyNotSeen();
   finished(Stage::kTracking);
   return step_;
@@ -174,31 +209,64 @@ void Perception::findCandidates(const Frame& frame, const FloorPose& robot) {
   step_.observations.clear();
   step_.blob_of_observation.clear();
   for (std::size_t i = 0; i < step_.blobs.size(); ++i) {
-    WorldBlob& blob = step_.blobs[i];
+    const WorldBlob& blob = step_.blobs[i];
     if (!isCandidate(blob, params_.candidates)) continue;
-    blob.appearance = appearanceOf(blob, frame);
-    step_.observations.push_back({robot * blob.position_m, blob.score, blob.appearance,
-                                  blob.area_m2 >= params_.candidates.min_start_area_m2});
+    Observation& seen = step_.observations.emplace_back();
+    seen.position_m = robot * blob.position_m;
+    seen.score = blob.score;
+    seen.can_start = blob.area_m2 >= params_.candidates.min_start_area_m2;
+    const Eigen::Matrix2d R = Eigen::Rotation2Dd(robot.yaw_rad).toRotationMatrix();
+    seen.covariance_m2 = R * depthCovariance(blob.position_m) * R.transpose();
     step_.blob_of_observation.push_back(static_cast<int>(i));
   }
-}
-
-double Perception::appearanceOf(const WorldBlob& blob, const Frame& frame) {
-  if (frame.image_bgr.empty()) {
-    return body_matcher_ ? body_matcher_->match(*step_.cloud, blob)
-                         : bodyAppearance(*step_.cloud, blob, bands_, params_.body);
+  if (looks_.size() < step_.observations.size()) looks_.resize(step_.observations.size());
+  for (std::size_t k = 0; k < step_.observations.size(); ++k) {
+    const auto blob = static_cast<std::size_t>(step_.blob_of_observation[k]);
+    describe(step_.blobs[blob], frame, looks_[k]);
+    step_.observations[k].look = &looks_[k].colors;
+    step_.observations[k].stature_m = looks_[k].stature_m;
   }
-  const BodyView view{frame.image_bgr, depth_m_, camera_.left, T_base_camera_};
-  return body_matcher_ ? body_matcher_->match(view, blob)
-                       : bodyAppearance(view, blob, bands_, params_.body);
 }
 
-bool Perception::isUnlike(const Eigen::Vector2d& place_m, double within_m) const {
-  const double least = params_.target.leastAppearance();
-  return std::any_of(tracks().begin(), tracks().end(), [&](const Track& track) {
-    return track.status == TrackStatus::kConfirmed && track.appearance() < least &&
-           (track.motion.position_m() - place_m).norm() < within_m;
-  });
+void Perception::describe(const WorldBlob& blob, const Frame& frame, BodyDescription& out) {
+  if (frame.image_bgr.empty()) return describer_.describe(*step_.cloud, blob.position_m, out);
+  const BodyView view{frame.image_bgr, depth_m_, camera_.left, T_base_camera_,
+                      sensor_ == SensorKind::kStereo};
+  describer_.describe(view, blob, out);
+}
+
+// A disparity's error is the same everywhere, so depth's grows with the square of the distance.
+Eigen::Matrix2d Perception::depthCovariance(const Eigen::Vector2d& position_m) const {
+  if (sensor_ != SensorKind::kStereo) return Eigen::Matrix2d::Zero();
+  const Eigen::Vector2d ray = position_m - T_base_camera_.translation().head<2>();
+  const double sigma_m = depthErrorOf(camera_) * ray.squaredNorm();
+  const Eigen::Vector2d along = ray.normalized() * sigma_m;
+  return along * along.transpose();
+}
+
+// By three points of somebody's trunk there.
+Sight Perception::sightOf(const Eigen::Vector2d& place_m, const FloorPose& robot) const {
+  const Eigen::Vector2d place = robot.inverse() * place_m;
+  int hidden = 0, free = 0, outside = 0;
+  for (const double height_m : {0.9, 1.2, 1.5}) {
+    const Eigen::Vector3d p =
+        T_base_camera_.inverse() * Eigen::Vector3d(place.x(), place.y(), height_m);
+    const double u = camera_.left.fx * p.x() / p.z() + camera_.left.cx;
+    const double v = camera_.left.fy * p.y() / p.z() + camera_.left.cy;
+    if (!(p.z() > 0.1 && u >= 0.0 && v >= 0.0 && u < depth_m_.cols && v < depth_m_.rows)) {
+      ++outside;
+      continue;
+    }
+    const auto depth =
+        static_cast<double>(depth_m_.at<float>(static_cast<int>(v), static_cast<int>(u)));
+    if (!(depth > 0.0)) continue;
+    const double behind_m = depth - p.z();
+    free += behind_m > kBody_m ? 1 : 0;
+    hidden += behind_m < -kBody_m ? 1 : 0;
+  }
+  if (outside >= 2) return Sight::kOutside;
+  if (free >= 2) return Sight::kFree;
+  return hidden >= 2 ? Sight::kHidden : Sight::kUnknown;
 }
 
 // Silence is what users of trackers complain of most: name the first stage that left nothing.

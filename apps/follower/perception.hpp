@@ -12,8 +12,7 @@
 #include "mapping/floor_pose.hpp"
 #include "segmentation/appearance_filter.hpp"
 #include "segmentation/appearance_model.hpp"
-#include "segmentation/body_appearance.hpp"
-#include "segmentation/body_match.hpp"
+#include "segmentation/body_description.hpp"
 #include "segmentation/height_crop.hpp"
 #include "segmentation/plan_view.hpp"
 #include "segmentation/world_blobs.hpp"
@@ -22,6 +21,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace heel {
@@ -48,8 +48,7 @@ struct PerceptionParams {
   PlanViewParams plan_view;
   WorldBlobParams blobs;
   CandidateParams candidates;
-  BodyAppearanceParams body;  ///< For models that compare by coverage,
-  BodyMatchParams match;      ///< and for those that compare distributions.
+  BodyDescriberParams body;
   TrackerParams tracker;
   TargetParams target;
   GeometricGate gate;  ///< Besides "too close": where a person can be seen.
@@ -92,17 +91,8 @@ class Perception {
   /// The target is at this place of the world in the next frame (after phase 1, say).
   void startAt(const Eigen::Vector2d& position_m) { tracker_.startAt(position_m); }
 
-  /// Another sensor has the target there, from the next frame on; or nowhere.
-  void expectAt(const std::optional<Eigen::Vector2d>& position_m) { tracker_.expectAt(position_m); }
-
-  /// Others are known to be there, from the next frame on: none of them is the target.
-  void exclude(const std::vector<Eigen::Vector2d>& places_m) { tracker_.exclude(places_m); }
-
-  /// Another sensor is sure of people there, from the next frame on.
-  void vouchFor(const std::vector<Eigen::Vector2d>& places_m) { tracker_.vouchFor(places_m); }
-
-  /// Whether somebody is seen there who does not look like the target.
-  bool isUnlike(const Eigen::Vector2d& place_m, double within_m) const;
+  /// What another sensor knows of who is where, from the next frame on.
+  void setHints(std::vector<Identity::Hint> hints) { tracker_.setHints(std::move(hints)); }
 
   /// Stamps need not be regular; one that is not later than the last is skipped by the tracker.
   /// @throws std::invalid_argument  if the frame has not what the sensor gives, or its images do
@@ -110,6 +100,7 @@ class Perception {
   const PerceptionStep& step(const Frame& frame, const RobotPlace& robot = {},
                              const StageDone& done = {});
 
+  const Identity& identity() const { return tracker_.identity(); }
   const std::vector<Track>& tracks() const { return tracker_.tracker().tracks(); }
   const TrackerReport& report() const { return tracker_.tracker().report(); }
 
@@ -118,7 +109,9 @@ class Perception {
   void measureDepth(const Frame& frame);
   void keepStanding();
   void findCandidates(const Frame& frame, const FloorPose& robot);
-  double appearanceOf(const WorldBlob& blob, const Frame& frame);
+  void describe(const WorldBlob& blob, const Frame& frame, BodyDescription& out);
+  Eigen::Matrix2d depthCovariance(const Eigen::Vector2d& position_m) const;
+  Sight sightOf(const Eigen::Vector2d& place_m, const FloorPose& robot) const;
   const char* whyNotSeen() const;
 
   SensorKind sensor_;
@@ -139,7 +132,8 @@ class Perception {
   pcl::IndicesPtr in_band_;
   PlanView plan_view_;
   WorldBlobFinder finder_;
-  std::optional<BodyMatcher> body_matcher_;  // if the model asks for it
+  BodyDescriber describer_;
+  std::vector<BodyDescription> looks_;  // of the observations
   TargetTracker tracker_;
   PerceptionStep step_;
 };

@@ -14,7 +14,7 @@ TargetPlace::TargetPlace(const TargetPlaceParams& params) : params_(params) {
       "TargetPlaceParams",
       {params.legs_within_m, params.max_speed_mps, params.walks_on_s, params.legs_alone_s,
        params.legs_in_view_s, params.legs_mixed_s, params.legs_unlike_s, params.legs_apart_m,
-       params.sure_appearance, params.look_s, params.turn_to_s, params.weak_look_doubt});
+       params.sure, params.look_s, params.turn_to_s, params.weak_look_doubt});
 }
 
 void TargetPlace::step(const TargetEstimate& seen, const PeopleAround& around,

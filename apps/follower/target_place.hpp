@@ -28,9 +28,9 @@ struct TargetPlaceParams {
   double legs_mixed_s = 1.5;    ///< for so long where another thing stands beside them,
   double legs_unlike_s = 0.4;   ///< and for so long where the camera sees somebody else.
   double legs_apart_m = 0.6;    ///< That is, nearer than this.
-  /// Who looks so much like the target surely is: their legs are believed, and all others are
+  /// Who is the target with this probability surely is: their legs are believed, and all others are
   /// others.
-  double sure_appearance = 0.55;
+  double sure = 0.9;
   // A suspect is looked at once; who is not recognized then is somebody else.
   double look_s = 1.0;            ///< So long before the camera,
   double turn_to_s = 3.0;         ///< or so long in vain until they are.
@@ -79,7 +79,7 @@ class TargetPlace {
                             FunctionRef<bool(const Eigen::Vector2d&)> is_in_view,
                             FunctionRef<bool(const Eigen::Vector2d&)> is_unlike, double elapsed_s);
   bool isSureLook(const TargetEstimate& seen) const {
-    return seen.status == TargetStatus::kFollowed && seen.appearance > params_.sure_appearance;
+    return seen.status == TargetStatus::kFollowed && seen.confidence > params_.sure;
   }
   void noteOthers(const PeopleAround& around, bool is_sure);
   void findSuspect(const PeopleAround& around, FunctionRef<bool(const Eigen::Vector2d&)> is_in_view,

@@ -26,8 +26,6 @@ namespace {
 struct Options {
   int recordings = 50;
   std::uint64_t seed = 1;
-  bool legs = false;
-  bool match = false;
   std::filesystem::path out;
   PerceptionTruthParams params;
 };
@@ -95,8 +93,6 @@ void writeFiles(const Output& output, const std::vector<PerceptionTruthRun>& run
 }
 
 void run(Options& options) {
-  if (options.legs) options.params.appearance.bands = wholeBody();
-  if (options.match) options.params.appearance.comparison = BodyComparison::kMatch;
   std::optional<Output> output = experimentOutput("perception", options.out);
   const auto count = static_cast<std::size_t>(options.recordings);
   ProgressBar progress("perception", count);
@@ -127,9 +123,6 @@ void addPerceptionExperiment(CLI::App& verb) {
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   experiment->add_option("--seed", options->seed, "of the first")->capture_default_str();
-  experiment->add_flag("--legs", options->legs, "learn the legs too");
-  experiment->add_flag("--match", options->match,
-                       "compare bodies by the distribution of their colours and by stature");
   experiment->add_option("--out", options->out, "folder for tables");
   experiment->callback([options] { run(*options); });
 }

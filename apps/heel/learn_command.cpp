@@ -159,23 +159,16 @@ void addLearn(CLI::App& app) {
                    "how long to look at the person [s]")
       ->capture_default_str();
   verb->add_option_function<int>(
-          "--colors",
+          "--paper",
           [options](int count) {
             options->params.appearance.model = ColorModel::kPrincipalColors;
             options->params.appearance.principal_colors.count = count;
             options->params.appearance.bands = upperBody();
           },
-          "use the paper's model with this many principal colours of what is above 1 m; 1 is the "
-          "paper's, 0 chooses (default: the ratio of a colour's share to the room's)")
+          "filter by the paper's model with this many principal colours of what is above 1 m; 1 is "
+          "the paper's, 0 chooses (default: the ratio of a colour's share to the room's)")
       ->check(CLI::Range(0, 8))
       ->type_name("K");
-  verb->add_flag_callback(
-      "--match", [options] { options->params.appearance.comparison = BodyComparison::kMatch; },
-      "tell people apart by the distribution of their colours and by stature: surer, but lost "
-      "sooner where the light changes");
-  verb->add_flag_callback(
-      "--legs", [options] { options->params.appearance.bands = wholeBody(); },
-      "also learn from below 1 m: trousers tell people in similar jumpers apart");
   addCameraTopics(*verb, options->opening.topics);
   verb->callback([options] { run(*options); });
 }

@@ -38,7 +38,7 @@ class TargetPlaceTest : public testing::Test {
     around.step(stamp_s, scan, {}, [](const Vector2d&) { return kFar; });
     TargetEstimate seen;
     seen.status = camera_sees ? TargetStatus::kFollowed : TargetStatus::kLost;
-    seen.appearance = appearance;
+    seen.confidence = confidence;
     seen.motion.mean.head<2>() = legs.empty() ? Vector2d(0.0, 0.0) : legs[0];
     place.step(
         seen, around, [this](const Vector2d&) { return in_view; },
@@ -77,7 +77,7 @@ class TargetPlaceTest : public testing::Test {
   bool camera_sees = true;
   bool in_view = false;
   bool unlike = false;
-  double appearance = 0.8;
+  double confidence = 0.95;
   double stamp_s = 20.0;
   PeopleAround around;
   TargetPlace place;
@@ -201,7 +201,7 @@ TEST_F(TargetPlaceTest, SuspectsNobodyForLongWhomTheCameraCannotSee) {
 TEST_F(TargetPlaceTest, BelievesNoLegsWhereTheCameraLastSawSomebodyElse) {
   steps(5);
   unlike = true;
-  appearance = 0.2;
+  confidence = 0.2;
   step();
   EXPECT_TRUE(place.now());
   camera_sees = false;

@@ -53,9 +53,14 @@ void perceptionStep(benchmark::State& state, SensorKind sensor) {
     state.SkipWithError(last->reason.c_str());
     return;
   }
+  const double off_m = (last->target.motion.position_m() - scene().place_m).norm();
+  if (off_m > 0.2) {
+    state.SkipWithError("something else was taken for the target");
+    return;
+  }
   state.counters["percent"] = 100.0 * last->color_pixels / static_cast<double>(last->mask.total());
   state.counters["blobs"] = static_cast<double>(last->blobs.size());
-  state.counters["off_m"] = (last->target.motion.position_m() - scene().place_m).norm();
+  state.counters["off_m"] = off_m;
   for (int i = 0; i < kStages; ++i) {
     const std::string name = toText(static_cast<Stage>(i));
     state.counters[name + "_ms"] = 1e3 * stage_s[static_cast<std::size_t>(i)] / frames;

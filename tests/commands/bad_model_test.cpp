@@ -37,8 +37,8 @@ class BadModel : public testing::Test {
 };
 
 TEST_F(BadModel, OfAFutureVersionIsRefused) {
-  replaceFirst("heel_appearance: 1", "heel_appearance: 99");
-  expectAllFail({"person.yaml", "version 99", "up to 1"});
+  replaceFirst("heel_appearance: 2", "heel_appearance: 99");
+  expectAllFail({"person.yaml", "version 99", "up to 2"});
 }
 
 TEST_F(BadModel, WithAMissingFieldNamesTheField) {

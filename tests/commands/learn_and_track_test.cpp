@@ -83,7 +83,7 @@ TEST_F(LearnAndTrack, FindsThePlaceOfTheCameraByTheFloor) {
 
 TEST_F(LearnAndTrack, LearnsThePapersModelToo) {
   SmallRecording().write(folder_ / "room");
-  learn("rosa.yaml", {"--colors", "1"});
+  learn("rosa.yaml", {"--paper", "1"});
   ASSERT_TRUE(succeeds(track("rosa.yaml", "out")));
   EXPECT_GE(evaluate("out/tracks.csv")["target"]["recall"], 0.9);
 }

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 namespace heel {
@@ -50,14 +51,18 @@ TEST(AppearanceLearner, TakesTheStatureOfWhoStandsThere) {
   ColorCloud cloud;
   for (float z = 0.1F; z < 1.8F; z += 0.002F) cloud.push_back(makePoint(z, 180, 30, 40));
   for (int i = 0; i < 99; ++i) cloud.push_back({3.0F, 0.0F, 2.1F, 0, 0, 0});  // Somebody else.
-  for (int frame = 0; frame < 6; ++frame) learner.addBody(cloud, {2.05, 0.0});
+  pcl::Indices all(cloud.size());
+  std::iota(all.begin(), all.end(), 0);
+  for (int frame = 0; frame < 6; ++frame) learner.addBody(cloud, all, {2.05, 0.0});
   ASSERT_TRUE(learner.stature());
   EXPECT_NEAR(learner.stature()->height_m, 1.79, 0.01);
   EXPECT_EQ(learner.stature()->frames, 6);
 }
 
-TEST(AppearanceLearner, IgnoresWhatIsBelowAMetre) {
-  AppearanceLearner learner;
+TEST(AppearanceLearner, IgnoresWhatIsBelowAllBands) {
+  AppearanceParams params;
+  params.bands = upperBody();
+  AppearanceLearner learner(params);
   ColorCloud cloud;
   cloud.push_back(makePoint(0.99F, 180, 30, 40));
   learner.addPerson(cloud, {0});

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 
@@ -76,22 +77,47 @@ TEST_F(AppearanceFile, GivesBackTheModel) {
   EXPECT_EQ(loaded.params().threshold.max_false_negative_share, 0.1234567);
 }
 
-TEST_F(AppearanceFile, GivesBackTheStatureAndHowToCompare) {
+TEST_F(AppearanceFile, GivesBackTheStatureAndThePortrait) {
   AppearanceParams params;
-  params.comparison = BodyComparison::kMatch;
   params.model = ColorModel::kHueSaturation;
   params.suppress_background = true;
   saveAppearance(
       AppearanceModel(params, test::paintPerson(), test::paintRoom(), Stature{1.73, 0.015, 42}),
       file_);
   const AppearanceModel loaded = loadAppearance(file_);
-  EXPECT_EQ(loaded.params().comparison, BodyComparison::kMatch);
   EXPECT_EQ(loaded.params().model, ColorModel::kHueSaturation);
   EXPECT_TRUE(loaded.params().suppress_background);
   ASSERT_TRUE(loaded.stature());
   EXPECT_EQ(loaded.stature()->height_m, 1.73);
   EXPECT_EQ(loaded.stature()->spread_m, 0.015);
   EXPECT_EQ(loaded.stature()->frames, 42);
+  const AppearanceModel model = makeModel();
+  saveAppearance(model, file_);
+  EXPECT_TRUE((loadAppearance(file_).portrait().colors - model.portrait().colors).abs().maxCoeff() <
+              1e-6F);
+}
+
+TEST_F(AppearanceFile, OfTheFirstFormatHasAPortraitOfItsBands) {
+  const AppearanceModel model = makeModel();
+  saveAppearance(model, file_);
+  std::string old = text();
+  const std::size_t from = old.find("portrait:"), to = old.find("\nroom:");
+  ASSERT_NE(from, std::string::npos);
+  ASSERT_NE(to, std::string::npos);
+  old.erase(from, to + 1 - from);
+  old.replace(old.find("heel_appearance: 2"), 18, "heel_appearance: 1");
+  std::ofstream(file_) << old;
+  EXPECT_TRUE((loadAppearance(file_).portrait().colors - model.portrait().colors).abs().maxCoeff() <
+              1e-6F);
+}
+
+TEST_F(AppearanceFile, WithAPortraitThatIsNoneIsRefused) {
+  saveAppearance(makeModel(), file_);
+  std::string broken = text();
+  const std::size_t first = broken.find_first_of("0123456789", broken.find("portrait:"));
+  broken.insert(first, "9");  // of the bin
+  std::ofstream(file_) << broken;
+  EXPECT_THAT(complaint(), HasSubstr("portrait"));
 }
 
 TEST_F(AppearanceFile, IsTheSameWhenWrittenAgain) {
@@ -118,9 +144,9 @@ TEST_F(AppearanceFile, ThatIsMissingIsNamed) {
 }
 
 TEST_F(AppearanceFile, OfTheFutureIsRefused) {
-  saveWith("heel_appearance: 1", "heel_appearance: 2");
-  EXPECT_THAT(complaint(), AllOf(HasSubstr("person.yaml"), HasSubstr("format version 2"),
-                                 HasSubstr("only versions up to 1")));
+  saveWith("heel_appearance: 2", "heel_appearance: 3");
+  EXPECT_THAT(complaint(), AllOf(HasSubstr("person.yaml"), HasSubstr("format version 3"),
+                                 HasSubstr("only versions up to 2")));
 }
 
 TEST_F(AppearanceFile, NamesAMissingField) {

@@ -3,11 +3,14 @@
 
 #include "tracking/target.hpp"
 
+#include "tests/tracking/looks.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 #include <stdexcept>
@@ -18,21 +21,25 @@
 namespace heel {
 namespace {
 
-constexpr double kLike = 0.8;     // The appearance of the target,
-constexpr double kUnlike = 0.15;  // and of somebody in other clothes.
+using test::clothes;
+using test::looksOf;
 
-Observation seen(double x, double y, double appearance = kLike) {
-  return {{x, y}, 10.0, appearance};
+const Eigen::ArrayXXf kLike = clothes(0, 1, 0.9F);    // What the target wears,
+const Eigen::ArrayXXf kUnlike = clothes(2, 3, 0.9F);  // somebody in other clothes,
+const Eigen::ArrayXXf kHalf = clothes(0, 4, 0.9F);    // and somebody half alike.
+
+Observation seen(double x, double y, const Eigen::ArrayXXf& look = kLike) {
+  return test::seen(x, y, &look);
 }
 
 /// A target tracker that sees at 5 Hz.
 class Scene {
  public:
   explicit Scene(const TargetParams& params = {}, GeometricGate gate = {})
-      : target_(params, {}, std::move(gate)) {}
+      : target_(params, {}, std::move(gate), looksOf(kLike)) {}
 
   const TargetEstimate& see(const std::vector<Observation>& observations) {
-    return target_.step(0.2 * frame_++, observations);
+    return target_.step(0.2 * frame_++, observations, viewpoint_);
   }
   const TargetEstimate& see(const std::vector<Observation>& observations, int times) {
     for (int i = 0; i < times; ++i) {
@@ -40,10 +47,21 @@ class Scene {
     }
     return target_.estimate();
   }
+  /// Looks at the empty home for 10 s: what comes then is a person.
+  void lookAround() {
+    sight(Sight::kFree);
+    see({}, 50);
+  }
+  void sight(Sight sight) {
+    viewpoint_.sight_of = [sight](const Eigen::Vector2d&) { return sight; };
+  }
+  void sightOf(SightOf sight_of) { viewpoint_.sight_of = std::move(sight_of); }
   TargetTracker& target() { return target_; }
+  const TargetEstimate& estimate() const { return target_.estimate(); }
 
  private:
   TargetTracker target_;
+  Viewpoint viewpoint_;
   int frame_ = 0;
 };
 
@@ -53,6 +71,7 @@ TEST(TargetTracker, HasNoneBeforeAnybodyComes) {
   EXPECT_EQ(estimate.status, TargetStatus::kNone);
   EXPECT_EQ(estimate.reason, TargetReason::kNobodyInView);
   EXPECT_EQ(estimate.confidence, 0.0);
+  EXPECT_EQ(estimate.away, 1.0);
   EXPECT_FALSE(estimate.hasPlace());
   EXPECT_FALSE(estimate.last_seen);
 }
@@ -71,19 +90,20 @@ TEST(TargetTracker, StartsWhereNobodyWasObserved) {
   Scene run;
   run.target().startAt({2.0, 0.0});
   EXPECT_EQ(run.see({seen(4.0, 0.0)}).status, TargetStatus::kCoasting);
-  EXPECT_EQ(run.target().estimate().reason, TargetReason::kStarted);
+  EXPECT_EQ(run.estimate().reason, TargetReason::kStarted);
   EXPECT_EQ(run.see({seen(4.0, 0.0), seen(2.1, 0.0)}).status, TargetStatus::kFollowed);
-  EXPECT_NEAR(run.target().estimate().motion.mean.x(), 2.1, 0.05);
+  EXPECT_NEAR(run.estimate().motion.mean.x(), 2.1, 0.05);
 }
 
-TEST(TargetTracker, StartsByAppearanceOnAConfirmedTrack) {
+TEST(TargetTracker, StartsByAppearance) {
   Scene run;
-  EXPECT_EQ(run.see({seen(2, 0), seen(3, 1, kUnlike)}).status, TargetStatus::kNone);
   const TargetEstimate& estimate = run.see({seen(2, 0), seen(3, 1, kUnlike)});
   EXPECT_EQ(estimate.status, TargetStatus::kFollowed);
   EXPECT_EQ(estimate.reason, TargetReason::kRecognized);
   EXPECT_NEAR(estimate.motion.mean.x(), 2.0, 1e-6);
-  EXPECT_NEAR(estimate.appearance, kLike, 1e-9);
+  EXPECT_GT(estimate.confidence, 0.6);
+  EXPECT_NEAR(estimate.confidence, run.target().identity().targetProbability(estimate.track_id),
+              1e-12);
 }
 
 TEST(TargetTracker, WaitsForAStartWhenToldTo) {
@@ -101,113 +121,78 @@ TEST(TargetTracker, TakesNobodyWhoLooksOtherwise) {
   const TargetEstimate& estimate = run.see({seen(2, 0, kUnlike), seen(4, 0, kUnlike)}, 10);
   EXPECT_EQ(estimate.status, TargetStatus::kNone);
   EXPECT_EQ(estimate.reason, TargetReason::kNobodyLooksLike);
+  EXPECT_GT(estimate.away, 0.9);
 }
 
 TEST(TargetTracker, OfTwoWhoLookAlikeNeitherIsTheTarget) {
   Scene run;
-  const TargetEstimate& estimate = run.see({seen(2, 0, 0.80), seen(2, 2, 0.75)}, 10);
+  run.lookAround();
+  const TargetEstimate& estimate = run.see({seen(2, 0), seen(2, 2)}, 10);
   EXPECT_EQ(estimate.status, TargetStatus::kAmbiguous);
   EXPECT_EQ(estimate.reason, TargetReason::kSeveralLookLike);
   EXPECT_EQ(estimate.candidates, 2);
   EXPECT_EQ(estimate.track_id, TargetEstimate::kNoTrack);
+  EXPECT_LT(estimate.away, 0.2);
+  EXPECT_NEAR(estimate.confidence, 0.5, 0.1);
   EXPECT_FALSE(estimate.hasPlace());
-  // One of them leaves; when that track has ended there is no doubt any more.
-  EXPECT_EQ(run.see({seen(2, 2, 0.75)}).reason, TargetReason::kRecognized);
 }
 
-TEST(TargetTracker, AmbiguityUsesTheRatioOfTheBestTwo) {
-  Scene clear;
-  EXPECT_EQ(clear.see({seen(2, 0, 0.80), seen(2, 2, 0.68)}, 5).status, TargetStatus::kFollowed);
-  Scene unclear;
-  EXPECT_EQ(unclear.see({seen(2, 0, 0.80), seen(2, 2, 0.70)}, 5).status, TargetStatus::kAmbiguous);
+TEST(TargetTracker, IsNotSureOfSomebodyOfWhomNothingIsSeen) {
+  Scene run;
+  run.lookAround();
+  const TargetEstimate& estimate = run.see({test::seen(2, 0)}, 10);
+  EXPECT_EQ(estimate.status, TargetStatus::kNone);
+  EXPECT_EQ(estimate.reason, TargetReason::kNotSureYet);
+  EXPECT_EQ(estimate.candidates, 1);
 }
 
-TEST(TargetTracker, WaitsForSeveralFramesWhenToldTo) {
-  TargetParams params;
-  params.appearance_frames = 3;
-  Scene run(params);
-  EXPECT_EQ(run.see({seen(2, 0)}, 2).reason, TargetReason::kNotSureYet);  // 1st confirmed frame
-  EXPECT_EQ(run.see({seen(2, 0)}).reason, TargetReason::kNotSureYet);
-  EXPECT_EQ(run.see({seen(2, 0)}).reason, TargetReason::kRecognized);
+TEST(TargetTracker, TakesAboveOneProbabilityAndKeepsAboveAnother) {
+  Scene probe;
+  const double confidence = probe.see({seen(2, 0)}).confidence;
+  ASSERT_GT(confidence, 0.5);
+  for (const bool taken : {false, true}) {
+    TargetParams params;
+    params.take_above = confidence + (taken ? -1e-6 : 1e-6);
+    Scene run(params);
+    EXPECT_EQ(run.see({seen(2, 0)}).hasPlace(), taken);
+  }
+  for (const bool kept : {false, true}) {
+    TargetParams params;
+    params.keep_above = kept ? 0.2 : 0.4;
+    Scene run(params);
+    run.target().startAt({2, 0});
+    run.sight(Sight::kHidden);
+    run.see({seen(2, 0)}, 5);
+    run.see({}, 5);  // exp(-1) is left of it.
+    EXPECT_EQ(run.estimate().hasPlace(), kept);
+  }
 }
 
-TEST(TargetTracker, WaitsLongerAfterEachDoubtfulFind) {
-  TargetParams params;  // min_appearance 0.41
-  params.most_doubt = 4;
-  Scene run(params);
-  const auto frames = [&run] {  // until somebody is taken who looks like the target at first only
-    int count = 0;
-    while (run.see({seen(2, 0, 0.5)}).status != TargetStatus::kFollowed) ++count;
-    run.see({seen(2, 0, 0.3)}, 20);
-    run.see({}, 20);
-    return count;
-  };
-  const int at_once = frames();
-  EXPECT_EQ(frames(), at_once + 1);
-  EXPECT_EQ(frames(), at_once + 3);
-  EXPECT_EQ(frames(), at_once + 3) << "four times is the most";
-  // Who goes on looking like the target ends the doubts.
-  run.see({seen(2, 0, 0.9)}, 20);
-  run.see({}, 20);
-  EXPECT_EQ(frames(), at_once);
-}
-
-TEST(TargetTracker, NobodysLooksTakeALiveTargetOver) {
+TEST(TargetTracker, NobodysLooksTakeAnUnseenLookOfALiveTargetOver) {
   Scene run;
   run.target().startAt({2.0, 0.0});
-  run.see({seen(2, 0, 0.5)}, 3);
-  const int id = run.target().estimate().track_id;
-  // The target's looks fade while somebody else is the very image of it.
-  const TargetEstimate& estimate = run.see({seen(2, 0, 0.2), seen(2, 1.0, 0.99)}, 50);
-  EXPECT_EQ(estimate.track_id, id);
-  EXPECT_EQ(estimate.status, TargetStatus::kFollowed);
-  EXPECT_NEAR(estimate.motion.mean.y(), 0.0, 1e-6);
+  run.see({seen(2, 0)}, 10);
+  const int id = run.estimate().track_id;
+  // The target turns its back while somebody comes who is the very image of it.
+  for (int k = 0; k < 50; ++k) {
+    const TargetEstimate& estimate = run.see({test::seen(2, 0), seen(2, 1.5)});
+    ASSERT_EQ(estimate.track_id, id) << k;
+    ASSERT_EQ(estimate.status, TargetStatus::kFollowed);
+  }
 }
 
 TEST(TargetTracker, AConfuserBesideTheTargetDoesNotTakeItsPlace) {
   Scene run;
   run.target().startAt({2.0, 0.0});
-  run.see({seen(2.0, 0.0), seen(2.0, 0.6)}, 5);
-  // The target is hidden for three frames; the confuser in the same clothes is in its gate.
-  const TargetEstimate& hidden = run.see({seen(2.0, 0.5)}, 3);
+  run.see({seen(2.0, 0.0), seen(2.0, 0.6, kUnlike)}, 5);
+  // The target is hidden for three frames; the confuser is in its gate.
+  run.sight(Sight::kHidden);
+  const TargetEstimate& hidden = run.see({seen(2.0, 0.45, kUnlike)}, 3);
   EXPECT_EQ(hidden.status, TargetStatus::kCoasting);
   EXPECT_EQ(hidden.reason, TargetReason::kTakenByOther);
-  const TargetEstimate& back = run.see({seen(2.0, 0.5), seen(2.0, -0.1)});
+  const TargetEstimate& back = run.see({seen(2.0, 0.45, kUnlike), seen(2.0, -0.1)});
   EXPECT_EQ(back.status, TargetStatus::kFollowed);
   EXPECT_LT(back.motion.mean.y(), 0.1);
-}
-
-TEST(TargetTracker, TakesWhoIsWhereAnotherSensorHasItThoughTheyLookLittleLikeIt) {
-  constexpr double kInTheShade = 0.3;  // Too little to be known by.
-  Scene run;
-  run.target().startAt({0.0, 0.0});
-  run.see({seen(0.0, 0.0)}, 3);
-  run.see({}, 10);
-  EXPECT_EQ(run.see({seen(1.0, 0.0, kInTheShade)}, 3).reason, TargetReason::kNobodyLooksLike);
-  run.target().expectAt(Eigen::Vector2d(2.0, 0.0));
-  EXPECT_EQ(run.see({seen(1.0, 0.0, kInTheShade)}, 3).reason, TargetReason::kNobodyLooksLike);
-  run.target().expectAt(Eigen::Vector2d(1.1, 0.1));
-  EXPECT_EQ(run.see({seen(1.0, 0.0, kInTheShade)}).status, TargetStatus::kFollowed);
-
-  Scene other;
-  other.target().startAt({0.0, 0.0});
-  other.see({seen(0.0, 0.0)}, 3);
-  other.see({}, 10);
-  other.target().expectAt(Eigen::Vector2d(1.0, 0.0));
-  EXPECT_EQ(other.see({seen(1.0, 0.0, kUnlike)}, 5).reason, TargetReason::kNobodyLooksLike)
-      << "but not somebody in other clothes";
-}
-
-TEST(TargetTracker, TakesNobodyWhoIsFarFromWhereAnotherSensorHasIt) {
-  Scene run;
-  run.target().startAt({0.0, 0.0});
-  run.see({seen(0.0, 0.0)}, 3);
-  run.target().expectAt(Eigen::Vector2d(0.5, 0.0));
-  run.see({}, 60);
-  EXPECT_EQ(run.see({seen(4.0, 0.0)}, 3).reason, TargetReason::kOutOfReach);
-  run.target().expectAt(std::nullopt);
-  EXPECT_EQ(run.see({seen(4.0, 0.0)}, 30).status, TargetStatus::kFollowed)
-      << "after a while it can have walked there";
 }
 
 TEST(TargetTracker, CoastsThenIsLostAtItsLastPlace) {
@@ -218,127 +203,117 @@ TEST(TargetTracker, CoastsThenIsLostAtItsLastPlace) {
   }
   const double last_s = 0.2 * 9;
   EXPECT_EQ(run.see({}).status, TargetStatus::kCoasting);
-  EXPECT_EQ(run.target().estimate().reason, TargetReason::kNotObserved);
+  EXPECT_EQ(run.estimate().reason, TargetReason::kNotObserved);
   const TargetEstimate& lost = run.see({}, 5);
   EXPECT_EQ(lost.status, TargetStatus::kLost);
   EXPECT_EQ(lost.reason, TargetReason::kNobodyInView);
   EXPECT_EQ(lost.confidence, 0.0);
+  EXPECT_EQ(lost.away, 1.0);
   ASSERT_TRUE(lost.last_seen);
   EXPECT_DOUBLE_EQ(lost.last_seen->stamp_s, last_s);
   EXPECT_NEAR(lost.last_seen->position_m.x(), 1.8, 0.05);
   EXPECT_GT(lost.last_seen->velocity_mps.x(), 0.7);
 }
 
+TEST(TargetTracker, WhoIsHiddenIsClaimedForAWhileAndWhoLeftThePictureIsNot) {
+  for (const bool hidden : {true, false}) {
+    Scene run;
+    run.target().startAt({2.0, 0.0});
+    run.see({seen(2, 0)}, 10);
+    run.sight(hidden ? Sight::kHidden : Sight::kOutside);
+    const TargetEstimate& estimate = run.see({}, 2);
+    EXPECT_EQ(estimate.status, hidden ? TargetStatus::kCoasting : TargetStatus::kLost);
+    EXPECT_EQ(estimate.away < 0.4, hidden);
+    EXPECT_EQ(estimate.away > 0.9, !hidden);
+    EXPECT_EQ(run.see({}, 4).status, TargetStatus::kLost);
+  }
+}
+
 TEST(TargetTracker, IsFoundAgainByItsLooks) {
   Scene run;
   run.target().startAt({2.0, 0.0});
   run.see({seen(2, 0), seen(3, 2, kUnlike)}, 5);
-  const int id = run.target().estimate().track_id;
+  const int id = run.estimate().track_id;
   EXPECT_EQ(run.see({seen(3, 2, kUnlike)}, 10).status, TargetStatus::kLost);
-  EXPECT_EQ(run.target().estimate().reason, TargetReason::kNobodyLooksLike);
-  run.see({seen(3, 2, kUnlike), seen(2.5, -1)}, 2);
-  EXPECT_EQ(run.target().estimate().status, TargetStatus::kFollowed);
-  EXPECT_EQ(run.target().estimate().reason, TargetReason::kRecognized);
-  EXPECT_NE(run.target().estimate().track_id, id);
+  EXPECT_EQ(run.estimate().reason, TargetReason::kNobodyLooksLike);
+  for (int k = 0; k < 5; ++k) run.see({seen(3, 2, kUnlike), seen(2.5 + 0.2 * k, -1)});
+  EXPECT_EQ(run.estimate().status, TargetStatus::kFollowed);
+  EXPECT_NE(run.estimate().track_id, id);
+  EXPECT_NEAR(run.estimate().motion.mean.y(), -1.0, 0.1);
 }
 
 TEST(TargetTracker, LetsGoOfSomebodyTakenOnOneGoodLook) {
-  TargetParams params;
-  params.release_s = 1.0;
-  Scene run(params);
-  run.see({seen(2, 0)}, 2);
-  ASSERT_EQ(run.target().estimate().reason, TargetReason::kRecognized);
-  EXPECT_EQ(run.see({seen(2, 0, kUnlike)}, 5).status, TargetStatus::kFollowed);
-  const TargetEstimate& estimate = run.see({seen(2, 0, kUnlike)}, 8);
-  EXPECT_EQ(estimate.status, TargetStatus::kLost);
-  EXPECT_EQ(estimate.reason, TargetReason::kNobodyLooksLike);
-  EXPECT_FALSE(estimate.last_seen);  // Where the wrong one was says nothing of the target.
-  EXPECT_EQ(run.see({seen(9, 0)}, 2).reason, TargetReason::kRecognized);
+  Scene run;
+  run.lookAround();
+  run.see({seen(2, 0)});
+  ASSERT_EQ(run.estimate().reason, TargetReason::kRecognized);
+  double x = 2.0;
+  for (int k = 0; k < 25; ++k) run.see({seen(x += 0.2, 0, kUnlike)});
+  EXPECT_EQ(run.estimate().status, TargetStatus::kLost);
+  EXPECT_FALSE(run.estimate().hasPlace());
 }
 
 TEST(TargetTracker, KeepsATargetThatLooksOtherwiseForAWhile) {
   Scene run;
-  run.see({seen(2, 0)}, 2);
+  run.target().startAt({2.0, 0.0});
+  run.see({seen(2, 0)}, 10);
   for (int i = 0; i < 6; ++i) {
-    EXPECT_EQ(run.see({seen(2, 0, kUnlike)}, 8).status, TargetStatus::kFollowed);
-    EXPECT_EQ(run.see({seen(2, 0)}, 4).status, TargetStatus::kFollowed);
+    EXPECT_EQ(run.see({seen(2, 0, kUnlike)}, 4).status, TargetStatus::kFollowed);
+    EXPECT_EQ(run.see({seen(2, 0)}, 8).status, TargetStatus::kFollowed);
   }
 }
 
-TEST(TargetTracker, KeepsWhoWasStartedAtAPlaceWhateverTheyLookLike) {
-  Scene run;
-  run.see({seen(2, 0, kUnlike)});
-  run.target().startAt({2, 0});
-  EXPECT_EQ(run.see({seen(2, 0, kUnlike)}, 40).status, TargetStatus::kFollowed);
-}
-
-TEST(TargetTracker, LetsGoOfWhoWasStartedAtAPlaceWhenToldTo) {
-  TargetParams params;
-  params.release_started = true;
-  Scene run(params);
-  run.see({seen(2, 0, kUnlike)});
-  run.target().startAt({2, 0});
-  EXPECT_EQ(run.see({seen(2, 0, kUnlike)}, 20).status, TargetStatus::kLost);
-}
-
-TEST(TargetTracker, GoesOverToWhoLooksClearlyMoreLikeTheTarget) {
-  constexpr double kAlike = 0.45;  // Enough to be taken where nobody else is.
-  for (const bool goes_over : {false, true}) {
-    TargetParams params;
-    if (goes_over) params.takeover_ratio = 1.4;
-    Scene run(params);
-    ASSERT_EQ(run.see({seen(2, 0, kAlike)}, 3).status, TargetStatus::kFollowed);
-    run.see({seen(2, 0, kAlike), seen(2, 3)}, 2);
-    EXPECT_NEAR(run.target().estimate().motion.mean.y(), 0.0, 0.1) << "not on one look";
-    run.see({seen(2, 0, kAlike), seen(2, 3)}, 4);
-    EXPECT_NEAR(run.target().estimate().motion.mean.y(), goes_over ? 3.0 : 0.0, 0.1);
+TEST(TargetTracker, KeepsWhoWasStartedAtAPlaceThoughNothingIsKnownOfItsLooks) {
+  TargetTracker target;
+  target.startAt({2, 0});
+  for (int k = 0; k < 300; ++k) {  // A minute, to and fro.
+    const double x = 2.0 + std::sin(0.1 * k);
+    ASSERT_EQ(target.step(0.2 * k, {seen(x, 0)}).status, TargetStatus::kFollowed) << k;
   }
 }
 
-TEST(TargetTracker, IsNotTakenOverByWhoLooksALittleMoreAlike) {
-  TargetParams params;
-  params.takeover_ratio = 1.4;
-  Scene run(params);
-  run.target().startAt({2, 0});
-  run.see({seen(2, 0, 0.6), seen(2, 3, 0.8)}, 20);
-  EXPECT_NEAR(run.target().estimate().motion.mean.y(), 0.0, 0.1);
+TEST(TargetTracker, TwoWhoCrossAreToldApartAgainByLooks) {
+  // They walk behind a pillar and come out on the far sides, or turn back behind it.
+  for (const bool cross : {true, false}) {
+    Scene run;
+    run.target().startAt({0.0, 0.0});
+    // Hidden is what is between.
+    run.sightOf([](const Eigen::Vector2d& place) {
+      return std::abs(place.x() - 2.0) < 0.4 ? Sight::kHidden : Sight::kFree;
+    });
+    const auto pair = [&](double way, bool turned) {
+      std::vector<Observation> all;
+      const double x = turned ? 4.0 - way : way;
+      if (std::abs(x - 2.0) > 0.4) {
+        all.push_back(seen(x, 0.0));
+        all.push_back(seen(4.0 - x, 0.1, kUnlike));
+      }
+      return all;
+    };
+    for (int k = 0; k <= 20; ++k) {
+      const double way = 0.2 * k;
+      run.see(pair(way, !cross && way > 2.0));
+    }
+    run.see(pair(4.0, !cross), 3);
+    EXPECT_EQ(run.estimate().status, TargetStatus::kFollowed) << cross;
+    EXPECT_NEAR(run.estimate().motion.mean.x(), cross ? 4.0 : 0.0, 0.3);
+  }
 }
 
-TEST(TargetTracker, TakesNobodyWhereAnotherIsKnownToBe) {
+TEST(TargetTracker, AThingThatWasThereBeforeAnybodyCameIsNotTheTargetHoweverAlike) {
   Scene run;
-  run.target().exclude({{2.1, 0.1}});
-  EXPECT_EQ(run.see({seen(2, 0)}, 5).status, TargetStatus::kNone);
-  run.target().exclude({});
-  EXPECT_EQ(run.see({seen(2, 0)}).status, TargetStatus::kFollowed);
-}
-
-TEST(TargetTracker, TakesWhoIsKnownToBeAPersonInAnotherLightAfterSomeTime) {
-  TargetParams params;  // min_appearance 0.41, of which 0.6 is 0.246
-  params.patient_frames = 8;
-  Scene run(params);
-  EXPECT_EQ(run.see({seen(2, 0, 0.35)}, 20).status, TargetStatus::kNone) << "may be furniture";
-  run.target().vouchFor({{2.1, 0.1}});
-  EXPECT_EQ(run.see({seen(2, 0, 0.35)}, 7).reason, TargetReason::kNotSureYet);
-  EXPECT_EQ(run.see({seen(2, 0, 0.35)}).status, TargetStatus::kFollowed);
-}
-
-TEST(TargetTracker, TakesNoPersonWhoLooksUnlikeTheTargetHoweverLong) {
-  TargetParams params;
-  params.patient_frames = 8;
-  Scene run(params);
-  run.target().vouchFor({{2.0, 0.0}});
-  EXPECT_EQ(run.see({seen(2, 0, 0.2)}, 30).reason, TargetReason::kNobodyLooksLike);
-}
-
-TEST(TargetTracker, IsSureWhoLooksJustLikeItThoughTheyCannotHaveWalkedThere) {
-  TargetParams params;
-  params.sure_appearance = 0.7;
-  Scene run(params);
-  run.target().startAt({0.0, 0.0});
-  run.see({seen(0, 0)}, 3);
-  run.see({}, 6);
-  EXPECT_EQ(run.see({seen(8.1, 0, 0.6)}, 4).reason, TargetReason::kOutOfReach);
-  EXPECT_EQ(run.see({seen(8.1, 0, 0.8)}, 8).status, TargetStatus::kFollowed);
+  run.lookAround();
+  Scene home;
+  home.sightOf([](const Eigen::Vector2d& place) {
+    return (place - Eigen::Vector2d(4, 0)).norm() < 0.5 ? Sight::kHidden : Sight::kFree;
+  });
+  home.target().startAt({0, 0});
+  home.see({seen(0, 0), seen(4, 0, kUnlike)}, 150);
+  home.see({}, 60);
+  const TargetEstimate& estimate = home.see({seen(4, 0)}, 3);  // In another light it is alike.
+  EXPECT_FALSE(estimate.hasPlace());
+  // Where nothing was, who looks so is the target.
+  EXPECT_TRUE(run.see({seen(4, 0)}, 3).hasPlace());
 }
 
 TEST(TargetTracker, IsNotFoundWhereItCannotHaveWalked) {
@@ -346,21 +321,35 @@ TEST(TargetTracker, IsNotFoundWhereItCannotHaveWalked) {
   run.target().startAt({0.0, 0.0});
   run.see({seen(0, 0)}, 3);
   run.see({}, 6);  // Lost after 1.0 s.
-  // 8.1 m away needs (8.1 - 0.8) / 2.0 = 3.65 s since it was last seen at 0.4 s.
-  const TargetEstimate& estimate = run.see({seen(8.1, 0)}, 12);  // up to 4.0 s
-  EXPECT_EQ(estimate.status, TargetStatus::kLost);
-  EXPECT_EQ(estimate.reason, TargetReason::kOutOfReach);
-  EXPECT_EQ(run.see({seen(8.1, 0)}).reason, TargetReason::kRecognized);
+  for (int k = 0; k < 5; ++k) run.see({seen(8.1, 0.2 * k)});
+  EXPECT_EQ(run.estimate().status, TargetStatus::kLost);
+  run.see({}, 150);
+  for (int k = 0; k < 10; ++k) run.see({seen(8.1, 0.2 * k)});
+  EXPECT_EQ(run.estimate().status, TargetStatus::kFollowed)
+      << "after a while it can have walked there";
 }
 
 TEST(TargetTracker, TwoWhoLookAlikeAfterALossAreAmbiguous) {
   Scene run;
+  run.lookAround();
   run.target().startAt({2.0, 0.0});
   run.see({seen(2, 0)}, 3);
   run.see({}, 10);
   const TargetEstimate& estimate = run.see({seen(2, 1), seen(2, -1)}, 20);
   EXPECT_EQ(estimate.status, TargetStatus::kAmbiguous);
   EXPECT_TRUE(estimate.last_seen);
+}
+
+TEST(TargetTracker, ASensorThatKnowsWhoIsThereDecides) {
+  const auto is_taken = [](double log_target) {
+    Scene run;
+    run.lookAround();
+    run.target().setHints({{{2, 0}, 0.4, log_target, 2.0}});
+    return run.see({test::seen(2, 0)}, 3).hasPlace();
+  };
+  EXPECT_FALSE(is_taken(0.0));
+  EXPECT_TRUE(is_taken(3.0));
+  EXPECT_FALSE(is_taken(-3.0));
 }
 
 TEST(TargetTracker, SaysWhenTheGateRejectedTheTarget) {
@@ -378,57 +367,132 @@ TEST(TargetTracker, SaysWhenTheGateRejectedTheTarget) {
 }
 
 TEST(TargetTracker, IsLostInAGapOfTime) {
-  TargetTracker target;
+  TargetTracker target({}, {}, {}, looksOf(kLike));
   target.startAt({1.0, 0.0});
   target.step(0.0, {seen(1, 0)});
   target.step(0.2, {seen(1, 0)});
-  const TargetEstimate& estimate = target.step(60.0, {seen(1, 0)});
+  const TargetEstimate& estimate = target.step(60.0, {seen(1, 0, kUnlike)});
   EXPECT_EQ(estimate.status, TargetStatus::kLost);
   EXPECT_EQ(estimate.reason, TargetReason::kTimeJumped);
-  EXPECT_EQ(target.step(60.2, {seen(1, 0)}).reason, TargetReason::kRecognized);
+  EXPECT_TRUE(estimate.last_seen);
 }
 
-TEST(TargetTracker, ForgetsTheReachWhenTheClockWasSetBack) {
-  TargetTracker target;
+/// Frames until the target, who walks to and fro, is found again after 5 s without a frame.
+int framesAfterGap(bool empty_frame_first) {
+  TargetTracker target({}, {}, {}, looksOf(kLike));
+  target.startAt({1.0, 0.0});
+  double stamp_s = 0.0;
+  for (int k = 0; k < 15; ++k) target.step(stamp_s += 0.2, {seen(1, 0)});
+  stamp_s += 5.0;
+  if (empty_frame_first) target.step(stamp_s += 0.2, {});
+  for (int k = 0; k < 50; ++k) {
+    if (target.step(stamp_s += 0.2, {seen(1.5 + std::sin(0.2 * k), 0)}).hasPlace()) return k;
+  }
+  return 50;
+}
+
+TEST(TargetTracker, IsFoundAgainAfterAGapOfTime) {
+  EXPECT_LE(framesAfterGap(true), 3);
+  EXPECT_LE(framesAfterGap(false), 20);
+}
+
+// Bug: see Identity.WhoComesAsTheTargetsTrackEndsMayBeTheTarget.
+TEST(TargetTracker, IsFoundAgainAtOnceAfterAGapOfTime) { EXPECT_LE(framesAfterGap(false), 3); }
+
+TEST(TargetTracker, WhateverComesBeliefsStayProbabilities) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> any(0.0, 1.0);
+  std::vector<Eigen::ArrayXXf> looks;
+  for (int i = 0; i < 36; ++i) looks.push_back(clothes(i / 6, i % 6, 0.8F));
+  TargetTracker target({}, {}, {}, looksOf(kLike));
+  double stamp_s = 0.0;
+  for (int k = 0; k < 3000; ++k) {
+    stamp_s += any(random) < 0.01 ? 30.0 * (any(random) - 0.3) : 0.2 * any(random);
+    std::vector<Observation> all;
+    const int count = static_cast<int>(7.0 * any(random));
+    for (int i = 0; i < count; ++i) {
+      all.push_back(test::seen(i + 0.5 * any(random), 0.5 * any(random) + k / 50 % 5));
+      if (any(random) > 0.2) all.back().look = &looks[static_cast<std::size_t>(7 * i % 36)];
+    }
+    if (any(random) < 0.02) target.startAt({5.0 * any(random), 5.0 * any(random)});
+    if (any(random) < 0.05) target.setHints({{{2, 1}, 0.5, 5.0 * any(random) - 2.5, any(random)}});
+    Viewpoint viewpoint;
+    viewpoint.sight_of = [&](const Eigen::Vector2d&) {
+      return static_cast<Sight>(static_cast<int>(3.999 * any(random)));
+    };
+    const TargetEstimate& estimate = target.step(stamp_s, all, viewpoint);
+    double sum = 0.0;
+    for (const Track& track : target.tracker().tracks()) {
+      const Evidence probability = target.identity().probabilities(track.id);
+      ASSERT_TRUE((probability >= 0.0).all()) << k;
+      ASSERT_NEAR(probability.sum(), 1.0, 1e-9);
+      sum += target.identity().targetProbability(track.id);
+    }
+    ASSERT_LE(sum, 1.0 + 1e-9);
+    ASSERT_TRUE(estimate.away >= 0.0 && estimate.away <= 1.0) << k;
+    ASSERT_TRUE(estimate.confidence >= 0.0 && estimate.confidence <= 1.0) << k;
+  }
+}
+
+TEST(TargetTracker, ForgetsTheLastPlaceWhenTheClockWasSetBack) {
+  TargetTracker target({}, {}, {}, looksOf(kLike));
   target.startAt({1.0, 0.0});
   target.step(1000.0, {seen(1, 0)});
-  target.step(0.0, {seen(1, 0)});
-  EXPECT_EQ(target.step(0.2, {seen(1, 0)}).reason, TargetReason::kRecognized);
+  EXPECT_FALSE(target.step(0.0, {}).last_seen);
+  EXPECT_EQ(target.estimate().reason, TargetReason::kTimeJumped);
+}
+
+// Bug: see Identity.ForgetsTheReachWhenTheClockWasSetBack.
+TEST(TargetTracker, IsFoundAnywhereAfterTheClockWasSetBack) {
+  TargetTracker target({}, {}, {}, looksOf(kLike));
+  target.startAt({1.0, 0.0});
+  for (int k = 0; k < 10; ++k) target.step(1000.0 + 0.2 * k, {seen(1, 0)});
+  for (int k = 0; k < 100; ++k) target.step(0.2 * k, {});
+  for (int k = 100; k < 110; ++k) target.step(0.2 * k, {seen(6, 0)});
+  EXPECT_EQ(target.estimate().status, TargetStatus::kFollowed);
 }
 
 TEST(TargetTracker, KeepsItsEstimateOverASkippedFrame) {
-  TargetTracker target;
+  TargetTracker target({}, {}, {}, looksOf(kLike));
   target.startAt({1.0, 0.0});
   target.step(0.2, {seen(1, 0)});
+  const double confidence = target.estimate().confidence;
   const TargetEstimate& estimate = target.step(0.1, {});
   EXPECT_EQ(estimate.status, TargetStatus::kFollowed);
   EXPECT_EQ(estimate.reason, TargetReason::kFrameSkipped);
   EXPECT_NEAR(estimate.motion.mean.x(), 1.0, 1e-9);
+  EXPECT_EQ(estimate.confidence, confidence);
+  EXPECT_EQ(target.step(0.4, {seen(1, 0)}).reason, TargetReason::kSeen);
 }
 
 TEST(TargetTracker, ConfidenceFollowsLooksTimeAndRivals) {
   Scene run;
   run.target().startAt({2.0, 0.0});
-  EXPECT_NEAR(run.see({seen(2, 0, 0.8), seen(2, 3, 0.8)}, 4).confidence, 0.8, 1e-9);
+  run.sight(Sight::kHidden);
+  const double there = run.see({seen(2, 0), seen(2, 3, kUnlike)}, 4).confidence;
+  EXPECT_GT(there, 0.9);
   // 0.4 s unseen, nobody near.
-  EXPECT_NEAR(run.see({seen(2, 3, 0.8)}, 2).confidence, 0.8 * std::exp(-0.4), 1e-9);
-  // Somebody of half the appearance is beside the target.
-  Scene pair;
-  pair.target().startAt({2.0, 0.0});
-  EXPECT_NEAR(pair.see({seen(2, 0, 0.8), seen(2, 0.7, 0.4)}, 4).confidence, 0.8 * 0.8 / (0.8 + 0.4),
-              1e-9);
+  const double unseen = run.see({seen(2, 3, kUnlike)}, 2).confidence;
+  EXPECT_NEAR(unseen, there * std::exp(-0.4), 0.02);
+  // Whoever looks alike lowers the confidence of somebody who is not known yet.
+  Scene alone, pair;
+  EXPECT_GT(alone.see({seen(2, 0)}).confidence,
+            pair.see({seen(2, 0), seen(2, 4, kHalf)}).confidence + 0.01);
 }
 
 TEST(TargetTracker, TheOrderOfObservationsHasNoInfluence) {
   std::mt19937 random(9);
   std::normal_distribution<double> noise(0.0, 0.05);
-  TargetTracker straight, shuffled;
+  const std::vector<Eigen::ArrayXXf> looks = {kLike, kHalf, kUnlike, clothes(4, 5, 0.7F)};
+  TargetTracker straight({}, {}, {}, looksOf(kLike)), shuffled({}, {}, {}, looksOf(kLike));
+  int followed = 0;
   for (int k = 0; k < 200; ++k) {
     std::vector<Observation> all;
-    for (int person = 0; person < 4; ++person) {
-      if ((k / 15 + person) % 3 != 0) {
-        all.push_back(seen(2.0 + std::sin(0.1 * k + person) + noise(random), person + noise(random),
-                           0.4 + 0.1 * person));
+    for (std::size_t person = 0; person < 4; ++person) {
+      const auto y = static_cast<double>(person);
+      if ((static_cast<std::size_t>(k) / 15 + person) % 3 != 0) {
+        all.push_back(
+            seen(2.0 + std::sin(0.1 * k + y) + noise(random), y + noise(random), looks[person]));
       }
     }
     straight.step(0.2 * k, all);
@@ -437,7 +501,24 @@ TEST(TargetTracker, TheOrderOfObservationsHasNoInfluence) {
     ASSERT_EQ(straight.estimate().status, shuffled.estimate().status);
     ASSERT_EQ(straight.estimate().track_id, shuffled.estimate().track_id);
     ASSERT_EQ(straight.estimate().motion.mean, shuffled.estimate().motion.mean);
-    ASSERT_EQ(straight.estimate().confidence, shuffled.estimate().confidence);
+    // Sums over the observations are of another order.
+    ASSERT_NEAR(straight.estimate().confidence, shuffled.estimate().confidence, 1e-4);
+    followed += straight.estimate().hasPlace() ? 1 : 0;
+  }
+  EXPECT_GT(followed, 50);
+}
+
+TEST(TargetTracker, TheSameInputMakesTheSameTarget) {
+  TargetTracker a({}, {}, {}, looksOf(kLike)), b({}, {}, {}, looksOf(kLike));
+  for (int k = 0; k < 200; ++k) {
+    const std::vector<Observation> all = {seen(2.0 + std::sin(0.1 * k), 0.0),
+                                          seen(2.0 - std::sin(0.1 * k), 0.2, kHalf)};
+    const std::vector<Observation> shown(all.begin() + (k % 10 == 0 ? 1 : 0), all.end());
+    a.step(0.2 * k, shown);
+    b.step(0.2 * k, shown);
+    ASSERT_EQ(a.estimate().track_id, b.estimate().track_id);
+    ASSERT_EQ(a.estimate().confidence, b.estimate().confidence);
+    ASSERT_EQ(a.estimate().away, b.estimate().away);
   }
 }
 
@@ -455,12 +536,17 @@ TEST(TargetTracker, EveryStatusAndReasonHasItsOwnText) {
 }
 
 TEST(TargetTracker, RejectsBadInput) {
-  TargetParams params;
-  params.min_appearance_ratio = 0.9;
-  EXPECT_THROW(TargetTracker{params}, std::invalid_argument);
-  params = {};
-  params.appearance_frames = 0;
-  EXPECT_THROW(TargetTracker{params}, std::invalid_argument);
+  const auto with = [](auto change) {
+    TargetParams params;
+    change(params);
+    TargetTracker target(params);
+  };
+  EXPECT_NO_THROW(with([](TargetParams&) {}));
+  EXPECT_THROW(with([](TargetParams& p) { p.start_distance_m = -0.1; }), std::invalid_argument);
+  EXPECT_THROW(with([](TargetParams& p) { p.take_above = 1.0; }), std::invalid_argument);
+  EXPECT_THROW(with([](TargetParams& p) { p.keep_above = 0.0; }), std::invalid_argument);
+  EXPECT_THROW(with([](TargetParams& p) { p.keep_above = 0.7; }), std::invalid_argument);
+  EXPECT_THROW(with([](TargetParams& p) { p.identity.crowd_m = 0.0; }), std::invalid_argument);
   TargetTracker target;
   EXPECT_THROW(target.startAt({std::nan(""), 0.0}), std::invalid_argument);
   EXPECT_THROW(target.step(std::numeric_limits<double>::quiet_NaN(), {}), std::invalid_argument);

@@ -3,6 +3,8 @@
 
 #include "tracking/tracker.hpp"
 
+#include "tests/tracking/looks.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +14,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace heel {
@@ -22,8 +25,8 @@ using ::testing::IsEmpty;
 
 constexpr double kDt_s = 0.2;
 
-Observation seen(double x, double y, double score = 10.0, double appearance = 0.5) {
-  return {{x, y}, score, appearance};
+Observation seen(double x, double y, double score = 10.0) {
+  return test::seen(x, y, nullptr, score);
 }
 
 TEST(Tracker, ConfirmsATrackSeenOftenEnough) {
@@ -134,16 +137,36 @@ TEST(Tracker, EachObservationIsExplainedByItsOwnTrack) {
   EXPECT_EQ(target->status, TrackStatus::kCoasting);
 }
 
-TEST(Tracker, AppearanceTellsTwoPeopleApartAtOnePlace) {
+TEST(Tracker, LooksTellTwoPeopleApartAtOnePlace) {
+  const auto step = [](double log_likelihood) {
+    Tracker tracker;
+    for (int k = 0; k < 5; ++k) {
+      tracker.step(kDt_s * k, {seen(1.0, 0.0, 11.0), seen(1.6, 0.0, 10.0)});
+    }
+    // Both jump to the middle between their places and beyond it.
+    const TrackerReport& report = tracker.step(
+        1.0, {seen(1.27, 0.0), seen(1.33, 0.0)}, {}, [=](int track_id, int observation) {
+          return track_id == 2 - observation ? log_likelihood : -log_likelihood;
+        });
+    return report.uses[0].track_id;
+  };
+  EXPECT_EQ(step(0.0), 1);
+  EXPECT_EQ(step(2.0), 2);
+  EXPECT_EQ(step(-2.0), 1);
+}
+
+TEST(Tracker, AsksForTheLooksOfPairsThatCanBeOnly) {
   Tracker tracker;
-  for (int k = 0; k < 5; ++k) {
-    tracker.step(kDt_s * k, {seen(1.0, 0.0, 11.0, 0.9), seen(1.6, 0.0, 10.0, 0.1)});
+  for (int k = 0; k < 3; ++k) {
+    tracker.step(kDt_s * k, {seen(1.0, 0.0, 11.0), seen(5.0, 0.0, 10.0)});
   }
-  // Both jump to the middle between their places and beyond it; colour says who is who.
-  const TrackerReport& report =
-      tracker.step(1.0, {seen(1.27, 0.0, 10.0, 0.1), seen(1.33, 0.0, 10.0, 0.9)});
-  EXPECT_EQ(report.uses[0].track_id, 2);
-  EXPECT_EQ(report.uses[1].track_id, 1);
+  std::vector<std::pair<int, int>> asked;
+  tracker.step(0.6, {seen(5.0, 0.0), seen(9.0, 0.0), seen(1.0, 0.0)}, {},
+               [&](int track_id, int observation) {
+                 asked.emplace_back(track_id, observation);
+                 return 0.0;
+               });
+  EXPECT_THAT(asked, ElementsAre(std::pair(1, 2), std::pair(2, 0)));
 }
 
 TEST(Tracker, TentativeTracksTakeWhatTheOthersLeave) {
@@ -161,27 +184,72 @@ TEST(Tracker, TentativeTracksTakeWhatTheOthersLeave) {
 }
 
 TEST(Tracker, UnlikeLooksAloneDoNotPartAPersonFromTheirTrack) {
-  Tracker tracker;
-  for (int k = 0; k < 5; ++k) {
-    tracker.step(kDt_s * k, {seen(1.0, 0.0, 10.0, 0.9)});
-  }
-  // Into the shade: the appearance falls to a tenth.
-  EXPECT_EQ(tracker.step(1.0, {seen(1.0, 0.0, 10.0, 0.09)}).uses[0].track_id, 1);
+  const auto fate = [](double log_likelihood) {
+    Tracker tracker;
+    for (int k = 0; k < 5; ++k) {
+      tracker.step(kDt_s * k, {seen(1.0, 0.0)});
+    }
+    return tracker.step(1.0, {seen(1.0, 0.0)}, {}, [=](int, int) { return log_likelihood; })
+        .uses[0]
+        .fate;
+  };
+  EXPECT_EQ(fate(std::log(0.05)), ObservationFate::kUpdated);  // Into the shade.
+  EXPECT_EQ(fate(-20.0), ObservationFate::kBorn) << "but somebody else they can be";
 }
 
-TEST(Tracker, AveragesAppearanceOverTimeWhateverTheFrameRate) {
+TEST(Tracker, APairIsLeftExactlyWhereANewcomerIsLikelier) {
   TrackerParams params;
-  params.appearance_memory_s = 0.5;
-  for (const int frames : {5, 10, 30}) {
-    Tracker tracker(params);
-    tracker.step(0.0, {seen(1, 0, 10.0, 0.4)});
-    for (int k = 1; k <= frames; ++k) {
-      tracker.step(1.0 * k / frames, {seen(1, 0, 10.0, 0.8)});
-    }
-    // e^-2 of the logarithm's first value is left after two time constants.
-    EXPECT_NEAR(tracker.tracks().front().log_appearance,
-                std::log(0.8) + (std::log(0.4) - std::log(0.8)) * std::exp(-2.0), 1e-12);
+  Tracker before(params);
+  for (int k = 0; k < 5; ++k) before.step(kDt_s * k, {seen(1.0, 0.0)});
+  const MotionState expected = predict(before.tracks().front().motion, 0.2, params.motion);
+  const Eigen::Matrix2d noise = Eigen::Matrix2d::Identity() * 0.12 * 0.12;
+  const double density = std::exp(logLikelihood(innovation(expected, {1.05, 0.0}, noise)));
+  // detection * density * looks = (1 - detection) * newcomers there.
+  const double even = std::log(0.1 * params.new_density_per_m2 / (0.9 * density));
+  for (const bool leave : {false, true}) {
+    Tracker tracker = before;
+    const double looks = even + (leave ? -1e-6 : 1e-6);
+    tracker.step(1.0, {seen(1.05, 0.0)}, {}, [=](int, int) { return looks; });
+    EXPECT_EQ(tracker.tracks().front().observation == Track::kUnseen, leave);
   }
+}
+
+TEST(Tracker, AnObservationsOwnCovarianceAddsToTheTrackers) {
+  TrackerParams blunt_params;
+  blunt_params.position_sigma_m = 0.2;
+  Tracker sharp, blunt(blunt_params);  // 0.12 m and 0.16 m together are 0.2 m.
+  for (int k = 0; k < 10; ++k) {
+    Observation unsure = seen(0.1 * k, 0.03 * (k % 3));
+    blunt.step(kDt_s * k, {unsure});
+    unsure.covariance_m2 = Eigen::Matrix2d::Identity() * 0.16 * 0.16;
+    sharp.step(kDt_s * k, {unsure});
+    ASSERT_EQ(sharp.tracks().size(), 1U);
+    const MotionState &a = sharp.tracks().front().motion, &b = blunt.tracks().front().motion;
+    ASSERT_TRUE(a.mean.isApprox(b.mean, 1e-9));
+    ASSERT_TRUE(a.covariance.isApprox(b.covariance, 1e-9));
+  }
+}
+
+TEST(Tracker, IsUnsureInTheDirectionInWhichAnObservationIs) {
+  Tracker tracker;
+  Observation deep = seen(4.0, 0.0);
+  deep.covariance_m2 = Eigen::Vector2d(0.25, 0.0).asDiagonal();
+  tracker.step(0.0, {deep});
+  const Eigen::Matrix4d& covariance = tracker.tracks().front().motion.covariance;
+  EXPECT_NEAR(covariance(0, 0), 0.25 + 0.12 * 0.12, 1e-12);
+  EXPECT_NEAR(covariance(1, 1), 0.12 * 0.12, 1e-12);
+  EXPECT_EQ(tracker.step(0.2, {seen(4.8, 0.0)}).uses[0].fate, ObservationFate::kUpdated);
+}
+
+TEST(Tracker, SaysHowWellItForetoldAnObservation) {
+  Tracker tracker;
+  tracker.step(0.0, {seen(1.0, 0.0)});
+  EXPECT_EQ(tracker.tracks().front().density_per_m2, 0.0) << "nothing was foretold";
+  const MotionState expected = predict(tracker.tracks().front().motion, 0.2, {});
+  tracker.step(0.2, {seen(1.1, 0.1)});
+  const Eigen::Matrix2d noise = Eigen::Matrix2d::Identity() * 0.12 * 0.12;
+  EXPECT_NEAR(tracker.tracks().front().density_per_m2,
+              std::exp(logLikelihood(innovation(expected, {1.1, 0.1}, noise))), 1e-9);
 }
 
 TEST(Tracker, AddsAndConfirmsTracksOnRequest) {
@@ -207,13 +275,16 @@ TEST(Tracker, TheOrderOfObservationsHasNoInfluence) {
     std::vector<Observation> all;
     for (int person = 0; person < 5; ++person) {
       all.push_back(seen(2.5 + 2.0 * std::sin(0.1 * k + person) + noise(random),
-                         0.6 * person + noise(random), 10.0, 0.2 * person));
+                         0.6 * person + noise(random)));
     }
-    all.push_back(all.front());                                         // Equal ones as well,
-    all.push_back(seen(anywhere(random), anywhere(random), 3.0, 0.0));  // and clutter.
-    straight.step(kDt_s * k, all);
+    all.push_back(all.front());                                    // Equal ones as well,
+    all.push_back(seen(anywhere(random), anywhere(random), 3.0));  // and clutter.
+    const auto looks = [&](int track_id, int i) {
+      return std::sin(track_id + 10.0 * all[static_cast<std::size_t>(i)].position_m.y());
+    };
+    straight.step(kDt_s * k, all, {}, looks);
     std::shuffle(all.begin(), all.end(), random);
-    shuffled.step(kDt_s * k, all);
+    shuffled.step(kDt_s * k, all, {}, looks);
     ASSERT_EQ(straight.tracks().size(), shuffled.tracks().size());
     for (std::size_t i = 0; i < straight.tracks().size(); ++i) {
       const Track &a = straight.tracks()[i], &b = shuffled.tracks()[i];
@@ -221,7 +292,7 @@ TEST(Tracker, TheOrderOfObservationsHasNoInfluence) {
       ASSERT_EQ(a.status, b.status);
       ASSERT_EQ(a.motion.mean, b.motion.mean);
       ASSERT_EQ(a.motion.covariance, b.motion.covariance);
-      ASSERT_EQ(a.log_appearance, b.log_appearance);
+      ASSERT_EQ(a.density_per_m2, b.density_per_m2);
     }
   }
 }
@@ -233,13 +304,15 @@ TEST(Tracker, CountsWhatTheGateRejectsAndWhy) {
   };
   Tracker tracker({}, allOf({tooClose(0.4), insideBounds({-5, -5}, {5, 5}), wall_at_3}));
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<Observation> all = {seen(0.1, 0), seen(4, 0),   seen(2, 0),
-                                        seen(9, 0),   seen(3.5, 1), seen(nan, 0)};
+  Observation unsure = seen(2, 1);
+  unsure.covariance_m2(0, 0) = nan;
+  const std::vector<Observation> all = {seen(0.1, 0), seen(4, 0),   seen(2, 0), seen(9, 0),
+                                        seen(3.5, 1), seen(nan, 0), unsure};
   const TrackerReport& report = tracker.step(0.0, all);
   EXPECT_EQ(report.verdictCount(GateVerdict::kTooClose), 1);
   EXPECT_EQ(report.verdictCount(GateVerdict::kBehindWall), 2);
   EXPECT_EQ(report.verdictCount(GateVerdict::kOutOfBounds), 1);
-  EXPECT_EQ(report.verdictCount(GateVerdict::kNotFinite), 1);
+  EXPECT_EQ(report.verdictCount(GateVerdict::kNotFinite), 2);
   EXPECT_EQ(report.verdictCount(GateVerdict::kAccepted), 1);
   EXPECT_EQ(report.born, 1);
   EXPECT_EQ(report.uses[1].fate, ObservationFate::kRejected);
@@ -321,7 +394,8 @@ TEST(Tracker, NamesTheParameterThatIsOutOfRange) {
 
 TEST(Tracker, ContinuesButDoesNotStartOnTooLittle) {
   Tracker tracker;
-  Observation little{{2.0, 0.0}, 10.0, 0.5, false};
+  Observation little = seen(2.0, 0.0);
+  little.can_start = false;
   EXPECT_EQ(tracker.step(0.0, {little}).uses.at(0).fate, ObservationFate::kTooLittle);
   EXPECT_TRUE(tracker.tracks().empty());
   Observation enough = little;

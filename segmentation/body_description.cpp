@@ -1,0 +1,281 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "segmentation/body_description.hpp"
+
+#include <opencv2/core/types.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+using Describer = BodyDescriber;
+
+constexpr double kDarkOffset = 12.0;
+constexpr double kChromaLimit = 1.0;  // log-chromaticities are clipped at +- this
+
+/// Ends of the stripes over the floor [m]: about a head, three of the trunk, four of the legs.
+constexpr std::array<float, Describer::kStripes + 1> kEnds_m = {0.10F, 0.35F, 0.60F, 0.85F, 1.05F,
+                                                                1.25F, 1.45F, 1.65F, 2.00F};
+
+int stripeOf(float height_m) {
+  const auto above = std::upper_bound(kEnds_m.begin(), kEnds_m.end(), height_m);
+  return above == kEnds_m.end() ? -1 : static_cast<int>(above - kEnds_m.begin()) - 1;
+}
+
+const std::array<float, 256>& logLevels() {
+  static const std::array<float, 256> levels = [] {
+    std::array<float, 256> logs{};
+    for (std::size_t v = 0; v < logs.size(); ++v) {
+      logs[v] = static_cast<float>(std::log(static_cast<double>(v) + kDarkOffset));
+    }
+    return logs;
+  }();
+  return levels;
+}
+
+int binOf(std::uint8_t b, std::uint8_t g, std::uint8_t r) {
+  const auto& logs = logLevels();
+  const auto chroma = [](float ratio) {
+    const float share = (ratio / static_cast<float>(kChromaLimit) + 1.0F) * 0.5F;
+    return std::clamp(static_cast<int>(share * Describer::kChromaBins), 0,
+                      Describer::kChromaBins - 1);
+  };
+  const float light = (logs[b] + logs[g] + logs[r]) / 3.0F;
+  const float share = (light - logs[0]) / (logs[255] - logs[0]);
+  const int brightness = std::clamp(static_cast<int>(share * Describer::kBrightnessBins), 0,
+                                    Describer::kBrightnessBins - 1);
+  return (chroma(logs[r] - logs[g]) * Describer::kChromaBins + chroma(logs[b] - logs[g])) *
+             Describer::kBrightnessBins +
+         brightness;
+}
+
+/// Spreads a bin's share over its neighbours along one axis: 1/4, 1/2, 1/4, so that folds, noise
+/// and the ends of the bins change little. What would fall off the end stays.
+template <typename Column>
+void smoothAxis(Column&& column, Eigen::ArrayXf& work, int bins, int stride) {
+  work = column;
+  for (int i = 0; i < Describer::kBins; ++i) {
+    if (work[i] == 0.0F) continue;
+    const int place = (i / stride) % bins;
+    const float quarter = 0.25F * work[i];
+    column[i] -= 2.0F * quarter;
+    column[place > 0 ? i - stride : i] += quarter;
+    column[place + 1 < bins ? i + stride : i] += quarter;
+  }
+}
+
+template <typename Column>
+void smooth(Column&& column, Eigen::ArrayXf& work) {
+  smoothAxis(column, work, Describer::kBrightnessBins, 1);
+  smoothAxis(column, work, Describer::kChromaBins, Describer::kBrightnessBins);
+  smoothAxis(column, work, Describer::kChromaBins,
+             Describer::kBrightnessBins * Describer::kChromaBins);
+}
+
+/// Where an upright board that faces the camera lies in the image. Nothing if it crosses the
+/// camera's plane.
+cv::Rect boardIn(const BodyView& view, const Eigen::Vector2d& place_m, double half_width_m,
+                 double min_height_m, double max_height_m) {
+  const Eigen::Isometry3d T_camera_base = view.T_base_camera.inverse();
+  const Eigen::Vector2d towards = place_m - view.T_base_camera.translation().head<2>();
+  const Eigen::Vector2d side =
+      Eigen::Vector2d(-towards.y(), towards.x()) * (half_width_m / std::max(towards.norm(), 1e-6));
+  Eigen::Array2d least(1e6, 1e6), most(-1e6, -1e6);
+  for (const Eigen::Vector2d& foot :
+       {Eigen::Vector2d(place_m + side), Eigen::Vector2d(place_m - side)}) {
+    for (const double height_m : {min_height_m, max_height_m}) {
+      const Eigen::Vector3d p = T_camera_base * Eigen::Vector3d(foot.x(), foot.y(), height_m);
+      if (p.z() <= 0.1) return {};
+      const Eigen::Array2d pixel(view.camera.fx * p.x() / p.z() + view.camera.cx,
+                                 view.camera.fy * p.y() / p.z() + view.camera.cy);
+      least = least.min(pixel);
+      most = most.max(pixel);
+    }
+  }
+  const Eigen::Array2i first = least.max(-1.0).min(1e6).floor().cast<int>();
+  const Eigen::Array2i last = most.max(-1.0).min(1e6).ceil().cast<int>();
+  return cv::Rect(first.x(), first.y(), last.x() - first.x() + 1, last.y() - first.y() + 1) &
+         cv::Rect(0, 0, view.image_bgr.cols, view.image_bgr.rows);
+}
+
+}  // namespace
+
+BodyDescriber::BodyDescriber(const BodyDescriberParams& params) : params_(params) {
+  if (!(params.radius_m > 0.0 && params.board_half_width_m >= 0.0 && params.stripe_pixels > 0 &&
+        params.min_stripe_pixels > 0)) {
+    throw std::invalid_argument("BodyDescriberParams: a length or count is not positive");
+  }
+}
+
+void BodyDescriber::begin(BodyDescription& out) {
+  out.colors.setZero(kBins, kStripes);
+  out.stature_m.reset();
+  seen_.assign(kStripes, 0);
+  heights_.clear();
+}
+
+void BodyDescriber::add(int stripe, std::uint8_t b, std::uint8_t g, std::uint8_t r,
+                        BodyDescription& out) {
+  out.colors(binOf(b, g, r), stripe) += 1.0F;
+  ++seen_[static_cast<std::size_t>(stripe)];
+}
+
+void BodyDescriber::finish(BodyDescription& out) {
+  for (int stripe = 0; stripe < kStripes; ++stripe) {
+    const int seen = seen_[static_cast<std::size_t>(stripe)];
+    auto column = out.colors.col(stripe);
+    if (seen < params_.min_stripe_pixels) {
+      column.setZero();
+      continue;
+    }
+    column /= static_cast<float>(seen);
+    smooth(column, smoothed_);
+  }
+  out.stature_m = heights_.height_m();
+}
+
+void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDescription& out) {
+  begin(out);
+  const double top_m = static_cast<double>(kEnds_m.back());
+  const cv::Rect body =
+      boardIn(view, blob.position_m, params_.radius_m, static_cast<double>(kEnds_m.front()), top_m);
+  const cv::Rect board =
+      view.depth_is_masked
+          ? boardIn(view, blob.position_m, params_.board_half_width_m,
+                    static_cast<double>(kEnds_m.front()), std::max(blob.max_height_m, 1.6))
+          : cv::Rect();
+  const int step =
+      std::max(1, static_cast<int>(std::sqrt(body.area() / (kStripes * params_.stripe_pixels))));
+  const Eigen::Matrix3f R = view.T_base_camera.linear().cast<float>();
+  const Eigen::Vector3f eye = view.T_base_camera.translation().cast<float>();
+  const Eigen::Vector2f place = blob.position_m.cast<float>();
+  const auto radius2 = static_cast<float>(params_.radius_m * params_.radius_m);
+  // Of a pixel without depth: where its ray meets the board's plane.
+  const Eigen::Vector2f towards = place - eye.head<2>();
+  for (int v = body.y; v < body.y + body.height; v += step) {
+    const auto* bgr = view.image_bgr.ptr<cv::Vec3b>(v);
+    const auto* depth = view.depth_m.ptr<float>(v);
+    for (int u = body.x; u < body.x + body.width; u += step) {
+      const Eigen::Vector3f ray =
+          R * Eigen::Vector3f((static_cast<float>(u) - static_cast<float>(view.camera.cx)) /
+                                  static_cast<float>(view.camera.fx),
+                              (static_cast<float>(v) - static_cast<float>(view.camera.cy)) /
+                                  static_cast<float>(view.camera.fy),
+                              1.0F);
+      float height_m = 0.0F;
+      if (depth[u] > 0.0F) {
+        const Eigen::Vector3f p = eye + depth[u] * ray;
+        if ((p.head<2>() - place).squaredNorm() > radius2) continue;
+        height_m = p.z();
+        heights_.add(static_cast<double>(height_m), v);
+      } else if (board.contains(cv::Point(u, v))) {
+        const float along = ray.head<2>().dot(towards);
+        if (along <= 0.0F) continue;
+        height_m = eye.z() + towards.squaredNorm() / along * ray.z();
+      } else {
+        continue;
+      }
+      const int stripe = stripeOf(height_m);
+      if (stripe >= 0) add(stripe, bgr[u][0], bgr[u][1], bgr[u][2], out);
+    }
+  }
+  finish(out);
+}
+
+void BodyDescriber::describe(const ColorCloud& cloud, const Eigen::Vector2d& position_m,
+                             BodyDescription& out, const pcl::Indices* indices) {
+  begin(out);
+  const Eigen::Vector2f place = position_m.cast<float>();
+  const auto radius2 = static_cast<float>(params_.radius_m * params_.radius_m);
+  const auto visit = [&](std::size_t i) {
+    const pcl::PointXYZRGB& p = cloud[i];
+    if (!((Eigen::Vector2f(p.x, p.y) - place).squaredNorm() <= radius2)) return;  // or NaN
+    heights_.add(static_cast<double>(p.z),
+                 cloud.height > 1 ? static_cast<int>(i / cloud.width) : -1);
+    const int stripe = stripeOf(p.z);
+    if (stripe >= 0) add(stripe, p.b, p.g, p.r, out);
+  };
+  if (indices != nullptr) {
+    for (const auto i : *indices) visit(static_cast<std::size_t>(i));
+  } else {
+    for (std::size_t i = 0; i < cloud.size(); ++i) visit(i);
+  }
+  finish(out);
+}
+
+double BodyDescriber::middleOf_m(int stripe) {
+  const auto i = static_cast<std::size_t>(stripe);
+  return 0.5 * static_cast<double>(kEnds_m[i] + kEnds_m[i + 1]);
+}
+
+Eigen::ArrayXf BodyDescriber::binsOf(const ColorHistogram& colors) {
+  Eigen::ArrayXf bins = Eigen::ArrayXf::Zero(kBins);
+  const auto total = static_cast<double>(std::max<std::uint64_t>(colors.total(), 1));
+  colors.forEach([&](Bgr c, std::uint64_t count) {
+    bins[binOf(c.b, c.g, c.r)] += static_cast<float>(static_cast<double>(count) / total);
+  });
+  Eigen::ArrayXf work;
+  smooth(bins, work);
+  return bins;
+}
+
+Eigen::ArrayXi BodyDescriber::inLight(int red_steps, int blue_steps, int brightness_steps) {
+  Eigen::ArrayXi to(kBins);
+  for (int i = 0; i < kBins; ++i) {
+    const int brightness =
+        std::clamp(i % kBrightnessBins + brightness_steps, 0, kBrightnessBins - 1);
+    const int blue = i / kBrightnessBins % kChromaBins + blue_steps;
+    const int red = i / kBrightnessBins / kChromaBins + red_steps;
+    to[i] =
+        (std::clamp(red, 0, kChromaBins - 1) * kChromaBins + std::clamp(blue, 0, kChromaBins - 1)) *
+            kBrightnessBins +
+        brightness;
+  }
+  return to;
+}
+
+Eigen::ArrayXf BodyDescriber::clothes() {
+  constexpr float kGreyShare = 0.7F;
+  constexpr float kGreySpread = 0.25F;
+  const Eigen::ArrayXf chroma = Eigen::ArrayXf::LinSpaced(
+      kChromaBins, static_cast<float>(kChromaLimit) * (1.0F / kChromaBins - 1.0F),
+      static_cast<float>(kChromaLimit) * (1.0F - 1.0F / kChromaBins));
+  Eigen::ArrayXf grey = (-0.5F * (chroma / kGreySpread).square()).exp();
+  grey /= grey.sum();
+  Eigen::ArrayXf bins(kBins);
+  for (int i = 0; i < kBins; ++i) {
+    const int blue = i / kBrightnessBins % kChromaBins;
+    const int red = i / kBrightnessBins / kChromaBins;
+    bins[i] =
+        (kGreyShare * grey[red] * grey[blue] + (1.0F - kGreyShare) / (kChromaBins * kChromaBins)) /
+        kBrightnessBins;
+  }
+  return bins;
+}
+
+void BodyPortrait::add(const BodyDescription& look) {
+  if (look.colors.size() == 0) return;
+  if (looks_++ == 0) {
+    sum_.setZero(look.colors.rows(), look.colors.cols());
+    seen_.setZero(look.colors.cols());
+  }
+  sum_ += look.colors;
+  seen_ += look.colors.colwise().sum().transpose();
+}
+
+BodyDescription BodyPortrait::mean() const {
+  BodyDescription mean;
+  mean.colors = sum_;
+  for (int part = 0; part < seen_.size(); ++part) {
+    if (seen_[part] > 0.0F) mean.colors.col(part) /= seen_[part];
+  }
+  return mean;
+}
+
+}  // namespace heel

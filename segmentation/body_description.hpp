@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// What a body looks like: the colours of all of it, by height.
+#pragma once
+
+#include "cloud/color_cloud.hpp"
+#include "segmentation/color_histogram.hpp"
+#include "segmentation/stature.hpp"
+#include "segmentation/world_blobs.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <opencv2/core/mat.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace heel {
+
+/// An image whose pixels may have a depth.
+struct BodyView {
+  cv::Mat image_bgr;  ///< CV_8UC3.
+  cv::Mat depth_m;    ///< CV_32FC1 of the same size, NaN or <= 0 where there is none.
+  PinholeCamera camera;
+  Eigen::Isometry3d T_base_camera;
+  /// Depth is known only where the colour filter passed. Pixels without one are then taken from an
+  /// upright board about the place, so that what has other colours is seen, too.
+  bool depth_is_masked = false;
+};
+
+/// One look at a body, or the mean of many.
+struct BodyDescription {
+  /// Row: a bin of colour. Column: a stripe of height. A column sums to 1, or to 0 where too little
+  /// of the stripe was seen to say anything.
+  Eigen::ArrayXXf colors;
+  std::optional<double> stature_m;  ///< If the head was seen.
+};
+
+struct BodyDescriberParams {
+  double radius_m = 0.25;            ///< Of the cylinder about a place that holds the body.
+  double board_half_width_m = 0.12;  ///< See BodyView::depth_is_masked: a trunk's.
+  int stripe_pixels = 200;           ///< About so many of a stripe are looked at.
+  int min_stripe_pixels = 20;        ///< With fewer a stripe is not seen.
+};
+
+/// Describes bodies by the joint distribution of log(r / g), log(b / g) and log brightness in
+/// stripes of metric height. Logarithms are of the channel + 12, for below that the camera's noise
+/// is all there is; so a light of another brightness shifts the last only.
+///
+/// Whoever compares descriptions needs to know nothing of bins and stripes: a describer with others
+/// can take its place. Holds the memory that it works in; allocates nothing once warm.
+class BodyDescriber {
+ public:
+  static constexpr int kChromaBins = 12;
+  static constexpr int kBrightnessBins = 6;
+  static constexpr int kBins = kChromaBins * kChromaBins * kBrightnessBins;
+  static constexpr int kStripes = 8;
+
+  /// @throws std::invalid_argument  if a parameter is out of its range.
+  explicit BodyDescriber(const BodyDescriberParams& params = {});
+
+  /// Describes the body at a blob's place (in the base frame). `out` is overwritten.
+  void describe(const BodyView& view, const WorldBlob& blob, BodyDescription& out);
+
+  /// The same over the points of a cloud in the base frame: of those named, if any are.
+  void describe(const ColorCloud& cloud, const Eigen::Vector2d& position_m, BodyDescription& out,
+                const pcl::Indices* indices = nullptr);
+
+  static double middleOf_m(int stripe);  ///< Height of a stripe's middle over the floor.
+
+  /// How counted colours spread over the bins: a stripe that has them all.
+  static Eigen::ArrayXf binsOf(const ColorHistogram& colors);
+
+  /// Where the pixels of each bin go if the light makes red and blue stronger or weaker against
+  /// green by so many bins, each by kLightStep (a natural logarithm), and all brighter by so many,
+  /// each by kBrightnessStep.
+  static Eigen::ArrayXi inLight(int red_steps, int blue_steps, int brightness_steps);
+  static constexpr double kLightStep = 2.0 / kChromaBins;
+  static constexpr double kBrightnessStep = 3.1 / kBrightnessBins;  ///< ln(267 / 12) in all.
+
+  /// What clothes look like before anybody is known: most are grey, more or less, and the rest may
+  /// have any colour, in any light.
+  static Eigen::ArrayXf clothes();
+
+ private:
+  void begin(BodyDescription& out);
+  void add(int stripe, std::uint8_t b, std::uint8_t g, std::uint8_t r, BodyDescription& out);
+  void finish(BodyDescription& out);
+
+  BodyDescriberParams params_;
+  std::vector<int> seen_;  // pixels a stripe
+  StatureSample heights_;
+  Eigen::ArrayXf smoothed_;
+};
+
+/// The mean of many looks, stripe by stripe.
+class BodyPortrait {
+ public:
+  void add(const BodyDescription& look);
+  bool empty() const { return looks_ == 0; }
+  /// Without stature.
+  BodyDescription mean() const;
+
+ private:
+  Eigen::ArrayXXf sum_;
+  Eigen::ArrayXf seen_;  // looks that showed a stripe
+  int looks_ = 0;
+};
+
+}  // namespace heel

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tracking/clutter_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+constexpr double kCell_m = 0.25;
+constexpr double kCell_m2 = kCell_m * kCell_m;
+constexpr double kPrior = 0.1;  // Things a square metre.
+
+/// The middle of a cell, where no other cell has a say.
+Eigen::Vector2d middle(int x, int y) { return {(x + 0.5) * kCell_m, (y + 0.5) * kCell_m}; }
+
+SightOf everywhere(Sight sight) {
+  return [sight](const Eigen::Vector2d&) { return sight; };
+}
+
+TEST(ClutterMap, KnowsNothingAtFirst) {
+  const ClutterMap map;
+  EXPECT_NEAR(map.density_per_m2({0, 0}), kPrior, 1e-12);
+  EXPECT_NEAR(map.density_per_m2({-3.1, 17.7}), kPrior, 1e-12);
+}
+
+TEST(ClutterMap, AFloorSeenFreeHasFewerThings) {
+  ClutterMap map;
+  map.look({0, 0}, everywhere(Sight::kFree), 3.0);
+  map.look({0, 0}, everywhere(Sight::kFree), 6.0);
+  EXPECT_NEAR(map.density_per_m2(middle(4, -3)), kPrior / (1.0 + 9.0), 1e-8);
+  EXPECT_NEAR(map.density_per_m2({0.4321, -0.9876}), kPrior / (1.0 + 9.0), 1e-8)
+      << "between the cells too";
+}
+
+TEST(ClutterMap, WhatIsNotSeenThroughStaysUnknown) {
+  ClutterMap map;
+  for (const Sight sight : {Sight::kUnknown, Sight::kOutside, Sight::kHidden}) {
+    map.look({0, 0}, everywhere(sight), 10.0);
+  }
+  map.look({0, 0}, {}, 10.0);
+  map.look({0, 0}, everywhere(Sight::kFree), 0.0);
+  map.look({0, 0}, everywhere(Sight::kFree), -1.0);
+  EXPECT_NEAR(map.density_per_m2({1, 1}), kPrior, 1e-12);
+}
+
+TEST(ClutterMap, LooksAtEachPlaceByItself) {
+  ClutterMap map;
+  map.look(
+      {0, 0},
+      [](const Eigen::Vector2d& place) { return place.x() > 1.0 ? Sight::kFree : Sight::kHidden; },
+      9.0);
+  EXPECT_NEAR(map.density_per_m2(middle(8, 0)), kPrior / 10.0, 1e-8);
+  EXPECT_NEAR(map.density_per_m2(middle(0, 0)), kPrior, 1e-12);
+}
+
+TEST(ClutterMap, CountsNothingOutOfRange) {
+  ClutterMapParams params;
+  params.range_m = 2.0;
+  ClutterMap map(params);
+  map.look({1, 0}, everywhere(Sight::kFree), 9.0);
+  EXPECT_NEAR(map.density_per_m2({2.8, 0}), kPrior / 10.0, 1e-8);
+  EXPECT_NEAR(map.density_per_m2({-0.8, 0}), kPrior / 10.0, 1e-8);
+  EXPECT_NEAR(map.density_per_m2({3.4, 0}), kPrior, 1e-12);
+  EXPECT_NEAR(map.density_per_m2({2.8, 1.8}), kPrior, 1e-12) << "it is a circle";
+}
+
+TEST(ClutterMap, AThingIsWhereItWasObserved) {
+  ClutterMap map;
+  map.add(middle(4, 7), 1.0, 3.0);
+  EXPECT_NEAR(map.density_per_m2(middle(4, 7)), (kPrior * kCell_m2 + 3.0) / 4.0 / kCell_m2, 1e-5);
+  EXPECT_NEAR(map.density_per_m2(middle(5, 7)), kPrior, 1e-12);
+  map.add(middle(4, 7), 1.0, 1000.0);
+  EXPECT_NEAR(map.density_per_m2(middle(4, 7)), 1.0 / kCell_m2, 0.02) << "no more than one a cell";
+  EXPECT_LE(map.density_per_m2(middle(4, 7)), 1.0 / kCell_m2);
+}
+
+TEST(ClutterMap, NoCellHoldsMoreThanOneThing) {
+  ClutterMapParams params;
+  params.density_per_m2 = 100.0;
+  const ClutterMap map(params);
+  EXPECT_NEAR(map.density_per_m2({0, 0}), 1.0 / kCell_m2, 1e-9);
+}
+
+TEST(ClutterMap, WhatMayBeAThingCountsByItsProbability) {
+  ClutterMap map;
+  map.add(middle(0, 0), 0.25, 2.0);
+  EXPECT_NEAR(map.density_per_m2(middle(0, 0)), (kPrior * kCell_m2 + 0.5) / 3.0 / kCell_m2, 1e-6);
+  map.add(middle(9, 9), 0.0, 4.0);
+  EXPECT_NEAR(map.density_per_m2(middle(9, 9)), kPrior / 5.0, 1e-7) << "a person is no thing";
+}
+
+TEST(ClutterMap, SharesAThingBetweenTheCellsAround) {
+  ClutterMap map;
+  map.add({2 * kCell_m, 3 * kCell_m}, 1.0, 4.0);  // Where four cells meet.
+  for (const int x : {1, 2}) {
+    for (const int y : {2, 3}) {
+      EXPECT_NEAR(map.density_per_m2(middle(x, y)), (kPrior * kCell_m2 + 1.0) / 2.0 / kCell_m2,
+                  1e-5);
+    }
+  }
+  EXPECT_NEAR(map.density_per_m2(middle(3, 3)), kPrior, 1e-12);
+  // A quarter of each of the four, a quarter of which it had itself.
+  EXPECT_NEAR(map.density_per_m2({2 * kCell_m, 3 * kCell_m}),
+              (kPrior * kCell_m2 + 1.0) / 2.0 / kCell_m2, 1e-5);
+}
+
+TEST(ClutterMap, TheShareOfTimeCountsThatAThingWasThere) {
+  ClutterMap map;
+  map.add(middle(2, 2), 1.0, 5.0);
+  const double always = map.density_per_m2(middle(2, 2));
+  map.look({0, 0}, everywhere(Sight::kFree), 5.0);
+  EXPECT_NEAR(map.density_per_m2(middle(2, 2)), (kPrior * kCell_m2 + 5.0) / 11.0 / kCell_m2, 1e-5);
+  EXPECT_LT(map.density_per_m2(middle(2, 2)), always);
+}
+
+TEST(ClutterMap, IsATorusOf40Meters) {
+  ClutterMap map;
+  map.add(middle(-1, -1), 1.0, 3.0);
+  const double there = map.density_per_m2(middle(-1, -1));
+  EXPECT_GT(there, 5.0);
+  EXPECT_NEAR(map.density_per_m2(middle(0, 0)), kPrior, 1e-12);
+  EXPECT_NEAR(map.density_per_m2(middle(-1, -1) + Eigen::Vector2d(40, 0)), there, 1e-9);
+  EXPECT_NEAR(map.density_per_m2(middle(-1, -1) - Eigen::Vector2d(80, 400)), there, 1e-9);
+  EXPECT_NEAR(map.density_per_m2(middle(-1, -1) + Eigen::Vector2d(20, 0)), kPrior, 1e-12);
+  map.look({1000, 1000}, everywhere(Sight::kFree), 9.0);
+  EXPECT_NEAR(map.density_per_m2({1001, 1001}), kPrior / 10.0, 1e-8);
+}
+
+TEST(ClutterMap, RejectsBadParameters) {
+  const auto with = [](auto change) {
+    ClutterMapParams params;
+    change(params);
+    ClutterMap map(params);
+  };
+  EXPECT_NO_THROW(with([](ClutterMapParams&) {}));
+  EXPECT_THROW(with([](ClutterMapParams& p) { p.cell_m = 0.0; }), std::invalid_argument);
+  EXPECT_THROW(with([](ClutterMapParams& p) { p.cell_m = std::nan(""); }), std::invalid_argument);
+  EXPECT_THROW(with([](ClutterMapParams& p) { p.range_m = -1.0; }), std::invalid_argument);
+  EXPECT_THROW(with([](ClutterMapParams& p) { p.range_m = 21.0; }), std::invalid_argument);
+  EXPECT_THROW(with([](ClutterMapParams& p) { p.density_per_m2 = 0.0; }), std::invalid_argument);
+  EXPECT_THROW(with([](ClutterMapParams& p) { p.prior_s = 0.0; }), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace heel

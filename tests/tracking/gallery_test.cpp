@@ -1,0 +1,298 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tracking/gallery.hpp"
+
+#include "tests/tracking/looks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+using test::clothes;
+using test::looksOf;
+using test::seen;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Evidence of(Gallery& gallery, const Eigen::ArrayXXf& look) {
+  return gallery.logLikelihood(seen(0, 0, &look));
+}
+
+// Truth for looks and portraits of whole colours, of which anybody wears each with 1/6. A bin of
+// the portrait with this share is left this much of a look that is all in that bin:
+double partLogOdds(double share_of_portrait, const GalleryParams& params = {}) {
+  const double like = std::log((share_of_portrait + 0.1 / test::kColors) / 1.1);
+  const double rare = params.rarity_share * std::log(test::kColors);
+  return params.likeness_offset + std::max(like + rare, params.worst_likeness);
+}
+
+/// The target's evidence over a stranger's where its looks have these log odds.
+double target(double log_odds, const GalleryParams& params = {}) {
+  const double mislead = params.misleading_share;
+  return std::log((1.0 - mislead) * std::exp(log_odds) + mislead) -
+         std::log1p(mislead * mislead * std::exp(log_odds));
+}
+
+TEST(Gallery, WhatIsNotSeenSaysNothing) {
+  Gallery gallery(looksOf(clothes(0, 1)));
+  const auto says_nothing = [](const Evidence& evidence) {
+    EXPECT_EQ(evidence[kThing], 0.0);
+    EXPECT_EQ(evidence[kStranger], 0.0);
+    EXPECT_EQ(evidence[kTarget], 0.0);
+    for (int h = kFirstOther; h < kHypotheses; ++h) EXPECT_EQ(evidence[h], -kInfinity) << h;
+  };
+  Observation without_look = seen(0, 0);
+  without_look.stature_m = 1.5;
+  says_nothing(gallery.logLikelihood(without_look));
+  says_nothing(of(gallery, Eigen::ArrayXXf::Zero(test::kColors, 2)));
+  Gallery knows_nothing;
+  says_nothing(of(knows_nothing, clothes(0, 1)));
+  const int other = gallery.meet(clothes(2, 3), 1.0);
+  EXPECT_EQ(gallery.logLikelihood(without_look)[other], 0.0);
+}
+
+TEST(Gallery, ALookHasTheLogOddsOfItsParts) {
+  Gallery gallery(looksOf(clothes(0, 1)));
+  const GalleryParams params;
+  const double alike = partLogOdds(1.0), unlike = partLogOdds(0.0);
+  EXPECT_NEAR(alike, 0.38 + std::log(61.0 / 66.0) + 0.5 * std::log(6.0), 1e-12);
+  EXPECT_NEAR(unlike, 0.38 - 1.5, 1e-12);
+  EXPECT_NEAR(of(gallery, clothes(0, 1))[kTarget], target(params.look_gain * 2.0 * alike), 1e-5);
+  EXPECT_NEAR(of(gallery, clothes(0, 5))[kTarget], target(params.look_gain * (alike + unlike)),
+              1e-5);
+  EXPECT_NEAR(of(gallery, clothes(1, 0))[kTarget], target(params.look_gain * 2.0 * unlike), 1e-5)
+      << "the right colours at the wrong parts";
+}
+
+TEST(Gallery, ALookOfSeveralColorsIsComparedByItsDivergence) {
+  GalleryParams params;
+  params.misleading_share = 1e-6;
+  Eigen::ArrayXXf mean(3, 1), look(3, 1);
+  mean << 0.7F, 0.2F, 0.1F;
+  look << 0.5F, 0.5F, 0.0F;
+  TargetLooks looks = looksOf(mean);
+  looks.anybody << 0.1F, 0.3F, 0.6F;
+  looks.room << 0.3F, 0.1F, 0.6F;
+  // By hand: anybody in this room wears (0.2, 0.2, 0.6), and a thousandth of anything.
+  const double usual = (0.2 + 1e-3 / 3.0) / 1.001;
+  const double first = (0.7 + 0.1 * usual) / 1.1, second = (0.2 + 0.1 * usual) / 1.1;
+  const double to_person = std::log(0.5) - 0.5 * (std::log(first) + std::log(second));
+  const double to_anybody = std::log(0.5) - std::log(usual);
+  const double log_odds =
+      params.look_gain * (params.likeness_offset - to_person + params.rarity_share * to_anybody);
+  Gallery gallery(looks, params);
+  EXPECT_NEAR(of(gallery, look)[kTarget], target(log_odds, params), 1e-5);
+}
+
+TEST(Gallery, APartThatIsNotSeenOrNotKnownSaysNothing) {
+  Gallery gallery(looksOf(clothes(0, 1)));
+  Eigen::ArrayXXf upper = clothes(0, 1);
+  upper.col(1).setZero();
+  const double alike = partLogOdds(1.0);
+  EXPECT_NEAR(of(gallery, upper)[kTarget], target(0.9 * alike), 1e-5);
+  Gallery knows_upper(looksOf(upper));
+  EXPECT_NEAR(of(knows_upper, clothes(0, 5))[kTarget], target(0.9 * alike), 1e-5);
+}
+
+TEST(Gallery, AnotherLightIsAllowedForAndCostsItsPrior) {
+  TargetLooks looks = looksOf(clothes(0, 1));
+  Tint lamp;  // In its light colours 0 and 1 appear as 3 and 4.
+  lamp.bins = Eigen::ArrayXi::LinSpaced(test::kColors, 0, test::kColors - 1);
+  lamp.bins[3] = 0;
+  lamp.bins[4] = 1;
+  lamp.log_prior = -0.7;
+  looks.tints = {lamp};
+  Gallery gallery(looks), without(looksOf(clothes(0, 1)));
+  const double alike = partLogOdds(1.0), unlike = partLogOdds(0.0);
+  EXPECT_NEAR(of(gallery, clothes(3, 4))[kTarget], target(0.9 * (2.0 * alike - 0.7)), 1e-5);
+  EXPECT_NEAR(of(without, clothes(3, 4))[kTarget], target(0.9 * 2.0 * unlike), 1e-5);
+  EXPECT_NEAR(of(gallery, clothes(0, 1))[kTarget], target(0.9 * 2.0 * alike), 1e-5)
+      << "the room's own light costs nothing";
+  EXPECT_NEAR(of(gallery, clothes(0, 4))[kTarget], target(0.9 * (2.0 * alike - 0.7)), 1e-5);
+  EXPECT_NEAR(of(gallery, clothes(2, 5))[kTarget], target(0.9 * 2.0 * unlike), 1e-5)
+      << "it makes nobody else the target";
+}
+
+TEST(Gallery, AnUnusualLightIsNotTakenForTheTargetInOtherClothes) {
+  TargetLooks looks = looksOf(clothes(0, 1));
+  Tint lamp;
+  lamp.bins = Eigen::ArrayXi::Zero(test::kColors);
+  lamp.log_prior = -50.0;
+  looks.tints = {lamp};
+  Gallery gallery(looks);
+  EXPECT_NEAR(of(gallery, clothes(2, 3))[kTarget], target(0.9 * 2.0 * partLogOdds(0.0)), 1e-5);
+}
+
+TEST(Gallery, NoLookSaysMoreThanTheMisleadingShareLeaves) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> any(0.0F, 1.0F);
+  for (const double share : {0.01, 0.05, 0.3}) {
+    GalleryParams params;
+    params.look_gain = 20.0;
+    params.misleading_share = share;
+    Gallery gallery(looksOf(clothes(0, 1)), params);
+    gallery.meet(clothes(2, 3), 1.0);
+    for (int i = 0; i < 100; ++i) {
+      Eigen::ArrayXXf look(test::kColors, 2);
+      for (float& value : look.reshaped()) value = std::pow(any(random), 4.0F);
+      look.rowwise() /= look.colwise().sum().eval();
+      const Evidence evidence = of(gallery, look);
+      for (const int h : {static_cast<int>(kTarget), static_cast<int>(kFirstOther)}) {
+        EXPECT_GE(evidence[h], std::log(share) - 1e-9);
+        EXPECT_LE(evidence[h], -2.0 * std::log(share) + 1e-9);
+      }
+      EXPECT_EQ(evidence[kThing], 0.0);
+    }
+    // The clearest look says all that it may.
+    EXPECT_NEAR(of(gallery, clothes(0, 1))[kTarget], std::log(1.0 - share) - 2.0 * std::log(share),
+                1e-3);
+    EXPECT_NEAR(of(gallery, clothes(4, 5))[kTarget], std::log(share), 1e-3);
+  }
+}
+
+TEST(Gallery, StatureIsEvidenceAmongPeople) {
+  TargetLooks looks = looksOf(clothes(0, 1));
+  looks.stature_m = 1.9;
+  Gallery gallery(looks), without(looksOf(clothes(0, 1)));
+  const Eigen::ArrayXXf look = clothes(0, 1);
+  Observation tall = seen(0, 0, &look);
+  tall.stature_m = 1.85;
+  // ln N(1.85; 1.9, 0.05) - ln N(1.85; 1.7, hypot(0.1, 0.05)), by hand.
+  const double usual_sigma = std::sqrt(0.0125);
+  const double gauss =
+      (-0.5 - std::log(0.05)) - (-0.5 * 0.15 * 0.15 / 0.0125 - std::log(usual_sigma));
+  EXPECT_NEAR(gallery.logLikelihood(tall)[kTarget], target(0.9 * (2.0 * partLogOdds(1.0) + gauss)),
+              1e-5);
+  EXPECT_NEAR(without.logLikelihood(tall)[kTarget], target(0.9 * 2.0 * partLogOdds(1.0)), 1e-5);
+  tall.stature_m = 1.6;
+  EXPECT_LT(gallery.logLikelihood(tall)[kTarget], without.logLikelihood(tall)[kTarget]);
+}
+
+TEST(Gallery, WhatWasLearnedAtFirstKeepsHalfOfTheSay) {
+  Gallery gallery(looksOf(clothes(0, 1)));
+  const Eigen::ArrayXXf now = clothes(2, 3);
+  for (int i = 0; i < 1000; ++i) gallery.addLookAtTarget(seen(0, 0, &now), 1.0);
+  const double lately = 0.5 * 30.0 / 33.0;  // It rests on 30 looks at most.
+  EXPECT_NEAR(of(gallery, clothes(0, 1))[kTarget], target(0.9 * 2.0 * partLogOdds(1.0 - lately)),
+              1e-4);
+  EXPECT_NEAR(of(gallery, clothes(2, 3))[kTarget], target(0.9 * 2.0 * partLogOdds(lately)), 1e-4);
+  EXPECT_NEAR(of(gallery, clothes(4, 5))[kTarget], target(0.9 * 2.0 * partLogOdds(0.0)), 1e-4);
+}
+
+TEST(Gallery, AFewLooksChangeThePortraitALittle) {
+  Gallery gallery(looksOf(clothes(0, 1)));
+  const Eigen::ArrayXXf now = clothes(2, 3);
+  gallery.addLookAtTarget(seen(0, 0, &now), 1.0);
+  EXPECT_NEAR(of(gallery, now)[kTarget], target(0.9 * 2.0 * partLogOdds(0.5 * 1.0 / 4.0)), 1e-5);
+}
+
+TEST(Gallery, LearnsAPartThatWasNeverSeenBefore) {
+  Eigen::ArrayXXf upper = clothes(0, 1);
+  upper.col(1).setZero();
+  Gallery gallery(looksOf(upper));
+  const double before = of(gallery, clothes(0, 1))[kTarget];
+  const Eigen::ArrayXXf whole = clothes(0, 1);
+  gallery.addLookAtTarget(seen(0, 0, &whole), 0.1);
+  EXPECT_GT(of(gallery, clothes(0, 1))[kTarget], before + 0.3);
+  EXPECT_LT(of(gallery, clothes(0, 5))[kTarget], before - 0.3);
+}
+
+TEST(Gallery, ALookThatShowsNothingTeachesNothing) {
+  Gallery gallery(looksOf(clothes(0, 1)));
+  const double before = of(gallery, clothes(0, 1))[kTarget];
+  const Eigen::ArrayXXf nothing = Eigen::ArrayXXf::Zero(test::kColors, 2);
+  gallery.addLookAtTarget(seen(0, 0), 1.0);
+  gallery.addLookAtTarget(seen(0, 0, &nothing), 1.0);
+  EXPECT_EQ(of(gallery, clothes(0, 1))[kTarget], before);
+}
+
+TEST(Gallery, TellsOthersApartWhoWereMet) {
+  Gallery gallery(looksOf(clothes(0, 1)));
+  EXPECT_TRUE(gallery.isKnown(kTarget));
+  EXPECT_FALSE(gallery.isKnown(kFirstOther));
+  const int ann = gallery.meet(clothes(2, 3), 1.0);
+  const int bob = gallery.meet(clothes(4, 5), 1.0);
+  EXPECT_EQ(ann, kFirstOther);
+  EXPECT_EQ(bob, kFirstOther + 1);
+  EXPECT_TRUE(gallery.isKnown(ann));
+  EXPECT_FALSE(gallery.isKnown(bob + 1));
+  const Evidence evidence = of(gallery, clothes(4, 5));
+  EXPECT_GT(evidence[bob], 1.0);
+  EXPECT_LT(evidence[ann], -0.8);
+  EXPECT_LT(evidence[kTarget], -0.8);
+  EXPECT_EQ(evidence[bob + 1], -kInfinity);
+  EXPECT_NEAR(evidence[bob], of(gallery, clothes(0, 1))[kTarget], 1e-5)
+      << "all are known in the same way";
+}
+
+TEST(Gallery, ALookIsAveragedIntoWhoeverItIs) {
+  Gallery gallery(looksOf(clothes(0, 1)));
+  const int ann = gallery.meet(clothes(2, 3), 3.0);
+  const Eigen::ArrayXXf now = clothes(4, 5);
+  gallery.addLookAt(ann, seen(0, 0, &now), 1.0);
+  EXPECT_NEAR(of(gallery, now)[ann], target(0.9 * 2.0 * partLogOdds(0.25)), 1e-5);
+  EXPECT_NEAR(of(gallery, clothes(2, 3))[ann], target(0.9 * 2.0 * partLogOdds(0.75)), 1e-5);
+  gallery.addLookAt(ann + 1, seen(0, 0, &now), 1.0);
+  EXPECT_FALSE(gallery.isKnown(ann + 1)) << "nobody is met by that";
+}
+
+TEST(Gallery, HasRoomForSomeOthersThenReplaces) {
+  Gallery gallery(looksOf(clothes(0, 1)));
+  for (int i = 0; i < kMostOthers; ++i) {
+    EXPECT_FALSE(gallery.isFull());
+    EXPECT_EQ(gallery.meet(clothes(2, 3), 1.0), kFirstOther + i);
+  }
+  EXPECT_TRUE(gallery.isFull());
+  EXPECT_EQ(gallery.meet(clothes(4, 5), 1.0), kStranger);
+  EXPECT_LT(of(gallery, clothes(4, 5))[kFirstOther + 2], -0.8);
+  EXPECT_EQ(gallery.meet(clothes(4, 5), 1.0, kFirstOther + 2), kFirstOther + 2);
+  EXPECT_GT(of(gallery, clothes(4, 5))[kFirstOther + 2], 1.0);
+  EXPECT_LT(of(gallery, clothes(2, 3))[kFirstOther + 2], -0.8) << "who was there is forgotten";
+  EXPECT_EQ(gallery.meet(clothes(4, 5), 1.0, kTarget), kStranger) << "nobody replaces the target";
+  EXPECT_GT(of(gallery, clothes(0, 1))[kTarget], 1.0);
+}
+
+TEST(Gallery, RejectsBadParameters) {
+  const auto with = [](auto change) {
+    GalleryParams params;
+    change(params);
+    Gallery gallery(looksOf(clothes(0, 1)), params);
+  };
+  EXPECT_NO_THROW(with([](GalleryParams&) {}));
+  EXPECT_THROW(with([](GalleryParams& p) { p.look_gain = -0.1; }), std::invalid_argument);
+  EXPECT_THROW(with([](GalleryParams& p) { p.look_gain = std::nan(""); }), std::invalid_argument);
+  EXPECT_THROW(with([](GalleryParams& p) { p.rarity_share = -0.1; }), std::invalid_argument);
+  EXPECT_THROW(with([](GalleryParams& p) { p.likeness_offset = kInfinity; }),
+               std::invalid_argument);
+  EXPECT_THROW(with([](GalleryParams& p) { p.worst_likeness = 0.0; }), std::invalid_argument);
+  EXPECT_THROW(with([](GalleryParams& p) { p.misleading_share = 0.0; }), std::invalid_argument);
+  EXPECT_THROW(with([](GalleryParams& p) { p.misleading_share = 1.0; }), std::invalid_argument);
+}
+
+TEST(Gallery, RejectsLooksOfUnequalBins) {
+  TargetLooks looks = looksOf(clothes(0, 1));
+  looks.room = Eigen::ArrayXf::Constant(5, 0.2F);
+  EXPECT_THROW(Gallery{looks}, std::invalid_argument);
+  looks = looksOf(clothes(0, 1));
+  looks.anybody.resize(0);
+  EXPECT_THROW(Gallery{looks}, std::invalid_argument);
+}
+
+// Bug: a light's bins are not checked, and are read beyond their end.
+TEST(Gallery, RejectsALightOfOtherBins) {
+  TargetLooks looks = looksOf(clothes(0, 1));
+  looks.tints.push_back({Eigen::ArrayXi::Zero(2), 0.0});
+  EXPECT_THROW(Gallery{looks}, std::invalid_argument);
+  looks.tints.back().bins = Eigen::ArrayXi::Constant(test::kColors, test::kColors);
+  EXPECT_THROW(Gallery{looks}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace heel

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Where things are taken for people: how often, place by place.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <vector>
+
+namespace heel {
+
+/// What can be said of a place from where the camera stands.
+enum class Sight {
+  kUnknown,
+  kOutside,  ///< Not in the picture.
+  kHidden,   ///< Something stands before it.
+  kFree,     ///< It is seen through: nobody is there, or they would be seen.
+};
+
+/// Tells what is seen of a place on the floor, in the observations' frame.
+using SightOf = std::function<Sight(const Eigen::Vector2d&)>;
+
+struct ClutterMapParams {
+  double cell_m = 0.25;
+  double range_m = 8.0;  ///< Further away nothing is counted.
+  /// Things a square metre that look like people, where nothing is known yet.
+  double density_per_m2 = 0.1;
+  double prior_s = 1.0;  ///< So much looking is what that is worth.
+};
+
+/// Remembers, for each place, how much of the time in which it was seen a thing was observed there.
+/// Things stay: where nothing was, somebody who is there now came; where something always was,
+/// it is no person, however alike. A torus of cells, 40 m around: what is further apart shares
+/// them.
+class ClutterMap {
+ public:
+  /// @throws std::invalid_argument  if a parameter is out of its range.
+  explicit ClutterMap(const ClutterMapParams& params = {});
+
+  /// Things a square metre that are observed there, in a look.
+  double density_per_m2(const Eigen::Vector2d& place_m) const;
+
+  /// Counts time in which the places around were seen through.
+  void look(const Eigen::Vector2d& from_m, const SightOf& sight_of, double time_s);
+
+  /// Counts an observation there that is a thing with this probability.
+  void add(const Eigen::Vector2d& place_m, double probability, double time_s);
+
+ private:
+  struct Cell {
+    float occupied_s = 0.0F;
+    float seen_s = 0.0F;
+  };
+  template <typename Visitor>
+  void forCorners(const Eigen::Vector2d& place_m, const Visitor& visit) const;
+
+  ClutterMapParams params_;
+  int size_;
+  std::vector<Cell> cells_;
+};
+
+}  // namespace heel

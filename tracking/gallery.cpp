@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tracking/gallery.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace heel {
+namespace {
+
+/// A bin that a portrait lacks counts as this share of anybody's: nobody was seen from everywhere.
+constexpr float kUnseenShare = 0.1F;
+constexpr double kMostWeight = 30.0;  // Independent looks; an older one fades as new ones come.
+
+}  // namespace
+
+Gallery::Gallery(TargetLooks looks, const GalleryParams& params)
+    : looks_(std::move(looks)), params_(params), people_(kHypotheses) {
+  if (!(params.look_gain >= 0.0 && params.rarity_share >= 0.0) ||
+      !std::isfinite(params.likeness_offset) || !(params.worst_likeness < 0.0) ||
+      !(params.misleading_share >= 1e-6 && params.misleading_share < 1.0)) {
+    throw std::invalid_argument("GalleryParams: look_gain or misleading_share is out of its range");
+  }
+  if (looks_.target.size() == 0) return;
+  const Eigen::Index bins = looks_.target.rows();
+  if (looks_.room.size() != bins || looks_.anybody.size() != bins) {
+    throw std::invalid_argument("TargetLooks: room and anybody need the target's bins");
+  }
+  if (!(looks_.stature_sigma_m > 0.0)) {
+    throw std::invalid_argument("TargetLooks: stature_sigma_m must be positive");
+  }
+  for (const Tint& tint : looks_.tints) {
+    if (tint.bins.size() != bins || tint.bins.minCoeff() < 0 || tint.bins.maxCoeff() >= bins) {
+      throw std::invalid_argument("TargetLooks: a light needs one of the bins for each of them");
+    }
+  }
+  // Anybody's colours are seen in this room's light. Things have any colours, as strangers have.
+  anybody_ = 0.5F * looks_.anybody + 0.5F * looks_.room;
+  anybody_ += 1e-3F / static_cast<float>(bins);
+  anybody_ /= anybody_.sum();
+  log_anybody_ = anybody_.log();
+  Tint same;
+  same.bins = Eigen::ArrayXi::LinSpaced(bins, 0, static_cast<int>(bins) - 1);
+  looks_.tints.insert(looks_.tints.begin(), same);
+  people_[kTarget].mean = looks_.target;
+  people_[kTarget].weight = 1.0;
+  refresh(people_[kTarget]);
+}
+
+void Gallery::refresh(Person& person) const {
+  const Eigen::Index parts = person.mean.cols();
+  person.log_shares =
+      ((person.mean.colwise() + kUnseenShare * anybody_) / (1.0F + kUnseenShare)).log();
+  person.knows.resize(static_cast<std::size_t>(parts));
+  for (Eigen::Index part = 0; part < parts; ++part) {
+    person.knows[static_cast<std::size_t>(part)] = person.mean.col(part).sum() > 0.5F;
+  }
+}
+
+void Gallery::takeApart(const Eigen::ArrayXXf& look) {
+  look_.clear();
+  ends_.clear();
+  entropies_.clear();
+  for (Eigen::Index part = 0; part < look.cols(); ++part) {
+    double entropy = 0.0;
+    for (Eigen::Index bin = 0; bin < look.rows(); ++bin) {
+      const float share = look(bin, part);
+      if (share <= 0.0F) continue;
+      look_.push_back({static_cast<int>(bin), share});
+      entropy += static_cast<double>(share * std::log(share));
+    }
+    ends_.push_back(look_.size());
+    entropies_.push_back(entropy);
+  }
+}
+
+/// Over the parts that both the look and the person show, in the light that fits best.
+double Gallery::likeness(const Person& person) const {
+  const double rare = params_.rarity_share;
+  double best = -std::numeric_limits<double>::infinity();
+  for (const Tint& tint : looks_.tints) {
+    double sum = tint.log_prior;
+    for (std::size_t part = 0, i = 0; part < ends_.size(); i = ends_[part++]) {
+      if (i == ends_[part] || !person.knows[part]) continue;
+      const float* log_shares = person.log_shares.col(static_cast<Eigen::Index>(part)).data();
+      float like = 0.0F, usual = 0.0F;
+      for (std::size_t n = i; n < ends_[part]; ++n) {
+        const int bin = tint.bins[look_[n].bin];
+        like += look_[n].share * log_shares[bin];
+        usual += look_[n].share * log_anybody_[bin];
+      }
+      const double entropy = entropies_[part];
+      const double likeness =
+          static_cast<double>(like) - entropy + rare * (entropy - static_cast<double>(usual));
+      sum += params_.likeness_offset + std::max(likeness, params_.worst_likeness);
+    }
+    best = std::max(best, sum);
+  }
+  return params_.look_gain * best;
+}
+
+Evidence Gallery::logLikelihood(const Observation& seen) {
+  Evidence evidence = Evidence::Constant(-std::numeric_limits<double>::infinity());
+  evidence[kThing] = evidence[kStranger] = evidence[kTarget] = 0.0;
+  for (int h = kFirstOther; h < kHypotheses; ++h) {
+    if (isKnown(h)) evidence[h] = 0.0;
+  }
+  if (seen.look == nullptr || anybody_.size() == 0) return evidence;
+  if (seen.look->rows() != looks_.target.rows() || seen.look->cols() != looks_.target.cols()) {
+    throw std::invalid_argument("Gallery: a look needs the target's bins and parts");
+  }
+  takeApart(*seen.look);
+  if (look_.empty()) return evidence;
+  for (int h = kTarget; h < kHypotheses; ++h) {
+    if (isKnown(h)) evidence[h] = likeness(people_[index(h)]);
+  }
+  if (looks_.stature_m && seen.stature_m) {
+    // Among people, statures are spread by about 0.1 m.
+    const double sigma = looks_.stature_sigma_m;
+    const double apart = (*seen.stature_m - *looks_.stature_m) / sigma;
+    const double usual = (*seen.stature_m - 1.7) / std::hypot(0.1, sigma);
+    evidence[kTarget] += params_.look_gain * (0.5 * (usual * usual - apart * apart) +
+                                              std::log(std::hypot(0.1, sigma) / sigma));
+  }
+  for (int h = kTarget; h < kHypotheses; ++h) {
+    if (!std::isfinite(evidence[h])) continue;
+    const double mislead = params_.misleading_share;
+    const double ratio = std::exp(std::min(evidence[h], 100.0));
+    // Fewer looks are like somebody by chance than are unlike themselves.
+    evidence[h] =
+        std::log((1.0 - mislead) * ratio + mislead) - std::log1p(mislead * mislead * ratio);
+  }
+  return evidence;
+}
+
+void Gallery::average(Person& person, const Eigen::ArrayXXf& look, double weight) {
+  if (person.weight <= 0.0) {
+    person.mean = look;
+    person.weight = weight;
+    return;
+  }
+  person.weight = std::min(person.weight + weight, kMostWeight);
+  const auto gain = static_cast<float>(weight / person.weight);
+  for (Eigen::Index part = 0; part < look.cols(); ++part) {
+    if (look.col(part).sum() < 0.5F) continue;
+    const float keep = person.mean.col(part).sum() < 0.5F ? 0.0F : 1.0F - gain;
+    person.mean.col(part) = keep * person.mean.col(part) + (1.0F - keep) * look.col(part);
+  }
+}
+
+void Gallery::addLookAtTarget(const Observation& seen, double weight) {
+  if (seen.look == nullptr || anybody_.size() == 0) return;
+  average(lately_, *seen.look, weight);
+  Person& target = people_[kTarget];
+  for (Eigen::Index part = 0; part < target.mean.cols(); ++part) {
+    const bool has_anchor = looks_.target.col(part).sum() > 0.5F;
+    const bool has_lately = lately_.mean.col(part).sum() > 0.5F;
+    // Half is phase 1's from the beginning: lately's share grows as it comes to rest on more.
+    const auto lately = static_cast<float>(0.5 * lately_.weight / (lately_.weight + 3.0));
+    if (has_anchor && has_lately) {
+      target.mean.col(part) =
+          (1.0F - lately) * looks_.target.col(part) + lately * lately_.mean.col(part);
+    } else if (has_lately) {
+      target.mean.col(part) = lately_.mean.col(part);
+    }
+  }
+  refresh(target);
+}
+
+void Gallery::addLookAt(int hypothesis, const Observation& seen, double weight) {
+  if (seen.look == nullptr || !isKnown(hypothesis)) return;
+  average(people_[index(hypothesis)], *seen.look, weight);
+  refresh(people_[index(hypothesis)]);
+}
+
+bool Gallery::isFull() const {
+  return std::all_of(people_.begin() + kFirstOther, people_.end(),
+                     [](const Person& person) { return person.weight > 0.0; });
+}
+
+int Gallery::meet(const Eigen::ArrayXXf& mean_look, double weight, int replaced) {
+  int hypothesis = replaced;
+  for (int h = kFirstOther; hypothesis == kStranger && h < kHypotheses; ++h) {
+    if (!isKnown(h)) hypothesis = h;
+  }
+  if (hypothesis < kFirstOther) return kStranger;
+  Person& person = people_[index(hypothesis)];
+  person.mean = mean_look;
+  person.weight = weight;
+  refresh(person);
+  return hypothesis;
+}
+
+}  // namespace heel

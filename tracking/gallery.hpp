@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Everybody who is known, and what a look at a body says about who it is.
+#pragma once
+
+#include "tracking/observation.hpp"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace heel {
+
+/// How a description changes with the colour of the light.
+struct Tint {
+  Eigen::ArrayXi bins;     ///< For each bin, the one that its pixels would be in.
+  double log_prior = 0.0;  ///< How usual that light is, at most 0.
+};
+
+/// What phase 1 leaves, in the bins and parts of Observation::look.
+struct TargetLooks {
+  Eigen::ArrayXXf target;   ///< Mean of many looks; empty: nothing is known of anybody's looks.
+  Eigen::ArrayXf room;      ///< How the room's pixels are spread over the bins.
+  Eigen::ArrayXf anybody;   ///< How anybody's are, before they are known.
+  std::vector<Tint> tints;  ///< In which people may be seen again, besides the room's own.
+  std::optional<double> stature_m;
+  double stature_sigma_m = 0.05;  ///< Of a single look's stature.
+};
+
+/// Who or what a body may be.
+enum Hypothesis : int {
+  kThing,     ///< Furniture, a wall: no person.
+  kStranger,  ///< A person who is not in the gallery.
+  kTarget,
+  kFirstOther,  ///< The first of the others in the gallery.
+};
+inline constexpr int kMostOthers = 7;
+inline constexpr int kHypotheses = kFirstOther + kMostOthers;
+
+/// A value a hypothesis.
+using Evidence = Eigen::Array<double, kHypotheses, 1>;
+
+/// A look's log odds is look_gain * sum over its parts of (likeness + likeness_offset), where
+/// likeness = rarity_share * KL(look || anybody) - KL(look || person), in the light that fits best.
+/// The first two were learned on people of real recordings, see docs/results.md.
+struct GalleryParams {
+  double look_gain = 0.9;         ///< As far as parts of a body are independent.
+  double likeness_offset = 0.38;  ///< At minus this, a part says nothing.
+  double worst_likeness = -1.5;   ///< No part says more against a person than this [nat].
+  /// Of what a rare colour is worth: whoever wears one wears much of it.
+  double rarity_share = 0.5;
+  /// Share of looks that mislead (shade, somebody half in front): none says more against anybody
+  /// than this leaves, nor more for them than its square.
+  double misleading_share = 0.05;
+};
+
+/// The target, and the others who were met. Knows looks only: where anybody is, is Identity's.
+class Gallery {
+ public:
+  /// @throws std::invalid_argument  if a parameter is out of its range, or sizes do not fit.
+  explicit Gallery(TargetLooks looks = {}, const GalleryParams& params = {});
+
+  /// Logarithm of the likelihood of a look by each hypothesis, over a stranger's; -infinity where
+  /// there is nobody. What is not seen says nothing: without a look all are 0.
+  Evidence logLikelihood(const Observation& seen);
+
+  /// Another sure look at the target. What phase 1 learned keeps half of the say.
+  void addLookAtTarget(const Observation& seen, double weight);
+  void addLookAt(int hypothesis, const Observation& seen, double weight);
+
+  /// Puts somebody new into the gallery, in the place of `replaced` or a free one (kStranger).
+  /// @return  Their hypothesis.
+  int meet(const Eigen::ArrayXXf& mean_look, double weight, int replaced = kStranger);
+  bool isKnown(int hypothesis) const { return people_[index(hypothesis)].weight > 0.0; }
+  bool isFull() const;
+
+ private:
+  struct Person {
+    Eigen::ArrayXXf mean;        // of their looks
+    Eigen::ArrayXXf log_shares;  // of a bin, with a little of anybody's
+    std::vector<bool> knows;     // which parts
+    double weight = 0.0;         // independent looks that it rests on; 0: nobody
+  };
+  static std::size_t index(int hypothesis) { return static_cast<std::size_t>(hypothesis); }
+  void refresh(Person& person) const;
+  static void average(Person& person, const Eigen::ArrayXXf& look, double weight);
+  void takeApart(const Eigen::ArrayXXf& look);
+  double likeness(const Person& person) const;
+
+  TargetLooks looks_;
+  GalleryParams params_;
+  Eigen::ArrayXf anybody_, log_anybody_;
+  Person lately_;               // the target since phase 1
+  std::vector<Person> people_;  // by hypothesis
+  // The look at hand: bins that are not empty, part by part.
+  struct Share {
+    int bin;
+    float share;
+  };
+  std::vector<Share> look_;
+  std::vector<std::size_t> ends_;  // of the parts in look_
+  std::vector<double> entropies_;  // sum of share * log(share) of each part
+};
+
+}  // namespace heel

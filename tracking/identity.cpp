@@ -1,0 +1,370 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tracking/identity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace heel {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTwoPi = 6.283185307179586;
+constexpr double kRest_m = 0.2;         // Whoever is no further off has not moved.
+constexpr double kPlaceSigma_m = 0.25;  // Of where a person who is tracked is observed next.
+constexpr double kDetected = 0.9;       // Of the looks at somebody in full view.
+constexpr double kCoastMemory_s = 1.0;  // Hidden somebody may have gone elsewhere in this time.
+constexpr double kRoom_m2 = 20.0;       // Where somebody who is away may be.
+constexpr double kAwayMemory_s = 10.0;  // Time in which where they were seen last is forgotten.
+constexpr double kSure = 0.98;          // Looks at somebody of whom we are so sure are learned.
+constexpr double kSurest = 12.0;        // Logarithm of the greatest odds of places and ways.
+constexpr double kAlone_m = 1.0;        // Nobody nearer: then a look is theirs alone.
+
+Evidence weightOf(const Evidence& log_weight) { return (log_weight - log_weight.maxCoeff()).exp(); }
+
+/// Evidence as it is left if it is about somebody else with a probability.
+Evidence mix(const Evidence& own, const Evidence& other, double other_share) {
+  return other_share > 0.0 ? Evidence(((1.0 - other_share) * own.exp() / own.exp().sum() +
+                                       other_share * other.exp() / other.exp().sum())
+                                          .log())
+                           : own;
+}
+
+}  // namespace
+
+Identity::Identity(TargetLooks looks, const IdentityParams& params)
+    : params_(params),
+      gallery_(std::move(looks), params.gallery),
+      clutter_(params.clutter),
+      last_(kHypotheses) {
+  if (!(params.still_look_s > 0.0 && params.look_way_m > 0.0 && params.look_correlation >= 0.0 &&
+        params.stands_s > 0.0 && params.newcomer_is_target > 0.0 &&
+        params.newcomer_density_per_m2 > 0.0 && params.crowd_m > 0.0 && params.walk_mps > 0.0)) {
+    throw std::invalid_argument("IdentityParams: a parameter is not positive");
+  }
+}
+
+Identity::Belief* Identity::find(int track_id) {
+  return const_cast<Belief*>(std::as_const(*this).find(track_id));
+}
+
+const Identity::Belief* Identity::find(int track_id) const {
+  const auto found = std::find_if(beliefs_.begin(), beliefs_.end(),
+                                  [&](const Belief& b) { return b.track_id == track_id; });
+  return found == beliefs_.end() ? nullptr : &*found;
+}
+
+Evidence Identity::probabilities(int track_id) const {
+  const Belief* belief = find(track_id);
+  return belief == nullptr ? Evidence(Evidence::Zero()) : belief->probability;
+}
+
+double Identity::targetProbability(int track_id) const {
+  const Belief* belief = find(track_id);
+  return belief == nullptr ? 0.0 : belief->present * belief->probability[kTarget];
+}
+
+void Identity::look(const std::vector<Observation>& observations) {
+  looks_.resize(observations.size());
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    looks_[i] = gallery_.logLikelihood(observations[i]);
+  }
+}
+
+double Identity::logLikelihood(int track_id, int observation) const {
+  const Belief* belief = find(track_id);
+  if (belief == nullptr) return 0.0;
+  const Evidence& look = looks_[static_cast<std::size_t>(observation)];
+  return std::log((belief->probability * look.exp()).sum() + 1e-9);
+}
+
+/// What is believed of somebody who appears at a place, before a look at them.
+Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s) const {
+  Evidence weight = Evidence::Zero();
+  weight[kThing] = clutter_.density_per_m2(place_m);
+  weight[kStranger] = params_.newcomer_density_per_m2;
+  for (int h = kTarget; h < kHypotheses; ++h) {
+    if (h != kTarget && !gallery_.isKnown(h)) continue;
+    double reach = 1.0;
+    if (const auto& last = last_[static_cast<std::size_t>(h)]) {
+      const double away_s = std::max(stamp_s - last->seen_s, 0.0);
+      const double away_m = (place_m - last->place_m).norm();
+      const double sigma_m = std::hypot(0.3, params_.walk_mps * away_s);
+      const double near = std::exp(-0.5 * away_m * away_m / (sigma_m * sigma_m)) * kRoom_m2 /
+                          (kTwoPi * sigma_m * sigma_m);
+      const double known = std::exp(-away_s / kAwayMemory_s);
+      const double too_far_m = std::max(away_m - 0.8 - 2.5 * params_.walk_mps * away_s, 0.0);
+      reach = known * near + (1.0 - known) * std::exp(-too_far_m / 0.3);
+    }
+    weight[h] = params_.newcomer_density_per_m2 * params_.newcomer_is_target * reach;
+  }
+  for (const Hint& hint : hints_) {
+    if ((hint.place_m - place_m).norm() > hint.within_m) continue;
+    weight[kTarget] *= std::exp(hint.log_target);
+    weight[kThing] *= std::exp(-hint.log_person);
+  }
+  return weight.max(1e-12).log() + (weight > 0.0).select(Evidence::Zero(), -kInfinity);
+}
+
+void Identity::takeIn(Belief& belief, const Track& track, const Observation& seen, double stamp_s) {
+  const double off_m = (seen.position_m - belief.place_m).norm();
+  const double rest_m = kRest_m + 2.0 * std::sqrt(seen.covariance_m2.trace());
+  const double way_m = off_m > rest_m ? off_m : 0.0;
+  const double elapsed_s = std::max(stamp_s - belief.looked_s, 0.0);
+  double news = 1.0;
+  if (belief.looks > 0.0) {
+    news = -std::expm1(-elapsed_s / params_.still_look_s - way_m / params_.look_way_m);
+    const double there = kTwoPi * kPlaceSigma_m * kPlaceSigma_m;
+    const double clutter = clutter_.density_per_m2(seen.position_m);
+    belief.log_place[kThing] +=
+        way_m > 0.0 ? news * std::log(clutter * there) : elapsed_s / params_.stands_s;
+    // Whether it is whoever was there before: else they were missed, and something else came.
+    // As long as they are seen, that needs time; else it may have happened at any time.
+    const double missed = 1.0 - belief.present + belief.present * (1.0 - kDetected) * news;
+    const double same = (1.0 - missed) * track.density_per_m2;
+    const double other = missed * (clutter + params_.newcomer_density_per_m2);
+    const double other_share = other / (same + other);
+    belief.log_place = mix(belief.log_place, priorOf(seen.position_m, stamp_s), other_share);
+    belief.log_looks *= 1.0 - other_share;
+    for (const Hint& hint : hints_) {
+      if ((hint.place_m - seen.position_m).norm() > hint.within_m) continue;
+      belief.log_place[kThing] -= (news + elapsed_s / params_.stands_s) * hint.log_person;
+    }
+  }
+  // However long it lasts, nothing is surer than that: who sat for an hour may get up.
+  belief.log_place -= belief.log_place.maxCoeff();
+  belief.log_place =
+      belief.log_place.isFinite().select(belief.log_place.max(-kSurest), belief.log_place);
+  const Evidence& look = looks_[static_cast<std::size_t>(track.observation)];
+  belief.log_looks *= std::exp(-params_.look_correlation * news);
+  for (int h = 0; h < kHypotheses; ++h) {
+    if (std::isfinite(look[h])) belief.log_looks[h] += news * look[h];
+  }
+  belief.present = 1.0;
+  belief.looks += news;
+  belief.looked_s = stamp_s;
+  if (way_m > 0.0 || belief.sum_weight == 0.0) belief.place_m = seen.position_m;
+  if (seen.look == nullptr) return;
+  if (belief.sum.size() == 0) belief.sum.setZero(seen.look->rows(), seen.look->cols());
+  belief.sum += static_cast<float>(news) * *seen.look;
+  belief.sum_weight += news;
+}
+
+void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& tracks,
+                    const TrackerReport& report, const std::vector<Observation>& observations,
+                    const Viewpoint& viewpoint) {
+  if (dt_s < 0.0) last_.assign(kHypotheses, std::nullopt);  // Of another clock.
+  for (Belief& belief : beliefs_) belief.is_alive = false;
+  for (const Track& track : tracks) {
+    Belief* belief = find(track.id);
+    if (belief == nullptr) {
+      belief = &beliefs_.emplace_back();
+      belief->track_id = track.id;
+      belief->looked_s = stamp_s;
+      belief->place_m = track.motion.position_m();
+      belief->log_place = priorOf(belief->place_m, stamp_s);
+    }
+    belief->is_alive = true;
+    if (track.observation != Track::kUnseen) {
+      takeIn(*belief, track, observations[static_cast<std::size_t>(track.observation)], stamp_s);
+      continue;
+    }
+    const Sight sight =
+        viewpoint.sight_of ? viewpoint.sight_of(track.motion.position_m()) : Sight::kUnknown;
+    const bool is_gone = sight == Sight::kFree || sight == Sight::kOutside;
+    belief->present *= is_gone ? 1.0 - kDetected : std::exp(-std::max(dt_s, 0.0) / kCoastMemory_s);
+  }
+  beliefs_.erase(std::remove_if(beliefs_.begin(), beliefs_.end(),
+                                [](const Belief& belief) { return !belief.is_alive; }),
+                 beliefs_.end());
+  mixCrowds(tracks, dt_s);
+  weighTogether();
+  remember(tracks, observations, stamp_s);
+
+  const double time_s = std::clamp(dt_s, 0.0, 1.0);
+  clutter_.look(viewpoint.position_m, viewpoint.sight_of, time_s);
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    const ObservationUse& use = report.uses[i];
+    if (use.fate == ObservationFate::kFragment || use.verdict != GateVerdict::kAccepted) continue;
+    const Belief* belief = find(use.track_id);
+    double is_thing = belief != nullptr ? belief->probability[kThing] : 0.0;
+    if (belief == nullptr) {
+      const Evidence prior = weightOf(priorOf(observations[i].position_m, stamp_s));
+      is_thing = prior[kThing] / prior.sum();
+    }
+    clutter_.add(observations[i].position_m, is_thing, time_s);
+  }
+}
+
+/// Bodies that meet may part as each other.
+void Identity::mixCrowds(const std::vector<Track>& tracks, double dt_s) {
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    for (std::size_t j = i + 1; j < tracks.size(); ++j) {
+      const double apart_m =
+          (tracks[i].motion.position_m() - tracks[j].motion.position_m()).norm() / params_.crowd_m;
+      if (apart_m > 3.0) continue;
+      const double swap = 0.5 * std::exp(-0.5 * apart_m * apart_m) * -std::expm1(-dt_s);
+      if (!(swap > 1e-3)) continue;
+      Belief& a = *find(tracks[i].id);
+      Belief& b = *find(tracks[j].id);
+      const Evidence place = mix(a.log_place, b.log_place, swap);
+      const Evidence looks = (1.0 - swap) * a.log_looks + swap * b.log_looks;
+      b.log_place = mix(b.log_place, a.log_place, swap);
+      b.log_looks = (1.0 - swap) * b.log_looks + swap * a.log_looks;
+      a.log_place = place;
+      a.log_looks = looks;
+    }
+  }
+}
+
+/// The exact marginals of all beliefs together, where each person can be one track only: sums over
+/// all ways to give people to tracks, by which of the people are taken (forward-backward).
+void Identity::weighTogether() {
+  int bit_of[kHypotheses];
+  int bits = 0;
+  for (int h = kTarget; h < kHypotheses; ++h) {
+    bit_of[h] = h == kTarget || gallery_.isKnown(h) ? bits++ : -1;
+  }
+  const std::size_t sets = std::size_t{1} << bits;
+  const std::size_t count = beliefs_.size();
+  forward_.assign((count + 1) * sets, 0.0);
+  backward_.assign((count + 1) * sets, 0.0);
+  forward_[0] = 1.0;
+  std::fill(backward_.end() - static_cast<std::ptrdiff_t>(sets), backward_.end(), 1.0);
+  const auto rescale = [&](double* row) {
+    const double most = *std::max_element(row, row + sets);
+    for (std::size_t s = 0; s < sets; ++s) row[s] /= std::max(most, 1e-300);
+  };
+  for (std::size_t j = 0; j < count; ++j) {
+    const Evidence weight = weightOf(beliefs_[j].logWeight());
+    const double* before = &forward_[j * sets];
+    double* after = &forward_[(j + 1) * sets];
+    for (std::size_t s = 0; s < sets; ++s) {
+      after[s] += before[s] * (weight[kThing] + weight[kStranger]);
+      for (int h = kTarget; h < kHypotheses; ++h) {
+        if (bit_of[h] < 0 || (s >> bit_of[h] & 1U) != 0) continue;
+        after[s | std::size_t{1} << bit_of[h]] += before[s] * weight[h];
+      }
+    }
+    rescale(after);
+  }
+  away_.setOnes();
+  for (std::size_t j = count; j-- > 0;) {
+    Belief& belief = beliefs_[j];
+    const Evidence weight = weightOf(belief.logWeight());
+    const double* before = &forward_[j * sets];
+    const double* after = &backward_[(j + 1) * sets];
+    double* now = &backward_[j * sets];
+    belief.probability.setZero();
+    for (std::size_t s = 0; s < sets; ++s) {
+      now[s] = after[s] * (weight[kThing] + weight[kStranger]);
+      belief.probability[kThing] += before[s] * after[s] * weight[kThing];
+      belief.probability[kStranger] += before[s] * after[s] * weight[kStranger];
+      for (int h = kTarget; h < kHypotheses; ++h) {
+        if (bit_of[h] < 0 || (s >> bit_of[h] & 1U) != 0) continue;
+        const double rest = weight[h] * after[s | std::size_t{1} << bit_of[h]];
+        now[s] += rest;
+        belief.probability[h] += before[s] * rest;
+      }
+    }
+    rescale(now);
+    belief.probability /= belief.probability.sum();
+    away_ -= belief.present * belief.probability;
+  }
+  away_ = away_.max(0.0);
+}
+
+void Identity::remember(const std::vector<Track>& tracks,
+                        const std::vector<Observation>& observations, double stamp_s) {
+  std::optional<Eigen::Vector2d> target_sure_m;
+  for (const Track& track : tracks) {
+    const bool is_seen = track.observation != Track::kUnseen;
+    if (is_seen && find(track.id)->probability[kTarget] > kSure) {
+      target_sure_m = track.motion.position_m();
+    }
+  }
+  for (const Track& track : tracks) {
+    if (track.observation == Track::kUnseen) continue;
+    Belief& belief = *find(track.id);
+    const Eigen::Vector2d place_m = track.motion.position_m();
+    const Observation& seen = observations[static_cast<std::size_t>(track.observation)];
+    const bool is_alone = std::none_of(tracks.begin(), tracks.end(), [&](const Track& other) {
+      return other.id != track.id && (other.motion.position_m() - place_m).norm() < kAlone_m;
+    });
+    int best = kStranger;
+    for (int h = kTarget; h < kHypotheses; ++h) {
+      if (belief.probability[h] > 0.5) best = h;
+    }
+    if (best != kStranger) last_[static_cast<std::size_t>(best)] = Absence{place_m, stamp_s};
+    if (!is_alone) continue;
+    const double news = 0.1;
+    if (best == kStranger) {
+      const bool is_another = target_sure_m && (*target_sure_m - place_m).norm() > kAlone_m;
+      const bool is_unlike = belief.log_looks[kTarget] < -5.0;
+      const bool is_met = (is_another || is_unlike) && belief.probability[kStranger] > 0.9 &&
+                          belief.sum_weight > 1.5;
+      if (is_met) meet(belief);
+    } else if (belief.probability[best] > kSure) {
+      if (best == kTarget) {
+        gallery_.addLookAtTarget(seen, news);
+      } else {
+        gallery_.addLookAt(best, seen, news);
+      }
+    }
+  }
+}
+
+/// A stranger becomes one of the others; where there is no room, in the place of whoever has been
+/// away for longest.
+void Identity::meet(Belief& belief) {
+  int replaced = kStranger;
+  if (gallery_.isFull()) {
+    double oldest_s = kInfinity;
+    for (int h = kFirstOther; h < kHypotheses; ++h) {
+      const auto& last = last_[static_cast<std::size_t>(h)];
+      const double seen_s = last ? last->seen_s : -kInfinity;
+      if (away_[h] > 0.5 && seen_s < oldest_s) {
+        oldest_s = seen_s;
+        replaced = h;
+      }
+    }
+    if (replaced == kStranger) return;
+  }
+  Eigen::ArrayXXf mean = belief.sum;
+  for (Eigen::Index part = 0; part < mean.cols(); ++part) {
+    const float total = mean.col(part).sum();
+    if (total > 0.0F) mean.col(part) /= total;
+  }
+  const int h = gallery_.meet(mean, belief.sum_weight, replaced);
+  if (h == kStranger) return;
+  for (Belief& other : beliefs_) {
+    other.log_place[h] = other.log_place[kStranger] - 4.0;
+    other.log_looks[h] = 0.0;
+  }
+  belief.log_place[h] = belief.log_place[kStranger];
+  belief.log_place[kStranger] -= 4.0;
+  last_[static_cast<std::size_t>(h)] = Absence{belief.place_m, belief.looked_s};
+  away_[h] = 0.0;
+}
+
+void Identity::makeTarget(int track_id, const Eigen::Vector2d& place_m, double stamp_s) {
+  Belief* belief = find(track_id);
+  if (belief == nullptr) {
+    belief = &beliefs_.emplace_back();
+    belief->track_id = track_id;
+    belief->looked_s = stamp_s;
+    belief->place_m = place_m;
+    belief->log_place = priorOf(place_m, stamp_s);
+  }
+  for (double& weight : belief->log_place) weight = std::isfinite(weight) ? -7.0 : weight;
+  belief->log_place[kTarget] = 0.0;
+  belief->log_looks.setZero();
+  last_[kTarget] = Absence{place_m, stamp_s};
+  weighTogether();
+}
+
+}  // namespace heel

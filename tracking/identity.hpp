@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Who is who: what is believed of each track, by Bayes, over time.
+#pragma once
+
+#include "tracking/clutter_map.hpp"
+#include "tracking/gallery.hpp"
+#include "tracking/geometric_gate.hpp"
+#include "tracking/track.hpp"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace heel {
+
+struct IdentityParams {
+  GalleryParams gallery;
+  ClutterMapParams clutter;
+  /// A look is news as far as body or light have changed: at rest, one in still_look_s; on the way,
+  /// one in look_way_m.
+  double still_look_s = 30.0;
+  double look_way_m = 0.5;  ///< See still_look_s.
+  double stands_s =
+      10.0;  ///< After about this time at rest, people shift their place; things stay.
+  /// Looks of one track are alike: many are worth no more than 1 / look_correlation of them.
+  double look_correlation = 0.2;
+  double newcomer_is_target = 1.0;  ///< Odds that who comes is the target (away), not a stranger.
+  /// Strangers who come into view a square metre and look, beside the things there.
+  double newcomer_density_per_m2 = 0.05;
+  double crowd_m = 0.2;   ///< Tracks this near to each other may have swapped their people.
+  double walk_mps = 1.0;  ///< Who is away gets away from where they were seen at about this speed.
+};
+
+/// What is known of somebody who is not in view.
+struct Absence {
+  Eigen::Vector2d place_m = Eigen::Vector2d::Zero();
+  double seen_s = 0.0;
+};
+
+/// Believes of each track of a Tracker that it is a thing, a stranger, the target or one of the
+/// others who were met. Looks, places and ways are evidence; of several tracks at one time only one
+/// can be the target, and only one each other person; each may be away.
+///
+/// Allocates for a new track, and when somebody is met.
+class Identity {
+ public:
+  /// @throws std::invalid_argument  if a parameter is out of its range.
+  explicit Identity(TargetLooks looks = {}, const IdentityParams& params = {});
+
+  /// Takes the looks in; call it before the tracker's step, so that it can ask logLikelihood().
+  void look(const std::vector<Observation>& observations);
+
+  /// Of an observation being the next of a track, as far as looks go: relative to a stranger's.
+  double logLikelihood(int track_id, int observation) const;
+
+  /// Takes in what the tracker made of them.
+  void step(double stamp_s, double dt_s, const std::vector<Track>& tracks,
+            const TrackerReport& report, const std::vector<Observation>& observations,
+            const Viewpoint& viewpoint);
+
+  /// This track is the target, whatever was believed.
+  void makeTarget(int track_id, const Eigen::Vector2d& place_m, double stamp_s);
+
+  /// Another sensor has an opinion of who is there: logarithms of odds.
+  struct Hint {
+    Eigen::Vector2d place_m;
+    double within_m = 0.4;
+    double log_target = 0.0;  ///< That who appears there is the target, not somebody else.
+    double log_person = 0.0;  ///< That it is a person, not a thing.
+  };
+  void setHints(std::vector<Hint> hints) { hints_ = std::move(hints); }
+
+  /// Probabilities of a track's hypotheses; of a track that is not known, all 0.
+  Evidence probabilities(int track_id) const;
+  /// That the target is there now: a track that is not seen where it should be has lost somebody.
+  double targetProbability(int track_id) const;
+  /// Probability that the target is none of the tracks.
+  double away() const { return away_[kTarget]; }
+  /// What the looks of the last step said, observation by observation.
+  const std::vector<Evidence>& looks() const { return looks_; }
+
+ private:
+  struct Belief {
+    int track_id = 0;
+    Evidence log_place = Evidence::Zero();  ///< Weights by where it came from and goes,
+    Evidence log_looks = Evidence::Zero();  ///< and by what it looks like.
+    Evidence logWeight() const { return log_place + log_looks; }  ///< Of this track alone.
+    Evidence probability = Evidence::Zero();                      ///< Of all together.
+    Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  ///< Of the last look that counted.
+    double born_s = 0.0;
+    double looked_s = 0.0;
+    double looks = 0.0;   ///< Independent ones so far.
+    Eigen::ArrayXXf sum;  ///< Of the looks.
+    double sum_weight = 0.0;
+    double present = 1.0;  ///< Probability that whoever it is still is there.
+    bool is_alive = true;
+  };
+
+  Belief* find(int track_id);
+  const Belief* find(int track_id) const;
+  Evidence priorOf(const Eigen::Vector2d& place_m, double stamp_s) const;
+  void takeIn(Belief& belief, const Track& track, const Observation& seen, double stamp_s);
+  void mixCrowds(const std::vector<Track>& tracks, double dt_s);
+  void weighTogether();
+  void remember(const std::vector<Track>& tracks, const std::vector<Observation>& observations,
+                double stamp_s);
+  void meet(Belief& belief);
+
+  IdentityParams params_;
+  Gallery gallery_;
+  ClutterMap clutter_;
+  std::vector<Belief> beliefs_;
+  std::vector<Evidence> looks_;  // of the step's observations
+  std::vector<Hint> hints_;
+  Evidence away_ = Evidence::Ones();          // of each person, that they are none of the tracks
+  std::vector<std::optional<Absence>> last_;  // where each was seen last
+  std::vector<double> forward_, backward_;
+};
+
+}  // namespace heel
