@@ -173,7 +173,8 @@ void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDe
         const Eigen::Vector3f p = eye + depth[u] * ray;
         if ((p.head<2>() - place).squaredNorm() > radius2) continue;
         height_m = p.z();
-        heights_.add(static_cast<double>(height_m), v);
+        // Where only some colours have a depth, a head of others is not seen.
+        if (!view.depth_is_masked) heights_.add(static_cast<double>(height_m), v);
       } else if (board.contains(cv::Point(u, v))) {
         const float along = ray.head<2>().dot(towards);
         if (along <= 0.0F) continue;

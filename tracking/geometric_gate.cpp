@@ -23,8 +23,6 @@ const char* toText(GateVerdict verdict) {
       return "behind a wall";
     case GateVerdict::kInsideWall:
       return "inside a wall";
-    case GateVerdict::kNoLegs:
-      return "without legs";
   }
   return "unknown";
 }

@@ -24,9 +24,8 @@ enum class GateVerdict {
   kOutOfBounds,  ///< Outside the room.
   kBehindWall,   ///< A wall of the map crosses its ray.
   kInsideWall,   ///< At a place that the map says is wall.
-  kNoLegs,       ///< Where another sensor sees that nobody stands.
 };
-inline constexpr std::size_t kGateVerdicts = 7;
+inline constexpr std::size_t kGateVerdicts = 6;
 
 /// A few words for people, e.g. "behind a wall".
 const char* toText(GateVerdict verdict);

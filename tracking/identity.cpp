@@ -24,7 +24,12 @@ constexpr double kSure = 0.98;          // Looks at somebody of whom we are so s
 constexpr double kSurest = 12.0;        // Logarithm of the greatest odds of places and ways.
 constexpr double kAlone_m = 1.0;        // Nobody nearer: then a look is theirs alone.
 
-Evidence weightOf(const Evidence& log_weight) { return (log_weight - log_weight.maxCoeff()).exp(); }
+Evidence relative(const Evidence& log_weight) { return (log_weight - log_weight.maxCoeff()).exp(); }
+
+/// Whoever is observed no further off than this may not have moved.
+double restRadiusOf(const Observation& seen) {
+  return kRest_m + 2.0 * std::sqrt(seen.covariance_m2.trace());
+}
 
 /// Evidence as it is left if it is about somebody else with a probability.
 Evidence mix(const Evidence& own, const Evidence& other, double other_share) {
@@ -43,7 +48,7 @@ Identity::Identity(TargetLooks looks, const IdentityParams& params)
       last_(kHypotheses) {
   if (!(params.still_look_s > 0.0 && params.look_way_m > 0.0 && params.look_correlation >= 0.0 &&
         params.stands_s > 0.0 && params.newcomer_is_target > 0.0 &&
-        params.newcomer_density_per_m2 > 0.0 && params.crowd_m > 0.0 && params.walk_mps > 0.0)) {
+        params.newcomer_density_per_m2 > 0.0 && params.walk_mps > 0.0)) {
     throw std::invalid_argument("IdentityParams: a parameter is not positive");
   }
 }
@@ -65,13 +70,14 @@ Evidence Identity::probabilities(int track_id) const {
 
 double Identity::targetProbability(int track_id) const {
   const Belief* belief = find(track_id);
-  return belief == nullptr ? 0.0 : belief->present * belief->probability[kTarget];
+  return belief == nullptr ? 0.0 : belief->probability[kTarget];
 }
 
 void Identity::look(const std::vector<Observation>& observations) {
   looks_.resize(observations.size());
   for (std::size_t i = 0; i < observations.size(); ++i) {
-    looks_[i] = gallery_.logLikelihood(observations[i]);
+    looks_[i] = gallery_.logLikelihood(observations[i]) + observations[i].log_person;
+    looks_[i][kThing] -= observations[i].log_person;
   }
 }
 
@@ -79,7 +85,8 @@ double Identity::logLikelihood(int track_id, int observation) const {
   const Belief* belief = find(track_id);
   if (belief == nullptr) return 0.0;
   const Evidence& look = looks_[static_cast<std::size_t>(observation)];
-  return std::log((belief->probability * look.exp()).sum() + 1e-9);
+  const double empty = std::max(1.0 - belief->probability.sum(), 0.0);  // somebody else's, then
+  return std::log((belief->probability * look.exp()).sum() + empty + 1e-9);
 }
 
 /// What is believed of somebody who appears at a place, before a look at them.
@@ -102,56 +109,81 @@ Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s) const
     }
     weight[h] = params_.newcomer_density_per_m2 * params_.newcomer_is_target * reach;
   }
-  for (const Hint& hint : hints_) {
-    if ((hint.place_m - place_m).norm() > hint.within_m) continue;
-    weight[kTarget] *= std::exp(hint.log_target);
-    weight[kThing] *= std::exp(-hint.log_person);
-  }
   return weight.max(1e-12).log() + (weight > 0.0).select(Evidence::Zero(), -kInfinity);
 }
 
-void Identity::takeIn(Belief& belief, const Track& track, const Observation& seen, double stamp_s) {
+double Identity::newsOf(double elapsed_s, double way_m) const {
+  return -std::expm1(-std::max(elapsed_s, 0.0) / params_.still_look_s - way_m / params_.look_way_m);
+}
+
+double Identity::restsFor_s(int track_id, double stamp_s) const {
+  const Belief* belief = find(track_id);
+  return belief == nullptr ? 0.0 : stamp_s - belief->since_s;
+}
+
+Identity::Belief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, double stamp_s) {
+  Belief& belief = beliefs_.emplace_back();
+  belief.track_id = track_id;
+  belief.place_m = place_m;
+  belief.since_s = belief.seen_s = stamp_s;
+  belief.log_place = priorOf(place_m, stamp_s);
+  return belief;
+}
+
+/// Where somebody is and goes.
+void Identity::takePlace(Belief& belief, const Track& track, const Observation& seen,
+                         double stamp_s) {
   const double off_m = (seen.position_m - belief.place_m).norm();
-  const double rest_m = kRest_m + 2.0 * std::sqrt(seen.covariance_m2.trace());
-  const double way_m = off_m > rest_m ? off_m : 0.0;
-  const double elapsed_s = std::max(stamp_s - belief.looked_s, 0.0);
-  double news = 1.0;
-  if (belief.looks > 0.0) {
-    news = -std::expm1(-elapsed_s / params_.still_look_s - way_m / params_.look_way_m);
-    const double there = kTwoPi * kPlaceSigma_m * kPlaceSigma_m;
-    const double clutter = clutter_.density_per_m2(seen.position_m);
-    belief.log_place[kThing] +=
-        way_m > 0.0 ? news * std::log(clutter * there) : elapsed_s / params_.stands_s;
-    // Whether it is whoever was there before: else they were missed, and something else came.
-    // As long as they are seen, that needs time; else it may have happened at any time.
-    const double missed = 1.0 - belief.present + belief.present * (1.0 - kDetected) * news;
+  const bool has_moved = off_m > restRadiusOf(seen);
+  const double elapsed_s = std::max(stamp_s - belief.seen_s, 0.0);
+  const double news = newsOf(elapsed_s, has_moved ? off_m : 0.0);
+  const double there = kTwoPi * kPlaceSigma_m * kPlaceSigma_m;
+  const double clutter = clutter_.density_per_m2(seen.position_m);
+  const double stood_s = params_.stands_s + std::max(belief.seen_s - belief.since_s, 0.0);
+  const double stands = std::log1p(elapsed_s / stood_s);  // -log P(stays | person)
+  belief.log_place[kThing] += has_moved ? news * std::log(clutter * there) : stands;
+  // Whether it is whoever was there before: else they were missed, and something else came. As
+  // long as they are seen, that needs time; else it may have happened at any time.
+  const double missed = 1.0 - belief.present + belief.present * (1.0 - kDetected) * news;
+  if (missed > 0.0) {
     const double same = (1.0 - missed) * track.density_per_m2;
     const double other = missed * (clutter + params_.newcomer_density_per_m2);
     const double other_share = other / (same + other);
     belief.log_place = mix(belief.log_place, priorOf(seen.position_m, stamp_s), other_share);
     belief.log_looks *= 1.0 - other_share;
-    for (const Hint& hint : hints_) {
-      if ((hint.place_m - seen.position_m).norm() > hint.within_m) continue;
-      belief.log_place[kThing] -= (news + elapsed_s / params_.stands_s) * hint.log_person;
-    }
   }
   // However long it lasts, nothing is surer than that: who sat for an hour may get up.
   belief.log_place -= belief.log_place.maxCoeff();
   belief.log_place =
       belief.log_place.isFinite().select(belief.log_place.max(-kSurest), belief.log_place);
-  const Evidence& look = looks_[static_cast<std::size_t>(track.observation)];
-  belief.log_looks *= std::exp(-params_.look_correlation * news);
-  for (int h = 0; h < kHypotheses; ++h) {
-    if (std::isfinite(look[h])) belief.log_looks[h] += news * look[h];
-  }
   belief.present = 1.0;
-  belief.looks += news;
-  belief.looked_s = stamp_s;
-  if (way_m > 0.0 || belief.sum_weight == 0.0) belief.place_m = seen.position_m;
-  if (seen.look == nullptr) return;
+  belief.seen_s = stamp_s;
+  if (has_moved) {
+    belief.place_m = seen.position_m;
+    belief.since_s = stamp_s;
+  }
+}
+
+void Identity::takeLook(Belief& belief, const Observation& seen, const Evidence& look,
+                        const Eigen::Vector2d& eye_m, double stamp_s) {
+  const Eigen::Vector2d ray_m = seen.position_m - eye_m;
+  const double way_m = std::max((seen.position_m - belief.look_place_m).norm(),
+                                (ray_m - belief.look_ray_m).norm());
+  const bool is_other = way_m > restRadiusOf(seen) || belief.looks == 0.0;
+  const double elapsed_s = stamp_s - belief.looked_s;
+  belief.news = belief.looks == 0.0 ? 1.0 : newsOf(elapsed_s, is_other ? way_m : 0.0);
+  belief.log_looks *= std::exp(-params_.look_correlation * belief.news);
+  for (int h = 0; h < kHypotheses; ++h) {
+    if (std::isfinite(look[h])) belief.log_looks[h] += belief.news * look[h];
+  }
+  if (is_other) {
+    belief.look_place_m = seen.position_m;
+    belief.look_ray_m = ray_m;
+  }
   if (belief.sum.size() == 0) belief.sum.setZero(seen.look->rows(), seen.look->cols());
-  belief.sum += static_cast<float>(news) * *seen.look;
-  belief.sum_weight += news;
+  belief.sum += static_cast<float>(belief.news) * *seen.look;
+  belief.looks += belief.news;
+  belief.looked_s = stamp_s;
 }
 
 void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& tracks,
@@ -159,18 +191,21 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
                     const Viewpoint& viewpoint) {
   if (dt_s < 0.0) last_.assign(kHypotheses, std::nullopt);  // Of another clock.
   for (Belief& belief : beliefs_) belief.is_alive = false;
+  mixSwaps(report.swaps);
   for (const Track& track : tracks) {
+    const Observation* seen = track.observation == Track::kUnseen
+                                  ? nullptr
+                                  : &observations[static_cast<std::size_t>(track.observation)];
     Belief* belief = find(track.id);
-    if (belief == nullptr) {
-      belief = &beliefs_.emplace_back();
-      belief->track_id = track.id;
-      belief->looked_s = stamp_s;
-      belief->place_m = track.motion.position_m();
-      belief->log_place = priorOf(belief->place_m, stamp_s);
-    }
+    if (belief == nullptr) belief = &begin(track.id, track.motion.position_m(), stamp_s);
     belief->is_alive = true;
-    if (track.observation != Track::kUnseen) {
-      takeIn(*belief, track, observations[static_cast<std::size_t>(track.observation)], stamp_s);
+    belief->news = 0.0;
+    if (seen != nullptr) {
+      takePlace(*belief, track, *seen, stamp_s);
+      if (seen->look != nullptr) {
+        takeLook(*belief, *seen, looks_[static_cast<std::size_t>(track.observation)],
+                 viewpoint.position_m, stamp_s);
+      }
       continue;
     }
     const Sight sight =
@@ -181,7 +216,6 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
   beliefs_.erase(std::remove_if(beliefs_.begin(), beliefs_.end(),
                                 [](const Belief& belief) { return !belief.is_alive; }),
                  beliefs_.end());
-  mixCrowds(tracks, dt_s);
   weighTogether();
   remember(tracks, observations, stamp_s);
 
@@ -193,32 +227,34 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
     const Belief* belief = find(use.track_id);
     double is_thing = belief != nullptr ? belief->probability[kThing] : 0.0;
     if (belief == nullptr) {
-      const Evidence prior = weightOf(priorOf(observations[i].position_m, stamp_s));
+      const Evidence prior = relative(priorOf(observations[i].position_m, stamp_s));
       is_thing = prior[kThing] / prior.sum();
     }
     clutter_.add(observations[i].position_m, is_thing, time_s);
   }
 }
 
-/// Bodies that meet may part as each other.
-void Identity::mixCrowds(const std::vector<Track>& tracks, double dt_s) {
-  for (std::size_t i = 0; i < tracks.size(); ++i) {
-    for (std::size_t j = i + 1; j < tracks.size(); ++j) {
-      const double apart_m =
-          (tracks[i].motion.position_m() - tracks[j].motion.position_m()).norm() / params_.crowd_m;
-      if (apart_m > 3.0) continue;
-      const double swap = 0.5 * std::exp(-0.5 * apart_m * apart_m) * -std::expm1(-dt_s);
-      if (!(swap > 1e-3)) continue;
-      Belief& a = *find(tracks[i].id);
-      Belief& b = *find(tracks[j].id);
-      const Evidence place = mix(a.log_place, b.log_place, swap);
-      const Evidence looks = (1.0 - swap) * a.log_looks + swap * b.log_looks;
-      b.log_place = mix(b.log_place, a.log_place, swap);
-      b.log_looks = (1.0 - swap) * b.log_looks + swap * a.log_looks;
-      a.log_place = place;
-      a.log_looks = looks;
-    }
+/// Of bodies that meet nobody can say for sure which observation is whose.
+void Identity::mixSwaps(const std::vector<Swap>& swaps) {
+  for (const Swap& swap : swaps) {
+    Belief* a = find(swap.track_a);
+    Belief* b = find(swap.track_b);
+    if (a == nullptr || b == nullptr) continue;
+    const double q = swap.probability;
+    const Evidence place = mix(a->log_place, b->log_place, q);
+    const Evidence looks = (1.0 - q) * a->log_looks + q * b->log_looks;
+    b->log_place = mix(b->log_place, a->log_place, q);
+    b->log_looks = (1.0 - q) * b->log_looks + q * a->log_looks;
+    a->log_place = place;
+    a->log_looks = looks;
   }
+}
+
+/// Of a track's hypotheses, and of it being empty: whoever it was is not there any more.
+Evidence Identity::weightOf(const Belief& belief, double& nobody) {
+  Evidence weight = relative(belief.logWeight());
+  nobody = (1.0 - belief.present) * weight.sum();
+  return belief.present * weight;
 }
 
 /// The exact marginals of all beliefs together, where each person can be one track only: sums over
@@ -240,11 +276,12 @@ void Identity::weighTogether() {
     for (std::size_t s = 0; s < sets; ++s) row[s] /= std::max(most, 1e-300);
   };
   for (std::size_t j = 0; j < count; ++j) {
-    const Evidence weight = weightOf(beliefs_[j].logWeight());
+    double nobody = 0.0;
+    const Evidence weight = weightOf(beliefs_[j], nobody);
     const double* before = &forward_[j * sets];
     double* after = &forward_[(j + 1) * sets];
     for (std::size_t s = 0; s < sets; ++s) {
-      after[s] += before[s] * (weight[kThing] + weight[kStranger]);
+      after[s] += before[s] * (nobody + weight[kThing] + weight[kStranger]);
       for (int h = kTarget; h < kHypotheses; ++h) {
         if (bit_of[h] < 0 || (s >> bit_of[h] & 1U) != 0) continue;
         after[s | std::size_t{1} << bit_of[h]] += before[s] * weight[h];
@@ -255,13 +292,15 @@ void Identity::weighTogether() {
   away_.setOnes();
   for (std::size_t j = count; j-- > 0;) {
     Belief& belief = beliefs_[j];
-    const Evidence weight = weightOf(belief.logWeight());
+    double nobody = 0.0, empty = 0.0;
+    const Evidence weight = weightOf(belief, nobody);
     const double* before = &forward_[j * sets];
     const double* after = &backward_[(j + 1) * sets];
     double* now = &backward_[j * sets];
     belief.probability.setZero();
     for (std::size_t s = 0; s < sets; ++s) {
-      now[s] = after[s] * (weight[kThing] + weight[kStranger]);
+      now[s] = after[s] * (nobody + weight[kThing] + weight[kStranger]);
+      empty += before[s] * after[s] * nobody;
       belief.probability[kThing] += before[s] * after[s] * weight[kThing];
       belief.probability[kStranger] += before[s] * after[s] * weight[kStranger];
       for (int h = kTarget; h < kHypotheses; ++h) {
@@ -272,8 +311,8 @@ void Identity::weighTogether() {
       }
     }
     rescale(now);
-    belief.probability /= belief.probability.sum();
-    away_ -= belief.present * belief.probability;
+    belief.probability /= empty + belief.probability.sum();
+    away_ -= belief.probability;
   }
   away_ = away_.max(0.0);
 }
@@ -306,7 +345,7 @@ void Identity::remember(const std::vector<Track>& tracks,
       const bool is_another = target_sure_m && (*target_sure_m - place_m).norm() > kAlone_m;
       const bool is_unlike = belief.log_looks[kTarget] < -5.0;
       const bool is_met = (is_another || is_unlike) && belief.probability[kStranger] > 0.9 &&
-                          belief.sum_weight > 1.5;
+                          belief.looks > 1.5;
       if (is_met) meet(belief);
     } else if (belief.probability[best] > kSure) {
       if (best == kTarget) {
@@ -339,7 +378,7 @@ void Identity::meet(Belief& belief) {
     const float total = mean.col(part).sum();
     if (total > 0.0F) mean.col(part) /= total;
   }
-  const int h = gallery_.meet(mean, belief.sum_weight, replaced);
+  const int h = gallery_.meet(mean, belief.looks, replaced);
   if (h == kStranger) return;
   for (Belief& other : beliefs_) {
     other.log_place[h] = other.log_place[kStranger] - 4.0;
@@ -347,19 +386,13 @@ void Identity::meet(Belief& belief) {
   }
   belief.log_place[h] = belief.log_place[kStranger];
   belief.log_place[kStranger] -= 4.0;
-  last_[static_cast<std::size_t>(h)] = Absence{belief.place_m, belief.looked_s};
+  last_[static_cast<std::size_t>(h)] = Absence{belief.place_m, belief.seen_s};
   away_[h] = 0.0;
 }
 
 void Identity::makeTarget(int track_id, const Eigen::Vector2d& place_m, double stamp_s) {
   Belief* belief = find(track_id);
-  if (belief == nullptr) {
-    belief = &beliefs_.emplace_back();
-    belief->track_id = track_id;
-    belief->looked_s = stamp_s;
-    belief->place_m = place_m;
-    belief->log_place = priorOf(place_m, stamp_s);
-  }
+  if (belief == nullptr) belief = &begin(track_id, place_m, stamp_s);
   for (double& weight : belief->log_place) weight = std::isfinite(weight) ? -7.0 : weight;
   belief->log_place[kTarget] = 0.0;
   belief->log_looks.setZero();

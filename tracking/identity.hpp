@@ -21,18 +21,17 @@ namespace heel {
 struct IdentityParams {
   GalleryParams gallery;
   ClutterMapParams clutter;
-  /// A look is news as far as body or light have changed: at rest, one in still_look_s; on the way,
-  /// one in look_way_m.
+  /// A look is news as far as body, view or light have changed: at rest, one in still_look_s; on
+  /// the way, of the body or of the camera towards or around it, one in look_way_m.
   double still_look_s = 30.0;
   double look_way_m = 0.5;  ///< See still_look_s.
-  double stands_s =
-      10.0;  ///< After about this time at rest, people shift their place; things stay.
+  /// People who have stood for a time stay for about as long, and this time, again; things stay.
+  double stands_s = 10.0;
   /// Looks of one track are alike: many are worth no more than 1 / look_correlation of them.
   double look_correlation = 0.2;
   double newcomer_is_target = 1.0;  ///< Odds that who comes is the target (away), not a stranger.
   /// Strangers who come into view a square metre and look, beside the things there.
   double newcomer_density_per_m2 = 0.05;
-  double crowd_m = 0.2;   ///< Tracks this near to each other may have swapped their people.
   double walk_mps = 1.0;  ///< Who is away gets away from where they were seen at about this speed.
 };
 
@@ -66,19 +65,13 @@ class Identity {
   /// This track is the target, whatever was believed.
   void makeTarget(int track_id, const Eigen::Vector2d& place_m, double stamp_s);
 
-  /// Another sensor has an opinion of who is there: logarithms of odds.
-  struct Hint {
-    Eigen::Vector2d place_m;
-    double within_m = 0.4;
-    double log_target = 0.0;  ///< That who appears there is the target, not somebody else.
-    double log_person = 0.0;  ///< That it is a person, not a thing.
-  };
-  void setHints(std::vector<Hint> hints) { hints_ = std::move(hints); }
-
-  /// Probabilities of a track's hypotheses; of a track that is not known, all 0.
+  /// Probabilities of a track's hypotheses: that they are there, so that less than 1 is left where
+  /// nobody is seen any more. Of a track that is not known, all 0.
   Evidence probabilities(int track_id) const;
   /// That the target is there now: a track that is not seen where it should be has lost somebody.
   double targetProbability(int track_id) const;
+  /// For how long a track has not left its place.
+  double restsFor_s(int track_id, double stamp_s) const;
   /// Probability that the target is none of the tracks.
   double away() const { return away_[kTarget]; }
   /// What the looks of the last step said, observation by observation.
@@ -91,21 +84,29 @@ class Identity {
     Evidence log_looks = Evidence::Zero();  ///< and by what it looks like.
     Evidence logWeight() const { return log_place + log_looks; }  ///< Of this track alone.
     Evidence probability = Evidence::Zero();                      ///< Of all together.
-    Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  ///< Of the last look that counted.
-    double born_s = 0.0;
+    Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  ///< Where it rests, or was lately,
+    double since_s = 0.0;                               ///< since then;
+    double seen_s = 0.0;                                ///< seen last.
+    Eigen::Vector2d look_place_m = Eigen::Vector2d::Zero();  ///< Of the last look that counted,
+    Eigen::Vector2d look_ray_m = Eigen::Vector2d::Zero();    ///< seen from the camera.
     double looked_s = 0.0;
-    double looks = 0.0;   ///< Independent ones so far.
+    double looks = 0.0;   ///< Independent ones so far,
+    double news = 0.0;    ///< and in this step.
     Eigen::ArrayXXf sum;  ///< Of the looks.
-    double sum_weight = 0.0;
     double present = 1.0;  ///< Probability that whoever it is still is there.
     bool is_alive = true;
   };
 
   Belief* find(int track_id);
   const Belief* find(int track_id) const;
+  Belief& begin(int track_id, const Eigen::Vector2d& place_m, double stamp_s);
+  double newsOf(double elapsed_s, double way_m) const;
   Evidence priorOf(const Eigen::Vector2d& place_m, double stamp_s) const;
-  void takeIn(Belief& belief, const Track& track, const Observation& seen, double stamp_s);
-  void mixCrowds(const std::vector<Track>& tracks, double dt_s);
+  void takePlace(Belief& belief, const Track& track, const Observation& seen, double stamp_s);
+  void takeLook(Belief& belief, const Observation& seen, const Evidence& look,
+                const Eigen::Vector2d& eye_m, double stamp_s);
+  void mixSwaps(const std::vector<Swap>& swaps);
+  static Evidence weightOf(const Belief& belief, double& nobody);
   void weighTogether();
   void remember(const std::vector<Track>& tracks, const std::vector<Observation>& observations,
                 double stamp_s);
@@ -116,7 +117,6 @@ class Identity {
   ClutterMap clutter_;
   std::vector<Belief> beliefs_;
   std::vector<Evidence> looks_;  // of the step's observations
-  std::vector<Hint> hints_;
   Evidence away_ = Evidence::Ones();          // of each person, that they are none of the tracks
   std::vector<std::optional<Absence>> last_;  // where each was seen last
   std::vector<double> forward_, backward_;

@@ -98,9 +98,6 @@ class TargetTracker {
   /// @throws std::invalid_argument  if the place is not finite.
   void startAt(const Eigen::Vector2d& position_m);
 
-  /// What another sensor knows of who is where, for the next steps.
-  void setHints(std::vector<Identity::Hint> hints) { identity_.setHints(std::move(hints)); }
-
   /// Takes in the observations made at `stamp_s`.
   /// @return The target, valid until the next call.
   /// @throws std::invalid_argument  if the stamp is not finite.

@@ -90,6 +90,13 @@ struct ObservationUse {
   int track_id = 0;
 };
 
+/// Two tracks whose observations (or whose observation, if one is unseen) may as well be each
+/// other's.
+struct Swap {
+  int track_a = 0, track_b = 0;
+  double probability = 0.0;  ///< That they are, of these two ways to share them.
+};
+
 /// What happened in a step.
 struct TrackerReport {
   StepStatus status = StepStatus::kFirst;
@@ -100,6 +107,7 @@ struct TrackerReport {
   int fragments = 0;
   std::vector<ObservationUse> uses;  ///< One for each observation, in their order.
   std::vector<int> lost;             ///< Ids of confirmed tracks that ended.
+  std::vector<Swap> swaps;           ///< That are not improbable.
 
   int verdictCount(GateVerdict verdict) const {
     return verdicts[static_cast<std::size_t>(verdict)];

@@ -18,6 +18,8 @@ constexpr double kTwoPi = 6.283185307179586;
 constexpr double kStampTolerance_s = 1e-6;  // Sums of decimal stamps are not exact.
 constexpr double kLeastScoreShare = 1e-3;   // A score of 0 counts as this share of the best.
 
+constexpr double kUnlikely = 14.0;  // -2 ln of a likelihood ratio of 1 to 1000
+
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 int countSeen(std::uint32_t history, int frames) {
@@ -50,6 +52,7 @@ const TrackerReport& Tracker::step(double stamp_s, const std::vector<Observation
   report_.updated = report_.born = report_.fragments = 0;
   report_.uses.assign(observations.size(), {});
   report_.lost.clear();
+  report_.swaps.clear();
   if (!advanceTo(stamp_s)) {
     return report_;
   }
@@ -147,6 +150,25 @@ void Tracker::associate(const std::vector<Observation>& observations, const Look
       report_.uses[at(track.observation)] = {ObservationFate::kUpdated, GateVerdict::kAccepted,
                                              track.id};
       ++report_.updated;
+    }
+  }
+  noteSwaps();
+}
+
+/// A pair's cost is -2 ln of its likelihood over that of leaving both, which costs 0.
+void Tracker::noteSwaps() {
+  const auto cost = [this](std::size_t row, int column) {
+    return column == Assignment::kNone ? 0.0 : costs_(static_cast<int>(row), column);
+  };
+  for (std::size_t a = 0; a < rows_.size(); ++a) {
+    const int seen_a = assignment_.column_of_row[a];
+    for (std::size_t b = a + 1; b < rows_.size(); ++b) {
+      const int seen_b = assignment_.column_of_row[b];
+      const double more =
+          cost(a, seen_b) + cost(b, seen_a) - cost(a, seen_a) - cost(b, seen_b);
+      if (seen_a == seen_b || !(more < kUnlikely)) continue;
+      report_.swaps.push_back(
+          {tracks_[at(rows_[a])].id, tracks_[at(rows_[b])].id, 1.0 / (1.0 + std::exp(0.5 * more))});
     }
   }
 }

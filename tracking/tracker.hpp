@@ -70,6 +70,7 @@ class Tracker {
                  bool tentative);
   void fillCosts(int row, const Track& track, const std::vector<Observation>& observations,
                  const LookLikelihood& looks);
+  void noteSwaps();
   void updateTracks(double stamp_s, const std::vector<Observation>& observations);
   Track& startTrack(double stamp_s, const Eigen::Vector2d& position_m,
                     const Eigen::Matrix2d& noise_m2);

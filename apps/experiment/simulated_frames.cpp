@@ -42,7 +42,6 @@ GeometricGate gateOf(const Scene& scene, const CameraSetup& setup) {
   WallGateParams params;
   params.observations_in_map = {scene.robot.start, scene.robot.start_yaw_rad};
   params.eye_height_m = setup.T_base_camera.translation().z();
-  params.depth_error_pm = depthErrorOf(setup.camera);
   return wallGate(std::make_shared<const WallMap>(wallMapOf(scene)), params);
 }
 

@@ -23,12 +23,12 @@ const char* toText(FollowStage stage) {
       return "begin";
     case FollowStage::kLocalize:
       return "localize";
-    case FollowStage::kLookAround:
-      return "look_around";
     case FollowStage::kLearn:
       return "learn";
     case FollowStage::kSee:
       return "see";
+    case FollowStage::kLookAround:
+      return "look_around";
     case FollowStage::kDecide:
       return "decide";
     case FollowStage::kDrive:
@@ -53,16 +53,13 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
           robot.T_base_scanner, params_.localization),
       layer_(params_.obstacles),
       obstacle_points_(robot.camera, params_.obstacle_points),
-      people_around_(params_.people),
-      laser_gate_(std::make_shared<LaserGate>(
-          [this](const Vector2d& p) { return localization_.field().distance_m(p); }, params_.legs)),
+      legs_(params_.legs),
       learner_(std::in_place, robot.camera, params_.learn),
       runner_(std::move(plan)),
       room_(floor_, 1.0),
       planner_(floor_, params_.paths),
       local_planner_(params_.drive),
       goal_chooser_(params_.goal),
-      target_place_(params_.place),
       search_(floor_, walls_->floorGrid({1.1, 1.4}), params_.search),
       doorways_(findDoorways(floor_)) {
   if (start) localization_.startAt(*start);
@@ -82,12 +79,13 @@ const FollowStep& Follower::step(const RobotReadings& readings, const StageDone&
   localize(usable);
   finished(FollowStage::kLocalize);
 
+  const bool learns = learner_.has_value();
+  if (!learns) see(usable.frame);
+  if (learns && usable.frame != nullptr) learn(*usable.frame);
+  finished(learns ? FollowStage::kLearn : FollowStage::kSee);
+
   lookAround(usable);
   finished(FollowStage::kLookAround);
-
-  const bool learns = learner_.has_value();
-  if (usable.frame != nullptr) learns ? learn(*usable.frame) : see(*usable.frame);
-  finished(learns ? FollowStage::kLearn : FollowStage::kSee);
 
   decide(usable);
   finished(FollowStage::kDecide);
@@ -135,7 +133,9 @@ void Follower::localize(const RobotReadings& readings) {
     localization_.update(*readings.scan, masked_);
   }
   step_.robot = localization_.estimate();
-  laser_gate_->step(readings.scan, step_.robot.pose * robot_.T_base_scanner, dt_s_);
+  legs_.step(
+      readings.scan, step_.robot.pose * robot_.T_base_scanner,
+      [this](const Vector2d& p) { return localization_.field().distance_m(p); }, dt_s_);
 }
 
 // What stands and moves around the robot that no map shows.
@@ -148,8 +148,6 @@ void Follower::lookAround(const RobotReadings& readings) {
   if (readings.scan != nullptr) {
     layer_.addScan(*readings.scan, robot_.T_base_scanner,
                    [this](const Vector2d& p) { return isMapped(p); });
-    people_around_.step(steady_s_, *readings.scan, pose * robot_.T_base_scanner,
-                        [this](const Vector2d& p) { return localization_.field().distance_m(p); });
   }
   obstacles_age_s_ += dt_s_;
   if (readings.frame != nullptr && obstacles_age_s_ > params_.obstacles_every_s - 1e-6) {
@@ -166,15 +164,20 @@ void Follower::lookAround(const RobotReadings& readings) {
 // Who walks is left to the local planner; around who stands leads another way.
 void Follower::notePeople() {
   people_.clear();
-  if (target_place_.now()) {
-    people_.push_back(*target_place_.now());
-  } else if (target_place_.unseen_s() < params_.beside_s) {  // passes where no sensor looks
-    people_.push_back(target_place_.expected());
+  if (person_) {
+    people_.push_back(*person_);
+  } else if (unseen_s_ < params_.beside_s) {  // passes where no sensor looks
+    people_.push_back(expected());
   }
-  for (const MovingPerson& person : people_around_.people()) {
-    const bool is_target =
-        step_.target && (person.position - *step_.target).norm() < params_.target_radius_m;
-    if (!is_target) people_.push_back(person);
+  const Identity& identity = perception_->identity();
+  for (const Track& track : perception_->tracks()) {
+    if (track.status == TrackStatus::kTentative || track.id == target_.track_id) continue;
+    if (identity.probabilities(track.id)[kThing] > 0.5) continue;
+    MovingPerson& person = people_.emplace_back();
+    person.position = track.motion.position_m();
+    if (identity.restsFor_s(track.id, steady_s_) < params_.walks_on_s) {
+      person.velocity = track.motion.velocity_mps();
+    }
   }
   standing_.clear();
   for (const MovingPerson& person : people_) {
@@ -210,52 +213,51 @@ void Follower::learn(const Frame& frame) {
     throw NobodyLearned("nobody entered to be learned, or several did together");
   }
   PerceptionParams params = params_.perception;
-  params.gate =
-      allOf({wallGate(walls_, params_.gate),
-             [legs = laser_gate_](const auto& seen, const auto&) { return legs->judge(seen); }});
+  params.gate = wallGate(walls_, params_.gate);
   perception_.emplace(robot_.camera, learner_->learn(), params);
   const Vector2d place = step_.robot.pose * learner_->result().last_place_m;
   perception_->startAt(place);
-  target_place_.startAt(place);
+  last_.position = place;
   learner_.reset();
   step_.is_learning = false;
 }
 
-// Phase 2 (section 3.1, 3.2).
-void Follower::see(const Frame& frame) {
+// Phase 2 (section 3.1, 3.2), by camera and laser.
+void Follower::see(const Frame* frame) {
   const RobotPlace place{step_.robot.pose, step_.robot.covariance.topLeftCorner<2, 2>()};
-  std::vector<Identity::Hint> hints;
-  if (step_.target && target_place_.isSure()) hints.push_back({*step_.target, 0.5, 3.0, 2.0});
-  for (const Vector2d& other : target_place_.others()) hints.push_back({other, 0.3, -4.0, 0.0});
-  for (const int id : people_around_.walkers()) {
-    hints.push_back({people_around_.find(id)->motion.position_m(), 0.4, 0.0, 2.0});
+  const LaserBodies* legs = legs_.isFresh() ? &legs_ : nullptr;
+  if (frame != nullptr) {
+    Frame now = *frame;
+    now.stamp_s = tracked_s_ = steady_s_;
+    step_.perception = &perception_->step(now, place, legs);
+    target_ = step_.perception->target;
+  } else if (legs != nullptr && steady_s_ - tracked_s_ > params_.no_frame_s) {
+    target_ = perception_->step(tracked_s_ = steady_s_, place, *legs).target;
   }
-  perception_->setHints(std::move(hints));
-  step_.perception = &perception_->step(onSteadyClock(frame), place);
-  target_ = step_.perception->target;
-  for (const Track& track : perception_->tracks()) {
-    if (track.status == TrackStatus::kConfirmed && track.hits >= params_.surely_seen_hits) {
-      people_around_.confirm(track.motion.position_m(), params_.place.legs_within_m);
-    }
+  noteTarget();
+}
+
+void Follower::noteTarget() {
+  const bool was_known = person_.has_value();
+  person_.reset();
+  step_.target.reset();
+  unseen_s_ += dt_s_;
+  if (target_.hasPlace()) {
+    person_ = MovingPerson{target_.motion.position_m(), target_.motion.velocity_mps()};
+    step_.target = person_->position;
+    looked_s_ = 0.0;
   }
+  if (target_.status == TargetStatus::kFollowed) {
+    last_ = *person_;
+    unseen_s_ = 0.0;
+  }
+  if (was_known && !person_) search_.lose(last_, unseen_s_);
 }
 
 // The Petri net plan (section 3.4).
 void Follower::decide(const RobotReadings& readings) {
   if (step_.is_learning) return;
-  const bool was_known = step_.target.has_value();
-  const auto is_in_view = [this](const Vector2d& p) { return isInView(p); };
-  const auto is_unlike = [this](const Vector2d& p) {
-    return step_.perception != nullptr && isSomebodyElse(p);
-  };
-  target_place_.step(target_, people_around_, is_in_view, is_unlike, dt_s_);
-  step_.target.reset();
-  if (target_place_.now()) {
-    step_.target = target_place_.now()->position;
-    attention_.clear();
-    looked_s_ = 0.0;
-  } else {
-    if (was_known) search_.lose(target_place_.last(), target_place_.unseen_s());
+  if (!person_) {
     search_.wait(dt_s_);
     if (readings.frame != nullptr) search_.look(step_.robot.pose, dt_s_);
     if (readings.scan != nullptr) {
@@ -270,36 +272,19 @@ void Follower::decide(const RobotReadings& readings) {
   step_.action = action_ = action;
 }
 
-// Whether the camera sees somebody there who is not the target.
-bool Follower::isSomebodyElse(const Vector2d& place) const {
-  const std::vector<Track>& tracks = perception_->tracks();
-  return std::any_of(tracks.begin(), tracks.end(), [&](const Track& track) {
-    return track.status == TrackStatus::kConfirmed &&
-           (track.motion.position_m() - place).norm() < params_.place.legs_within_m &&
-           perception_->identity().targetProbability(track.id) < params_.worth_a_look;
-  });
-}
-
-// Whether the camera sees a whole person there, if there is one.
-bool Follower::isInView(const Vector2d& place) const {
-  const double away_m = (place - step_.robot.pose.position).norm();
-  return watch_.imageIsGood() && away_m > params_.near_m && away_m < params_.sees_within_m &&
-         std::abs(bearingOf(step_.robot.pose, place)) < 0.8 * robot_.halfView_rad();
-}
-
 void Follower::checkFacts() {
   using Fact = FollowingCondition;
   const FloorPose& pose = step_.robot.pose;
   const double away_m = step_.target ? (*step_.target - pose.position).norm() : 0.0;
   facts_[Fact::kTargetSeen] = step_.target.has_value();
-  facts_[Fact::kTargetLost] = !step_.target && target_place_.unseen_s() > params_.lost_after_s;
+  facts_[Fact::kTargetLost] = !step_.target && unseen_s_ > params_.lost_after_s;
   facts_[Fact::kNear] = step_.target && away_m < params_.near_m;
   facts_[Fact::kFar] = step_.target && away_m > params_.far_m;
   facts_[Fact::kArrived] = has_arrived_;
   facts_[Fact::kLookedAround] =
       turned_rad_ > kFullTurn_rad ||
       (!suspect() &&
-       std::abs(bearingOf(pose, target_place_.expected().position)) < params_.ahead_rad);
+       std::abs(bearingOf(pose, expected().position)) < params_.ahead_rad);
   facts_[Fact::kFullTurn] = turned_rad_ > kFullTurn_rad;
   facts_[Fact::kSearchOver] = search_.isOver();
   facts_[Fact::kBlind] = !watch_.blindness().empty() || step_.robot.lost;
@@ -315,7 +300,7 @@ void Follower::begin(FollowingAction action) {
   if (action != FollowingAction::kFollow && action != FollowingAction::kFace) making_room_.reset();
   if (action == FollowingAction::kSeek) {
     turned_rad_ = 0.0;
-    seek_side_ = sideOf(target_place_.expected().position);
+    seek_side_ = sideOf(expected().position);
   }
 }
 

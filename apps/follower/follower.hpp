@@ -5,7 +5,6 @@
 /// The robot's mind: readings in, a velocity out. The paper's system as one step.
 #pragma once
 
-#include "apps/follower/attention.hpp"
 #include "apps/follower/follower_params.hpp"
 #include "apps/follower/robot_readings.hpp"
 #include "mapping/wall_distance.hpp"
@@ -24,7 +23,7 @@ namespace heel {
 
 /// The stages of a step, for who times them; kBegin is before the first. The camera's is kLearn in
 /// phase 1 and kSee in phase 2.
-enum class FollowStage { kBegin, kLocalize, kLookAround, kLearn, kSee, kDecide, kDrive };
+enum class FollowStage { kBegin, kLocalize, kLearn, kSee, kLookAround, kDecide, kDrive };
 inline constexpr int kFollowStages = 7;
 const char* toText(FollowStage stage);
 
@@ -81,10 +80,9 @@ class Follower {
   void localize(const RobotReadings& readings);
   void lookAround(const RobotReadings& readings);
   void learn(const Frame& frame);
-  void see(const Frame& frame);
+  void see(const Frame* frame);
+  void noteTarget();
   void decide(const RobotReadings& readings);
-  bool isInView(const Eigen::Vector2d& place) const;
-  bool isSomebodyElse(const Eigen::Vector2d& place) const;
   void checkFacts();
   void begin(FollowingAction action);
   void drive();
@@ -103,8 +101,8 @@ class Follower {
   bool hasPassed() const;
   void goToLastSeen();
   bool looksAtSuspect();
-  std::optional<Eigen::Vector2d> suspect() const;
-  const Track* somebodyLikeTarget() const;
+  const Track* suspect() const;
+  MovingPerson expected() const;
   void seek();
   void search();
   void lookAt(const Eigen::Vector2d& place);
@@ -120,8 +118,7 @@ class Follower {
   Localization localization_;
   ObstacleLayer layer_;
   ObstaclePoints obstacle_points_;
-  PeopleAround people_around_;
-  std::shared_ptr<LaserGate> laser_gate_;  // shared with perception's gate
+  LaserBodies legs_;
   std::optional<PersonLearner> learner_;
   std::optional<Perception> perception_;
   PlanRunner runner_;
@@ -129,7 +126,6 @@ class Follower {
   GlobalPlanner planner_;
   LocalPlanner local_planner_;
   GoalChooser goal_chooser_;
-  TargetPlace target_place_;
   PersonSearch search_;
   std::vector<DoorwayOnMap> doorways_;
 
@@ -140,12 +136,15 @@ class Follower {
   double frame_s_ = 0.0;         // and the newest frame's stamp on it
   VelocityCommand speed_;        // by odometry
   TargetEstimate target_;
+  std::optional<MovingPerson> person_;  // the target, where it is known to be;
+  MovingPerson last_;                   // where it was when last seen,
+  double unseen_s_ = 0.0;               // so long ago
+  double tracked_s_ = 0.0;              // when the tracks were stepped last, on the steady clock
   FollowingFacts facts_;
   FollowingAction action_ = FollowingAction::kStop;
   double obstacles_age_s_ = 0.0;
   double turned_rad_ = 0.0;   // in the present seek
   double seek_side_ = 1.0;    // +1: to the left
-  Attention attention_;       // to who looks like the target, since the loss
   double looked_s_ = 0.0;     // at suspects, since then
   bool is_there_ = false;     // at the search's view, and turned to it
   bool has_arrived_ = false;  // where the last driveTo() went, or as near as can be

@@ -61,8 +61,8 @@ void Follower::drive() {
 
 // Stands off the person, in view of them and in nobody's way.
 void Follower::follow() {
-  if (!target_place_.now()) return driveTo(target_place_.last().position);
-  const MovingPerson& target = *target_place_.now();
+  if (!person_) return driveTo(last_.position);
+  const MovingPerson& target = *person_;
   const auto clearance = [this](const Vector2d& p) { return planner_.clearance().clearance(p); };
   const auto sees = [this](const Vector2d& from, const Vector2d& to) {
     const double eye_m = robot_.camera.T_base_camera.translation().z();
@@ -74,7 +74,7 @@ void Follower::follow() {
 
 // From within a metre somebody who stood there would be seen: no need to go on.
 void Follower::goToLastSeen() {
-  const Vector2d& place = target_place_.last().position;
+  const Vector2d& place = last_.position;
   driveTo(place);
   const bool is_near = (place - step_.robot.pose.position).norm() < params_.near_m;
   has_arrived_ = has_arrived_ || is_near;
@@ -82,38 +82,39 @@ void Follower::goToLastSeen() {
 
 // Somebody who may be the person is looked at before any other place.
 bool Follower::looksAtSuspect() {
-  const std::optional<Vector2d> place = suspect();
-  if (!place) return false;
+  const Track* track = suspect();
+  if (track == nullptr) return false;
   step_.reason += (step_.reason.empty() ? "" : "; ") + std::string("looks who that is");
-  lookAt(*place);
+  const Vector2d place = track->motion.position_m();
   looked_s_ += dt_s_;
-  if (const Track* like = somebodyLikeTarget()) {
-    attention_.pay(like->id, dt_s_ / params_.place.look_s);
-  }
+  lookAt(place);
+  const bool is_ahead = std::abs(bearingOf(step_.robot.pose, place)) < params_.ahead_rad;
+  const bool is_far = (place - step_.robot.pose.position).norm() > params_.far_m;
+  if (is_ahead && is_far) driveTo(place);  // From nearer more is seen.
   return true;
 }
 
-// Who looks a little like the person, or else walks where they can be.
-std::optional<Vector2d> Follower::suspect() const {
-  const double unseen_s = target_place_.unseen_s();
-  if (looked_s_ > params_.first_looks_s + params_.look_share * unseen_s) return std::nullopt;
-  if (const Track* like = somebodyLikeTarget()) return like->motion.position_m();
-  if (target_place_.suspect()) return target_place_.suspect()->position;
-  return std::nullopt;
-}
-
-// Whom the camera sees, and has not seen for long enough to tell; null if nobody.
-const Track* Follower::somebodyLikeTarget() const {
+// Who is likeliest to be the target; null if nobody is worth a look.
+const Track* Follower::suspect() const {
+  if (looked_s_ > params_.first_looks_s + params_.look_share * unseen_s_) return nullptr;
   const Track* best = nullptr;
   double most = params_.worth_a_look;
+  const Identity& identity = perception_->identity();
   for (const Track& track : perception_->tracks()) {
-    const double probability = perception_->identity().targetProbability(track.id);
-    if (track.status != TrackStatus::kConfirmed || probability <= most) continue;
-    if (attention_.isEnough(track.id)) continue;
-    best = &track;
+    if (track.status == TrackStatus::kTentative) continue;
+    const double probability = identity.targetProbability(track.id);
+    if (probability <= most) continue;
     most = probability;
+    best = &track;
   }
   return best;
+}
+
+// Where to look for the person first: where they are if they walked on.
+MovingPerson Follower::expected() const {
+  MovingPerson person = last_;
+  person.position += std::min(unseen_s_, params_.walks_on_s) * person.velocity;
+  return person;
 }
 
 // A turn on the spot, towards the side where the person was last seen.
@@ -190,8 +191,8 @@ bool Follower::makesRoom() {
 }
 
 bool Follower::isInTheWay() const {
-  if (!target_place_.now()) return false;
-  const MovingPerson& person = *target_place_.now();
+  if (!person_) return false;
+  const MovingPerson& person = *person_;
   const Vector2d& here = step_.robot.pose.position;
   const Vector2d to_robot = here - person.position;
   const bool comes = person.velocity.dot(to_robot) > params_.comes_mps * to_robot.norm();
@@ -202,7 +203,7 @@ bool Follower::isInTheWay() const {
 
 void Follower::goAside() {
   const Vector2d& here = step_.robot.pose.position;
-  const Vector2d& person = target_place_.now()->position;
+  const Vector2d& person = person_->position;
   const auto room = [this](const Vector2d& p) { return room_.clearance(p); };
   findWaysides(here, person, room, doorways_, params_.wayside, waysides_);
   for (const Vector2d& place : waysides_) {
@@ -219,8 +220,8 @@ void Follower::goAside() {
 
 // They are on the other side of where the robot stood, and go on.
 bool Follower::hasPassed() const {
-  if (!target_place_.now()) return false;
-  const MovingPerson& person = *target_place_.now();
+  if (!person_) return false;
+  const MovingPerson& person = *person_;
   const Vector2d off = person.position - making_room_->before;
   const bool is_beyond = off.dot(making_room_->person - making_room_->before) < 0.0;
   const Vector2d from_robot = person.position - step_.robot.pose.position;

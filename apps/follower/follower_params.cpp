@@ -16,7 +16,7 @@ void check(const FollowerParams& p) {
   requireNotNegative(
       "FollowerParams",
       {p.near_m,          p.far_m,           p.beside_m,        p.comes_mps,
-       p.makes_room_s,    p.waits_aside_s,   p.sees_within_m,   p.lost_after_s,
+       p.makes_room_s,    p.waits_aside_s,   p.no_frame_s,      p.lost_after_s,    p.worth_a_look, p.walks_on_s,
        p.first_looks_s,   p.look_share,      p.seek_radps,      p.ahead_rad,
        p.lost_turn_radps, p.give_up_s,       p.beside_s,        p.stands_mps,
        p.beside_people_m, p.target_radius_m, p.mapped_within_m, p.obstacles_every_s});
@@ -55,7 +55,6 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   params.obstacles.max_height_m = params.obstacle_points.max_height_m = robot.height_m;
   params.obstacles.laser_height_m = robot.scanner_height_m;
   params.gate.eye_height_m = robot.camera.T_base_camera.translation().z();
-  params.gate.depth_error_pm = params.legs.depth_error_pm = depthErrorOf(robot.camera.camera);
   params.paths.robot_radius_m = robot.drive.radius_m;
   params.goal.radius_m = robot.drive.radius_m;
   params.wayside.radius_m = robot.drive.radius_m;

@@ -5,14 +5,12 @@
 /// The robot that follows, and all that can be set of how it does.
 #pragma once
 
-#include "apps/follower/laser_gate.hpp"
+#include "apps/follower/laser_bodies.hpp"
 #include "apps/follower/learn_person.hpp"
 #include "apps/follower/obstacle_points.hpp"
-#include "apps/follower/people_around.hpp"
 #include "apps/follower/perception.hpp"
 #include "apps/follower/person_search.hpp"
 #include "apps/follower/sensor_watch.hpp"
-#include "apps/follower/target_place.hpp"
 #include "apps/follower/wall_gate.hpp"
 #include "mapping/localization.hpp"
 #include "mapping/obstacle_layer.hpp"
@@ -36,23 +34,20 @@ struct RobotDescription {
 
 /// All that can be set of a Follower. Some of it the robot tells, whatever is written here:
 /// drive.limits, paths.robot_radius_m, goal.radius_m, wayside.radius_m, obstacles.max_height_m,
-/// obstacles.laser_height_m, obstacle_points.max_height_m, gate.eye_height_m, gate.depth_error_pm
-/// and legs.depth_error_pm; see fittedTo().
+/// obstacles.laser_height_m, obstacle_points.max_height_m and gate.eye_height_m; see fittedTo().
 struct FollowerParams {
   LearnPersonParams learn;
   PerceptionParams perception;
   WallGateParams gate;
-  LaserGateParams legs;
+  LaserBodiesParams legs;
   LocalizationParams localization;
   ObstacleLayerParams obstacles;
   ObstaclePointsParams obstacle_points;
-  PeopleAroundParams people;
   SensorWatchParams watch;
   GlobalPlannerParams paths;
   LocalPlannerParams drive;
   GoalChooserParams goal;
   WaysideParams wayside;
-  TargetPlaceParams place;
   PersonSearchParams search;
 
   FollowerParams();  ///< With what suits following where a part's own default is for other uses.
@@ -63,17 +58,17 @@ struct FollowerParams {
   double comes_mps = 0.15;       ///< Who comes nearer than far_m at this speed wants to get past.
   double makes_room_s = 20.0;    ///< Leaves the way to them for so long at most, ...
   double waits_aside_s = 6.0;    ///< ... and for so long once it is out of their way.
-  int surely_seen_hits = 5;      ///< Whom the camera has seen so often is a person, if they stand.
-  double sees_within_m = 4.0;    ///< Somebody this near, before the camera, is seen.
+  double no_frame_s = 0.25;      ///< Without a picture for longer, tracks go on by the laser.
   double lost_after_s = 0.5;     ///< Without the target's place for longer, it is lost.
   double worth_a_look = 0.05;    ///< Who is the target with more than this probability may be them.
+  double walks_on_s = 2.0;       ///< Who was lost is expected to walk on for so long.
   double first_looks_s = 5.0;    ///< Who may be a lost person is looked at for so long at once,
   double look_share = 0.15;      ///< and in this share of the time in all.
   double seek_radps = 0.9;       ///< Turn of a seek.
   double ahead_rad = 0.3;        ///< What is within this of straight ahead is in view.
   double lost_turn_radps = 0.4;  ///< Turn of a robot that does not know where it is.
   double give_up_s = 4.0;        ///< Blocked for so long, it is as near as it can get.
-  double beside_s = 2.0;         ///< For so long a lost person is taken to walk on as they did.
+  double beside_s = 2.0;         ///< For so long a lost person is avoided where they may be.
   double stands_mps = 0.15;      ///< Who is slower stands: paths go around them, ...
   double beside_people_m = 0.05;   ///< ... with so much more room than around things.
   double target_radius_m = 0.45;   ///< Readings this near to the target are the target's own.

@@ -18,7 +18,8 @@
 namespace heel {
 namespace {
 
-constexpr double kBody_m = 0.4;  // Depths this near to a place's may be of somebody there.
+constexpr double kBody_m = 0.4;  // Depths, or legs, this near to a place may be of somebody there.
+constexpr double kMissedLegs = 0.05;  // Of people in its view, the laser misses as many.
 
 GeometricGate gateOf(const PerceptionParams& params) {
   std::vector<GeometricGate> gates = {tooClose(params.candidates.min_distance_m)};
@@ -108,7 +109,7 @@ Perception::Perception(const CameraSetup& setup, const AppearanceModel& model,
 }
 
 const PerceptionStep& Perception::step(const Frame& frame, const RobotPlace& robot,
-                                       const StageDone& done) {
+                                       const LaserBodies* legs, const StageDone& done) {
   const auto finished = [&done](Stage stage) {
     if (done) done(stage);
   };
@@ -131,18 +132,37 @@ const PerceptionStep& Perception::step(const Frame& frame, const RobotPlace& rob
   findCandidates(frame, robot.pose);
   finished(Stage::kPlanView);
 
+  if (legs != nullptr) addLegs(*legs);
+  track(robot, legs, !frame.image_bgr.empty());
+  finished(Stage::kTracking);
+  return step_;
+}
+
+const PerceptionStep& Perception::step(double stamp_s, const RobotPlace& robot,
+                                       const LaserBodies& legs) {
+  step_.stamp_s = stamp_s;
+  step_.observations.clear();
+  step_.blob_of_observation.clear();
+  addLegs(legs);
+  track(robot, &legs, false);
+  return step_;
+}
+
+void Perception::track(const RobotPlace& robot, const LaserBodies* legs, bool has_image) {
   Viewpoint viewpoint;
   viewpoint.position_m = robot.pose * Eigen::Vector2d(T_base_camera_.translation().head<2>());
   viewpoint.covariance_m2 = robot.covariance_m2;
-  if (!frame.image_bgr.empty()) {
-    viewpoint.sight_of = [this, &robot](const Eigen::Vector2d& place_m) {
-      return sightOf(place_m, robot.pose);
+  if (legs != nullptr || has_image) {
+    viewpoint.sight_of = [=, &robot](const Eigen::Vector2d& place_m) {
+      const Sight by_legs = legs != nullptr ? legs->sightOf(place_m) : Sight::kUnknown;
+      if (by_legs != Sight::kUnknown || !has_image) return by_legs;
+      const Sight sight = sightOf(place_m, robot.pose);
+      // With a laser, who is not in the picture need not be out of sight.
+      return sight == Sight::kOutside && legs != nullptr ? Sight::kUnknown : sight;
     };
   }
-  step_.target = tracker_.step(frame.stamp_s, step_.observations, viewpoint);
+  step_.target = tracker_.step(step_.stamp_s, step_.observations, viewpoint);
   step_.reason = whyNotSeen();
-  finished(Stage::kTracking);
-  return step_;
 }
 
 // A pixel's colour alone decides (section 3.1); where there is no image, a point's.
@@ -228,6 +248,38 @@ void Perception::findCandidates(const Frame& frame, const FloorPose& robot) {
   }
 }
 
+// The camera tells who somebody is, the laser where; and what stands on no legs is hardly a person.
+void Perception::addLegs(const LaserBodies& legs) {
+  const std::vector<Observation>& bodies = legs.bodies();
+  has_looks_.assign(bodies.size(), false);
+  pairs_.clear();
+  for (std::size_t k = 0; k < step_.observations.size(); ++k) {
+    const Observation& seen = step_.observations[k];
+    const double within_m = kBody_m + 2.0 * std::sqrt(seen.covariance_m2.trace());
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const double apart_m = (bodies[i].position_m - seen.position_m).norm();
+      if (apart_m < within_m) pairs_.push_back({apart_m, k, i});
+    }
+  }
+  std::sort(pairs_.begin(), pairs_.end());  // the nearest first
+  has_legs_.assign(step_.observations.size(), false);
+  for (const auto& [apart_m, k, i] : pairs_) {
+    if (has_legs_[k] || has_looks_[i]) continue;
+    has_legs_[k] = has_looks_[i] = true;
+    step_.observations[k].position_m = bodies[i].position_m;
+    step_.observations[k].covariance_m2 = bodies[i].covariance_m2;
+  }
+  for (std::size_t k = 0; k < has_legs_.size(); ++k) {
+    Observation& seen = step_.observations[k];
+    if (!has_legs_[k] && legs.sightOf(seen.position_m) == Sight::kFree) {
+      seen.log_person = std::log(kMissedLegs);
+    }
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!has_looks_[i]) step_.observations.push_back(bodies[i]);
+  }
+}
+
 void Perception::describe(const WorldBlob& blob, const Frame& frame, BodyDescription& out) {
   if (frame.image_bgr.empty()) return describer_.describe(*step_.cloud, blob.position_m, out);
   const BodyView view{frame.image_bgr, depth_m_, camera_.left, T_base_camera_,
@@ -277,7 +329,7 @@ const char* Perception::whyNotSeen() const {
   if (step_.color_points == 0) return "no pixel of the target's colours has a depth";
   if (step_.standing.empty()) return "the target's colours are not at a person's height";
   if (step_.blobs.empty()) return "too few points of the target's colours in one place";
-  if (step_.observations.empty()) return "no blob is as large and high as a person";
+  if (step_.blob_of_observation.empty()) return "no blob is as large and high as a person";
   if (step_.target.reason == TargetReason::kRejectedByGate) return toText(step_.target.verdict);
   return toText(step_.target.reason);
 }

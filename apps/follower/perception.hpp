@@ -6,6 +6,7 @@
 #pragma once
 
 #include "apps/follower/camera_setup.hpp"
+#include "apps/follower/laser_bodies.hpp"
 #include "apps/recording/frame.hpp"
 #include "cloud/color_cloud.hpp"
 #include "cloud/stereo_matcher.hpp"
@@ -21,6 +22,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -70,8 +72,9 @@ struct PerceptionStep {
   ColorCloud::ConstPtr cloud;             ///< In the base frame.
   pcl::Indices standing;                  ///< Points of the target's colours at their heights.
   std::vector<WorldBlob> blobs;           ///< All blobs, highest score first; in the base frame.
-  std::vector<Observation> observations;  ///< The blobs that may be people; in the world.
-  std::vector<int> blob_of_observation;   ///< Which blob each is.
+  /// The blobs that may be people, then what only the laser saw; in the world.
+  std::vector<Observation> observations;
+  std::vector<int> blob_of_observation;  ///< Which blob each is, as far as it is one.
   TargetEstimate target;
 
   /// The stage that lost the target, and why, as a short sentence; empty if it is seen.
@@ -91,14 +94,15 @@ class Perception {
   /// The target is at this place of the world in the next frame (after phase 1, say).
   void startAt(const Eigen::Vector2d& position_m) { tracker_.startAt(position_m); }
 
-  /// What another sensor knows of who is where, from the next frame on.
-  void setHints(std::vector<Identity::Hint> hints) { tracker_.setHints(std::move(hints)); }
-
   /// Stamps need not be regular; one that is not later than the last is skipped by the tracker.
+  /// @param legs  What the robot's laser sees; null: it has none.
   /// @throws std::invalid_argument  if the frame has not what the sensor gives, or its images do
   ///                                not fit each other.
   const PerceptionStep& step(const Frame& frame, const RobotPlace& robot = {},
-                             const StageDone& done = {});
+                             const LaserBodies* legs = nullptr, const StageDone& done = {});
+
+  /// Goes on by the laser alone, when no frame comes.
+  const PerceptionStep& step(double stamp_s, const RobotPlace& robot, const LaserBodies& legs);
 
   const Identity& identity() const { return tracker_.identity(); }
   const std::vector<Track>& tracks() const { return tracker_.tracker().tracks(); }
@@ -109,6 +113,8 @@ class Perception {
   void measureDepth(const Frame& frame);
   void keepStanding();
   void findCandidates(const Frame& frame, const FloorPose& robot);
+  void addLegs(const LaserBodies& legs);
+  void track(const RobotPlace& robot, const LaserBodies* legs, bool has_image);
   void describe(const WorldBlob& blob, const Frame& frame, BodyDescription& out);
   Eigen::Matrix2d depthCovariance(const Eigen::Vector2d& position_m) const;
   Sight sightOf(const Eigen::Vector2d& place_m, const FloorPose& robot) const;
@@ -134,6 +140,9 @@ class Perception {
   WorldBlobFinder finder_;
   BodyDescriber describer_;
   std::vector<BodyDescription> looks_;  // of the observations
+  // Of what the camera and the laser saw: what may be one person, the nearest first.
+  std::vector<std::tuple<double, std::size_t, std::size_t>> pairs_;
+  std::vector<bool> has_legs_, has_looks_;
   TargetTracker tracker_;
   PerceptionStep step_;
 };

@@ -29,11 +29,14 @@ class WallGate {
   GateVerdict judge(const Observation& seen, const Viewpoint& viewpoint) const {
     const Vector2d place = params_.observations_in_map * seen.position_m;
     const Vector2d eye = params_.observations_in_map * viewpoint.position_m;
+    const Eigen::Matrix2d turn =
+        Eigen::Rotation2Dd(params_.observations_in_map.yaw_rad).toRotationMatrix();
+    const Eigen::Matrix2d covariance_m2 = turn * seen.covariance_m2 * turn.transpose();
     GateVerdict verdict = GateVerdict::kAccepted;
     for (const Vector2d& shift : shifts(viewpoint.covariance_m2)) {
       const Vector2d from = eye + shift;
       if (map_->isWall({from.x(), from.y(), params_.eye_height_m})) continue;
-      const GateVerdict here = judge(from, place + shift);
+      const GateVerdict here = judge(from, place + shift, covariance_m2);
       if (here == GateVerdict::kAccepted) return here;
       if (verdict == GateVerdict::kAccepted) verdict = here;
     }
@@ -58,11 +61,13 @@ class WallGate {
     return result;
   }
 
-  GateVerdict judge(const Vector2d& eye, const Vector2d& place) const {
+  GateVerdict judge(const Vector2d& eye, const Vector2d& place,
+                    const Eigen::Matrix2d& covariance_m2) const {
     const Vector2d way = place - eye;
     const double range_m = way.norm();
-    const double doubt_m =
-        params_.half_body_m + params_.sigmas * params_.depth_error_pm * range_m * range_m;
+    const double variance_m2 =
+        range_m > 0.0 ? way.dot(covariance_m2 * way) / (range_m * range_m) : 0.0;
+    const double doubt_m = params_.half_body_m + params_.sigmas * std::sqrt(variance_m2);
     if (range_m > 1e-6) {
       const double longer = (range_m + doubt_m) / range_m;
       const Vector3d from(eye.x(), eye.y(), params_.eye_height_m);
@@ -91,7 +96,7 @@ double depthErrorOf(const StereoCamera& camera, double disparity_error_px) {
 GeometricGate wallGate(std::shared_ptr<const WallMap> map, const WallGateParams& params) {
   if (map == nullptr) throw std::invalid_argument("wallGate: there is no map");
   for (const double value :
-       {params.half_body_m, params.sigmas, params.depth_error_pm, params.eye_height_m}) {
+       {params.half_body_m, params.sigmas, params.eye_height_m}) {
     if (!(value >= 0.0) || !std::isfinite(value)) {
       throw std::invalid_argument("wallGate: a parameter must be finite and not negative");
     }

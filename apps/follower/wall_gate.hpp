@@ -24,10 +24,10 @@ struct WallGateParams {
   double half_body_m = 0.15;    ///< Nobody's middle comes nearer to a wall.
   HeightBand body{0.95, 1.9};   ///< Where what stands nearer than that counts as a wall.
   double sigmas = 2.0;          ///< So many standard deviations are allowed for.
-  double depth_error_pm = 0.0;  ///< A depth's standard deviation over its square [1/m].
 };
 
-/// depth_error_pm of a stereo camera whose disparities have this standard deviation. People are
+/// A depth's standard deviation over its square [1/m], of a stereo camera whose disparities have
+/// this one. People are
 /// seen better than by the default, but plain walls, of which the gate is to know, are often seen
 /// nearer than they are by a whole disparity: that is two deviations.
 double depthErrorOf(const StereoCamera& camera, double disparity_error_px = 0.5);
@@ -35,8 +35,8 @@ double depthErrorOf(const StereoCamera& camera, double disparity_error_px = 0.5)
 /// Casts a ray from the camera through each observation.
 ///
 /// - A wall crosses it before the observation: kBehindWall.
-/// - A wall is on it within half a body and `sigmas` of the depth's error (which grows with the
-///   square of the range) to either side of the observation, or is within half a body of it to any
+/// - A wall is on it within half a body and `sigmas` of the observation's own standard deviation
+///   along the ray (with stereo, it grows with the square of the range) to either side of the observation, or is within half a body of it to any
 ///   side: kInsideWall. What is seen there may be the wall itself; a doubtful depth counts against
 ///   an observation, for it is doubtful for a moment only and the track goes on without it.
 ///

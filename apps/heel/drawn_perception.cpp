@@ -66,7 +66,8 @@ void DrawnPerception::addTracks(const Perception& perception, const PerceptionSt
     const auto known = heights_m_.find(track.id);
     double height_m = known == heights_m_.end() ? kUsualHeight_m : known->second;
     const bool is_new = perception.report().status != StepStatus::kSkipped;
-    if (is_new && track.observation != Track::kUnseen) {
+    if (is_new && track.observation != Track::kUnseen &&
+        track.observation < static_cast<int>(step.blob_of_observation.size())) {
       const int blob = step.blob_of_observation[static_cast<std::size_t>(track.observation)];
       height_m = std::max(height_m, step.blobs[static_cast<std::size_t>(blob)].max_height_m);
     }

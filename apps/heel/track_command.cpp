@@ -73,7 +73,7 @@ void run(const Options& options) {
   while (!isStopRequested() && recording->next(frame)) {
     LapClock clock;
     try {
-      const PerceptionStep& step = perception.step(frame, {}, [&](Stage stage) {
+      const PerceptionStep& step = perception.step(frame, {}, nullptr, [&](Stage stage) {
         times_ms[static_cast<std::size_t>(stage)] = clock.lap_ms();
       });
       output.add(frame, perception, step, times_ms);

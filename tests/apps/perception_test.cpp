@@ -142,7 +142,7 @@ TEST(Perception, LeavesPeopleInOtherColoursAlone) {
 
 TEST(Perception, TellsTheStagesInTheirOrder) {
   std::vector<Stage> done;
-  perceptionOf().step(ColoredStage().frame(0.0), {}, [&](Stage stage) { done.push_back(stage); });
+  perceptionOf().step(ColoredStage().frame(0.0), {}, nullptr, [&](Stage stage) { done.push_back(stage); });
   EXPECT_EQ(done, (std::vector<Stage>{Stage::kColorFilter, Stage::kDepth, Stage::kHeight,
                                       Stage::kPlanView, Stage::kTracking}));
 }

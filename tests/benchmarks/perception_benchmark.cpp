@@ -47,7 +47,7 @@ void perceptionStep(benchmark::State& state, SensorKind sensor) {
     frame.stamp_s += 0.1;
     ++frames;
     stage_began = test::cpuSeconds();
-    last = &perception.step(frame, {}, stage_done);
+    last = &perception.step(frame, {}, nullptr, stage_done);
   });
   if (!last->target.hasPlace()) {
     state.SkipWithError(last->reason.c_str());

@@ -51,7 +51,6 @@ TEST(GeometricGate, EveryVerdictHasItsOwnText) {
   EXPECT_STREQ(toText(GateVerdict::kBehindWall), "behind a wall");
   EXPECT_STREQ(toText(GateVerdict::kInsideWall), "inside a wall");
   EXPECT_STREQ(toText(GateVerdict::kTooClose), "too close");
-  EXPECT_STREQ(toText(GateVerdict::kNoLegs), "without legs");
 }
 
 }  // namespace

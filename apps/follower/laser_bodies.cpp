@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/follower/laser_bodies.hpp"
+
+#include "apps/follower/param_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace heel {
+namespace {
+
+constexpr double kTwoPi = 6.283185307179586;
+constexpr int kLeastBeams = 3;  // that go through a place, for it to be free
+
+}  // namespace
+
+LaserBodies::LaserBodies(const LaserBodiesParams& params)
+    : params_(params), age_s_(std::numeric_limits<double>::infinity()) {
+  requireNotNegative("LaserBodiesParams", {params.off_map_m, params.max_range_m, params.max_gap_m,
+                                           params.max_width_m, params.pair_m, params.sigma_m,
+                                           params.half_width_m, params.reach_m, params.max_age_s});
+}
+
+// Runs of neighbouring ends that the map does not show.
+void LaserBodies::step(const LaserScan* scan, const FloorPose& T_world_scanner,
+                       const Clearance& clearance, double elapsed_s) {
+  age_s_ += elapsed_s;
+  if (scan == nullptr) return;
+  scan_ = *scan;
+  T_scanner_world_ = T_world_scanner.inverse();
+  age_s_ = 0.0;
+  const std::size_t count = scan_.ranges_m.size();
+  ends_m_.resize(count);
+  may_be_person_.assign(count, false);
+  bodies_.clear();
+  std::size_t first = 0;  // of the run at hand
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto range_m = static_cast<double>(scan_.ranges_m[i]);
+    const double angle = scan_.angle(i);
+    ends_m_[i] =
+        T_world_scanner * Eigen::Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
+    // False, too, where it is not a number, nowhere, or not known.
+    const bool is_unmapped = range_m > 0.0 && range_m < params_.max_range_m &&
+                             clearance(ends_m_[i]) > params_.off_map_m;
+    const bool goes_on =
+        is_unmapped && first < i && (ends_m_[i] - ends_m_[i - 1]).norm() <= params_.max_gap_m;
+    if (!goes_on) {
+      endRun(first, i);
+      first = is_unmapped ? i : i + 1;
+    }
+  }
+  endRun(first, count);
+}
+
+void LaserBodies::endRun(std::size_t first, std::size_t end) {
+  if (end < first + 2 || (ends_m_[end - 1] - ends_m_[first]).norm() > params_.max_width_m) return;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (std::size_t i = first; i < end; ++i) {
+    middle += ends_m_[i];
+    may_be_person_[i] = true;
+  }
+  const auto score = static_cast<double>(end - first);
+  middle /= score;
+  for (Observation& other : bodies_) {
+    if ((other.position_m - middle).norm() > params_.pair_m) continue;
+    other.position_m = (other.score * other.position_m + score * middle) / (other.score + score);
+    other.score += score;
+    return;
+  }
+  Observation& body = bodies_.emplace_back();
+  body.position_m = middle;
+  body.score = score;
+  body.covariance_m2 = Eigen::Matrix2d::Identity() * (params_.sigma_m * params_.sigma_m);
+}
+
+Sight LaserBodies::sightOf(const Eigen::Vector2d& place_m) const {
+  const Eigen::Vector2d place = T_scanner_world_ * place_m;
+  const double away_m = place.norm();
+  const auto count = static_cast<long>(scan_.ranges_m.size());
+  if (away_m < params_.half_width_m || away_m > params_.max_range_m || scan_.step_rad == 0.0) {
+    return Sight::kUnknown;
+  }
+  const double half_rad = std::asin(params_.half_width_m / away_m);
+  const double beams_each_side = half_rad / std::abs(scan_.step_rad);
+  const double turn = std::round(kTwoPi / std::abs(scan_.step_rad));
+  // The first beam is at first_rad; others may be a turn further.
+  double middle = std::remainder(std::atan2(place.y(), place.x()) - scan_.first_rad, kTwoPi) /
+                  scan_.step_rad;
+  if (middle < 0.0) middle += turn;
+  int through = 0;
+  bool is_hidden = false;
+  for (double b = std::ceil(middle - beams_each_side); b <= middle + beams_each_side; ++b) {
+    const auto i = static_cast<long>(b < 0.0 ? b + turn : b >= turn ? b - turn : b);
+    if (i < 0 || i >= count) continue;
+    const auto range_m = static_cast<double>(scan_.ranges_m[static_cast<std::size_t>(i)]);
+    if (!(range_m > 0.0)) continue;  // NaN too
+    const double behind_m = range_m - away_m * std::cos((b - middle) * scan_.step_rad);
+    if (std::abs(behind_m) < params_.reach_m && may_be_person_[static_cast<std::size_t>(i)]) {
+      return Sight::kUnknown;
+    }
+    is_hidden = is_hidden || behind_m < -params_.reach_m;
+    ++through;
+  }
+  if (is_hidden) return Sight::kHidden;
+  return through >= kLeastBeams ? Sight::kFree : Sight::kUnknown;
+}
+
+}  // namespace heel
