@@ -172,7 +172,7 @@ void Follower::notePeople() {
   const Identity& identity = perception_->identity();
   for (const Track& track : perception_->tracks()) {
     if (track.status == TrackStatus::kTentative || track.id == target_.track_id) continue;
-    if (identity.probabilities(track.id)[kThing] > 0.5) continue;
+    if (identity.probabilities(track.id)[kThing] > 1.0 - params_.surely_person) continue;
     MovingPerson& person = people_.emplace_back();
     person.position = track.motion.position_m();
     if (identity.restsFor_s(track.id, steady_s_) < params_.walks_on_s) {
@@ -190,10 +190,12 @@ bool Follower::isMapped(const Vector2d& place) const {
   return to_walls_.at(place) <= params_.mapped_within_m;
 }
 
-// People are avoided as people; what the camera saw of them would be in the way where they were.
+// Who walks is avoided as a person; what the camera saw of them would be in the way where they
+// were. Around who stands it is kept: who seems to be a person may be a table.
 bool Follower::isSomebody(const Vector2d& place) const {
   return std::any_of(people_.begin(), people_.end(), [&](const MovingPerson& person) {
-    return (person.position - place).norm() < params_.target_radius_m;
+    return person.velocity.norm() > params_.stands_mps &&
+           (person.position - place).norm() < params_.target_radius_m;
   });
 }
 
@@ -283,8 +285,7 @@ void Follower::checkFacts() {
   facts_[Fact::kArrived] = has_arrived_;
   facts_[Fact::kLookedAround] =
       turned_rad_ > kFullTurn_rad ||
-      (!suspect() &&
-       std::abs(bearingOf(pose, expected().position)) < params_.ahead_rad);
+      (!suspect() && std::abs(bearingOf(pose, expected().position)) < params_.ahead_rad);
   facts_[Fact::kFullTurn] = turned_rad_ > kFullTurn_rad;
   facts_[Fact::kSearchOver] = search_.isOver();
   facts_[Fact::kBlind] = !watch_.blindness().empty() || step_.robot.lost;

@@ -43,8 +43,8 @@ void LaserBodies::step(const LaserScan* scan, const FloorPose& T_world_scanner,
     ends_m_[i] =
         T_world_scanner * Eigen::Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
     // False, too, where it is not a number, nowhere, or not known.
-    const bool is_unmapped = range_m > 0.0 && range_m < params_.max_range_m &&
-                             clearance(ends_m_[i]) > params_.off_map_m;
+    const bool is_unmapped =
+        range_m > 0.0 && range_m < params_.max_range_m && clearance(ends_m_[i]) > params_.off_map_m;
     const bool goes_on =
         is_unmapped && first < i && (ends_m_[i] - ends_m_[i - 1]).norm() <= params_.max_gap_m;
     if (!goes_on) {
@@ -87,8 +87,8 @@ Sight LaserBodies::sightOf(const Eigen::Vector2d& place_m) const {
   const double beams_each_side = half_rad / std::abs(scan_.step_rad);
   const double turn = std::round(kTwoPi / std::abs(scan_.step_rad));
   // The first beam is at first_rad; others may be a turn further.
-  double middle = std::remainder(std::atan2(place.y(), place.x()) - scan_.first_rad, kTwoPi) /
-                  scan_.step_rad;
+  double middle =
+      std::remainder(std::atan2(place.y(), place.x()) - scan_.first_rad, kTwoPi) / scan_.step_rad;
   if (middle < 0.0) middle += turn;
   int through = 0;
   bool is_hidden = false;

@@ -152,15 +152,14 @@ void Perception::track(const RobotPlace& robot, const LaserBodies* legs, bool ha
   Viewpoint viewpoint;
   viewpoint.position_m = robot.pose * Eigen::Vector2d(T_base_camera_.translation().head<2>());
   viewpoint.covariance_m2 = robot.covariance_m2;
-  if (legs != nullptr || has_image) {
-    viewpoint.sight_of = [=, &robot](const Eigen::Vector2d& place_m) {
-      const Sight by_legs = legs != nullptr ? legs->sightOf(place_m) : Sight::kUnknown;
-      if (by_legs != Sight::kUnknown || !has_image) return by_legs;
-      const Sight sight = sightOf(place_m, robot.pose);
-      // With a laser, who is not in the picture need not be out of sight.
-      return sight == Sight::kOutside && legs != nullptr ? Sight::kUnknown : sight;
-    };
-  }
+  const auto sight_of = [&](const Eigen::Vector2d& place_m) {
+    const Sight by_legs = legs != nullptr ? legs->sightOf(place_m) : Sight::kUnknown;
+    if (by_legs != Sight::kUnknown || !has_image) return by_legs;
+    const Sight sight = sightOf(place_m, robot.pose);
+    // With a laser, who is not in the picture need not be out of sight.
+    return sight == Sight::kOutside && legs != nullptr ? Sight::kUnknown : sight;
+  };
+  if (legs != nullptr || has_image) viewpoint.sight_of = std::cref(sight_of);
   step_.target = tracker_.step(step_.stamp_s, step_.observations, viewpoint);
   step_.reason = whyNotSeen();
 }

@@ -69,9 +69,9 @@ struct PerceptionStep {
   int color_pixels = 0;  ///< Pixels (of an unorganized cloud: points) of the target's colours.
   int color_points = 0;  ///< Of these, the ones with a position.
   cv::Mat mask;          ///< CV_8UC1, the pixels of the target's colours; empty: no image.
-  ColorCloud::ConstPtr cloud;             ///< In the base frame.
-  pcl::Indices standing;                  ///< Points of the target's colours at their heights.
-  std::vector<WorldBlob> blobs;           ///< All blobs, highest score first; in the base frame.
+  ColorCloud::ConstPtr cloud;    ///< In the base frame.
+  pcl::Indices standing;         ///< Points of the target's colours at their heights.
+  std::vector<WorldBlob> blobs;  ///< All blobs, highest score first; in the base frame.
   /// The blobs that may be people, then what only the laser saw; in the world.
   std::vector<Observation> observations;
   std::vector<int> blob_of_observation;  ///< Which blob each is, as far as it is one.

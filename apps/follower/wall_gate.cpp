@@ -95,8 +95,7 @@ double depthErrorOf(const StereoCamera& camera, double disparity_error_px) {
 
 GeometricGate wallGate(std::shared_ptr<const WallMap> map, const WallGateParams& params) {
   if (map == nullptr) throw std::invalid_argument("wallGate: there is no map");
-  for (const double value :
-       {params.half_body_m, params.sigmas, params.eye_height_m}) {
+  for (const double value : {params.half_body_m, params.sigmas, params.eye_height_m}) {
     if (!(value >= 0.0) || !std::isfinite(value)) {
       throw std::invalid_argument("wallGate: a parameter must be finite and not negative");
     }

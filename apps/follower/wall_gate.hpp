@@ -19,11 +19,11 @@ struct WallGateParams {
   /// The frame of the observations and of the viewpoint, in the map's: where the robot's base is,
   /// if they are in its frame; nothing if they are in the map's already.
   FloorPose observations_in_map;
-  double eye_height_m = 1.15;   ///< Of the camera over the floor.
-  double body_height_m = 1.3;   ///< Where a ray ends; it passes over what is lower.
-  double half_body_m = 0.15;    ///< Nobody's middle comes nearer to a wall.
-  HeightBand body{0.95, 1.9};   ///< Where what stands nearer than that counts as a wall.
-  double sigmas = 2.0;          ///< So many standard deviations are allowed for.
+  double eye_height_m = 1.15;  ///< Of the camera over the floor.
+  double body_height_m = 1.3;  ///< Where a ray ends; it passes over what is lower.
+  double half_body_m = 0.15;   ///< Nobody's middle comes nearer to a wall.
+  HeightBand body{0.95, 1.9};  ///< Where what stands nearer than that counts as a wall.
+  double sigmas = 2.0;         ///< So many standard deviations are allowed for.
 };
 
 /// A depth's standard deviation over its square [1/m], of a stereo camera whose disparities have
@@ -36,9 +36,10 @@ double depthErrorOf(const StereoCamera& camera, double disparity_error_px = 0.5)
 ///
 /// - A wall crosses it before the observation: kBehindWall.
 /// - A wall is on it within half a body and `sigmas` of the observation's own standard deviation
-///   along the ray (with stereo, it grows with the square of the range) to either side of the observation, or is within half a body of it to any
-///   side: kInsideWall. What is seen there may be the wall itself; a doubtful depth counts against
-///   an observation, for it is doubtful for a moment only and the track goes on without it.
+///   along the ray (with stereo, it grows with the square of the range) to either side of the
+///   observation, or is within half a body of it to any side: kInsideWall. What is seen there may
+///   be the wall itself; a doubtful depth counts against an observation, for it is doubtful for a
+///   moment only and the track goes on without it.
 ///
 /// Where the robot is, may be doubtful for long, and counts for the observation: it is refused only
 /// if it would be from wherever the camera may be, i.e. also with camera and observation shifted

@@ -67,21 +67,15 @@ TEST(FollowerParams, ThatMakeNoSenseAreRefused) {
 }
 
 TEST(FollowerParams, EachPartRefusesItsOwnThatMakeNoSense) {
-  TargetPlaceParams place;
-  place.legs_alone_s = -1.0;
-  EXPECT_THROW(TargetPlace{place}, std::invalid_argument);
-  PeopleAroundParams people;
-  people.max_range_m = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(PeopleAround{people}, std::invalid_argument);
   ObstaclePointsParams points;
   points.nearest_m = 0.0;
   EXPECT_THROW(ObstaclePoints({}, points), std::invalid_argument);
   points = {};
   points.max_height_m = points.min_height_m;
   EXPECT_THROW(ObstaclePoints({}, points), std::invalid_argument);
-  LaserGateParams legs;
+  LaserBodiesParams legs;
   legs.max_width_m = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(LaserGate([](const Eigen::Vector2d&) { return 1.0; }, legs), std::invalid_argument);
+  EXPECT_THROW(LaserBodies{legs}, std::invalid_argument);
 }
 
 }  // namespace

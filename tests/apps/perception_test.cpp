@@ -140,9 +140,63 @@ TEST(Perception, LeavesPeopleInOtherColoursAlone) {
   }
 }
 
+/// A laser at the base's origin that sees a leg at these places, and nothing else.
+LaserBodies legsAt(const std::vector<Eigen::Vector2d>& places_m) {
+  LaserScan scan;
+  scan.first_rad = -3.14;
+  scan.step_rad = 0.01;
+  scan.ranges_m.assign(628, std::numeric_limits<float>::infinity());
+  for (const Eigen::Vector2d& place : places_m) {
+    const double beam = (std::atan2(place.y(), place.x()) - scan.first_rad) / scan.step_rad;
+    for (int i = -2; i <= 2; ++i) {
+      scan.ranges_m[static_cast<std::size_t>(std::lround(beam) + i)] =
+          static_cast<float>(place.norm());
+    }
+  }
+  LaserBodies legs;
+  legs.step(
+      &scan, {}, [](const Eigen::Vector2d&) { return 9.0; }, 0.1);
+  return legs;
+}
+
+TEST(Perception, TheLaserGoesOnWithWhomTheCameraKnew) {
+  Perception perception = perceptionOf();
+  const LaserBodies legs = legsAt({{2.6, -0.4}, {-2.0, 1.0}});
+  for (int i = 0; i < 4; ++i) {
+    const auto& step = perception.step(ColoredStage().person(2.5, -0.4).frame(0.1 * i), {}, &legs);
+    ASSERT_EQ(step.observations.size(), 2U);
+    ASSERT_EQ(step.blob_of_observation.size(), 1U);
+    EXPECT_NE(step.observations[0].look, nullptr);
+    EXPECT_EQ(step.observations[1].look, nullptr) << "behind the robot";
+    if (i > 1) expectFollowedAt(step, {2.6, -0.4});
+  }
+  for (int i = 4; i < 20; ++i) {  // They walk around the robot, out of the picture.
+    const double angle = 0.1 * (i - 3);
+    const Eigen::Vector2d place(2.6 * std::cos(angle), -0.4 - 2.6 * std::sin(angle));
+    const LaserBodies now = legsAt({place, {-2.0, 1.0}});
+    const auto& step = i % 2 == 0 ? perception.step(ColoredStage().frame(0.1 * i), {}, &now)
+                                  : perception.step(0.1 * i, {}, now);
+    ASSERT_TRUE(step.target.hasPlace()) << i;
+    EXPECT_LT((step.target.motion.position_m() - place).norm(), 0.35) << i;
+  }
+}
+
+TEST(Perception, WhoHasNoLegsIsHardlyAPerson) {
+  const auto thing = [](const std::vector<Eigen::Vector2d>& legs_m) {
+    const LaserBodies legs = legsAt(legs_m);
+    Perception perception = perceptionOf();
+    perception.step(ColoredStage().person(2.5, -0.4, kGreen).person(2.5, 0.4).frame(0.0), {},
+                    &legs);
+    EXPECT_EQ(perception.tracks().size(), 1U);
+    return perception.identity().probabilities(perception.tracks()[0].id)[kThing];
+  };
+  EXPECT_GT(thing({}), 5.0 * thing({{2.5, 0.4}}));
+}
+
 TEST(Perception, TellsTheStagesInTheirOrder) {
   std::vector<Stage> done;
-  perceptionOf().step(ColoredStage().frame(0.0), {}, nullptr, [&](Stage stage) { done.push_back(stage); });
+  perceptionOf().step(ColoredStage().frame(0.0), {}, nullptr,
+                      [&](Stage stage) { done.push_back(stage); });
   EXPECT_EQ(done, (std::vector<Stage>{Stage::kColorFilter, Stage::kDepth, Stage::kHeight,
                                       Stage::kPlanView, Stage::kTracking}));
 }

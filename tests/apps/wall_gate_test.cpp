@@ -47,9 +47,13 @@ class WallGate : public testing::Test {
   GateVerdict at(const Vector2d& place, const Matrix2d& covariance_m2 = Matrix2d::Zero()) const {
     Observation seen;
     seen.position_m = place;
+    const double sigma_m = depth_error_pm_ * (place - eye_).squaredNorm();
+    const Vector2d along = (place - eye_).normalized() * sigma_m;
+    seen.covariance_m2 = along * along.transpose();
     return wallGate(rooms(), params_)(seen, {eye_, covariance_m2});
   }
   WallGateParams params_;
+  double depth_error_pm_ = 0.0;
   Vector2d eye_ = Vector2d::Zero();
 };
 
@@ -100,7 +104,7 @@ TEST_F(WallGate, RaysPassOverLowFurniture) {
 TEST_F(WallGate, AllowsForTheErrorOfDepth) {
   // Two standard deviations of 0.01 z^2: 0.18 m at 3 m, besides half a body of 0.15 m.
   EXPECT_EQ(at({2.75, 1.0}), kAccepted);
-  params_.depth_error_pm = 0.01;
+  depth_error_pm_ = 0.01;
   EXPECT_EQ(at({2.75, 1.0}), kInside) << "it may be the wall";
   EXPECT_EQ(at({2.5, 1.0}), kAccepted);
   EXPECT_EQ(at({3.1, 0.0}), kAccepted) << "posts beside the ray do not matter";

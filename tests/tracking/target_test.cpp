@@ -340,18 +340,6 @@ TEST(TargetTracker, TwoWhoLookAlikeAfterALossAreAmbiguous) {
   EXPECT_TRUE(estimate.last_seen);
 }
 
-TEST(TargetTracker, ASensorThatKnowsWhoIsThereDecides) {
-  const auto is_taken = [](double log_target) {
-    Scene run;
-    run.lookAround();
-    run.target().setHints({{{2, 0}, 0.4, log_target, 2.0}});
-    return run.see({test::seen(2, 0)}, 3).hasPlace();
-  };
-  EXPECT_FALSE(is_taken(0.0));
-  EXPECT_TRUE(is_taken(3.0));
-  EXPECT_FALSE(is_taken(-3.0));
-}
-
 TEST(TargetTracker, SaysWhenTheGateRejectedTheTarget) {
   const GeometricGate wall_at_3 = [](const Observation& o, const Viewpoint&) {
     return o.position_m.x() > 3.0 ? GateVerdict::kBehindWall : GateVerdict::kAccepted;
@@ -412,10 +400,10 @@ TEST(TargetTracker, WhateverComesBeliefsStayProbabilities) {
     const int count = static_cast<int>(7.0 * any(random));
     for (int i = 0; i < count; ++i) {
       all.push_back(test::seen(i + 0.5 * any(random), 0.5 * any(random) + k / 50 % 5));
+      if (any(random) < 0.05) all.back().log_person = 5.0 * any(random) - 2.5;
       if (any(random) > 0.2) all.back().look = &looks[static_cast<std::size_t>(7 * i % 36)];
     }
     if (any(random) < 0.02) target.startAt({5.0 * any(random), 5.0 * any(random)});
-    if (any(random) < 0.05) target.setHints({{{2, 1}, 0.5, 5.0 * any(random) - 2.5, any(random)}});
     Viewpoint viewpoint;
     viewpoint.sight_of = [&](const Eigen::Vector2d&) {
       return static_cast<Sight>(static_cast<int>(3.999 * any(random)));
@@ -425,7 +413,7 @@ TEST(TargetTracker, WhateverComesBeliefsStayProbabilities) {
     for (const Track& track : target.tracker().tracks()) {
       const Evidence probability = target.identity().probabilities(track.id);
       ASSERT_TRUE((probability >= 0.0).all()) << k;
-      ASSERT_NEAR(probability.sum(), 1.0, 1e-9);
+      ASSERT_LE(probability.sum(), 1.0 + 1e-9);
       sum += target.identity().targetProbability(track.id);
     }
     ASSERT_LE(sum, 1.0 + 1e-9);
@@ -546,7 +534,7 @@ TEST(TargetTracker, RejectsBadInput) {
   EXPECT_THROW(with([](TargetParams& p) { p.take_above = 1.0; }), std::invalid_argument);
   EXPECT_THROW(with([](TargetParams& p) { p.keep_above = 0.0; }), std::invalid_argument);
   EXPECT_THROW(with([](TargetParams& p) { p.keep_above = 0.7; }), std::invalid_argument);
-  EXPECT_THROW(with([](TargetParams& p) { p.identity.crowd_m = 0.0; }), std::invalid_argument);
+  EXPECT_THROW(with([](TargetParams& p) { p.identity.walk_mps = 0.0; }), std::invalid_argument);
   TargetTracker target;
   EXPECT_THROW(target.startAt({std::nan(""), 0.0}), std::invalid_argument);
   EXPECT_THROW(target.step(std::numeric_limits<double>::quiet_NaN(), {}), std::invalid_argument);

@@ -169,6 +169,31 @@ TEST(Tracker, AsksForTheLooksOfPairsThatCanBeOnly) {
   EXPECT_THAT(asked, ElementsAre(std::pair(1, 2), std::pair(2, 0)));
 }
 
+TEST(Tracker, SaysWhichTracksMayHaveSwappedTheirObservations) {
+  const auto swapsAfter = [](double apart_m, std::vector<Observation> last,
+                             const Tracker::LookLikelihood& looks = {}) {
+    Tracker tracker;
+    for (int i = 0; i < 20; ++i) tracker.step(kDt_s * i, {seen(0, 0), seen(apart_m, 0)});
+    EXPECT_EQ(tracker.tracks().size(), 2U);
+    return tracker.step(kDt_s * 20, last, {}, looks).swaps;
+  };
+  EXPECT_THAT(swapsAfter(2.0, {seen(0, 0), seen(2, 0)}), IsEmpty());
+  const std::vector<Swap> even = swapsAfter(0.5, {seen(0.25, 0.1), seen(0.25, -0.1)});
+  ASSERT_EQ(even.size(), 1U);
+  EXPECT_EQ(even[0].track_a, 1);
+  EXPECT_EQ(even[0].track_b, 2);
+  EXPECT_NEAR(even[0].probability, 0.5, 1e-9);
+  const std::vector<Swap> one = swapsAfter(0.5, {seen(0.25, 0)});
+  ASSERT_EQ(one.size(), 1U) << "the other is unseen";
+  EXPECT_NEAR(one[0].probability, 0.5, 1e-9);
+  const auto knows = [](int track, int observation) {
+    return track == 1 + observation ? std::log(9.0) : 0.0;
+  };
+  const std::vector<Swap> known = swapsAfter(0.5, {seen(0.25, 0.1), seen(0.25, -0.1)}, knows);
+  ASSERT_EQ(known.size(), 1U);
+  EXPECT_NEAR(known[0].probability, 1.0 / 82.0, 1e-9) << "each look nine times likelier";
+}
+
 TEST(Tracker, TentativeTracksTakeWhatTheOthersLeave) {
   TrackerParams params;
   params.motion.velocity_memory_s = 0.1;  // Nobody is expected to go anywhere.
