@@ -22,6 +22,8 @@ constexpr double kRoom_m2 = 20.0;       // Where somebody who is away may be.
 constexpr double kAwayMemory_s = 10.0;  // Time in which where they were seen last is forgotten.
 constexpr double kSure = 0.98;          // Looks at somebody of whom we are so sure are learned.
 constexpr double kSurest = 12.0;        // Logarithm of the greatest odds of places and ways.
+constexpr double kOtherView = 0.5;      // A look with so much news begins another view;
+constexpr double kMostLooks = 10.0;     // so many of the last ones make its mean.
 constexpr double kAlone_m = 1.0;        // Nobody nearer: then a look is theirs alone.
 
 Evidence relative(const Evidence& log_weight) { return (log_weight - log_weight.maxCoeff()).exp(); }
@@ -125,7 +127,7 @@ Identity::Belief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, 
   Belief& belief = beliefs_.emplace_back();
   belief.track_id = track_id;
   belief.place_m = place_m;
-  belief.since_s = belief.seen_s = stamp_s;
+  belief.born_s = belief.since_s = belief.seen_s = stamp_s;
   belief.log_place = priorOf(place_m, stamp_s);
   return belief;
 }
@@ -150,7 +152,8 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
     const double other = missed * (clutter + params_.newcomer_density_per_m2);
     const double other_share = other / (same + other);
     belief.log_place = mix(belief.log_place, priorOf(seen.position_m, stamp_s), other_share);
-    belief.log_looks *= 1.0 - other_share;
+    belief.log_views *= 1.0 - other_share;
+    belief.log_free *= 1.0 - other_share;
   }
   // However long it lasts, nothing is surer than that: who sat for an hour may get up.
   belief.log_place -= belief.log_place.maxCoeff();
@@ -166,56 +169,51 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
 
 void Identity::takeLook(Belief& belief, const Observation& seen, const Evidence& look,
                         const Eigen::Vector2d& eye_m, double stamp_s) {
+  View& view = belief.view;
   const Eigen::Vector2d ray_m = seen.position_m - eye_m;
-  const double way_m = std::max((seen.position_m - belief.look_place_m).norm(),
-                                (ray_m - belief.look_ray_m).norm());
-  const bool is_other = way_m > restRadiusOf(seen) || belief.looks == 0.0;
-  const double elapsed_s = stamp_s - belief.looked_s;
-  belief.news = belief.looks == 0.0 ? 1.0 : newsOf(elapsed_s, is_other ? way_m : 0.0);
-  belief.log_looks *= std::exp(-params_.look_correlation * belief.news);
-  for (int h = 0; h < kHypotheses; ++h) {
-    if (std::isfinite(look[h])) belief.log_looks[h] += belief.news * look[h];
+  const double way_m =
+      std::max((seen.position_m - view.place_m).norm(), (ray_m - view.ray_m).norm());
+  const bool is_first = belief.looks == 0.0;
+  const double news =
+      is_first ? 1.0 : newsOf(stamp_s - view.since_s, way_m > restRadiusOf(seen) ? way_m : 0.0);
+  if (is_first || news > kOtherView) {
+    belief.log_views += view.evidence();
+    belief.log_views *= std::exp(-params_.look_correlation * news);
+    belief.looks += news;
+    view = View{seen.position_m, ray_m, stamp_s, news};
   }
-  if (is_other) {
-    belief.look_place_m = seen.position_m;
-    belief.look_ray_m = ray_m;
+  view.count = std::min(view.count + 1.0, kMostLooks);
+  for (int h = 0; h < kHypotheses; ++h) {
+    if (std::isfinite(look[h])) view.mean[h] += (look[h] - view.mean[h]) / view.count;
   }
   if (belief.sum.size() == 0) belief.sum.setZero(seen.look->rows(), seen.look->cols());
-  belief.sum += static_cast<float>(belief.news) * *seen.look;
-  belief.looks += belief.news;
-  belief.looked_s = stamp_s;
+  belief.sum += *seen.look;
 }
 
 void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& tracks,
                     const TrackerReport& report, const std::vector<Observation>& observations,
                     const Viewpoint& viewpoint) {
   if (dt_s < 0.0) last_.assign(kHypotheses, std::nullopt);  // Of another clock.
-  for (Belief& belief : beliefs_) belief.is_alive = false;
-  mixSwaps(report.swaps);
+  endBeliefs(tracks);
   for (const Track& track : tracks) {
-    const Observation* seen = track.observation == Track::kUnseen
-                                  ? nullptr
-                                  : &observations[static_cast<std::size_t>(track.observation)];
     Belief* belief = find(track.id);
     if (belief == nullptr) belief = &begin(track.id, track.motion.position_m(), stamp_s);
-    belief->is_alive = true;
-    belief->news = 0.0;
-    if (seen != nullptr) {
-      takePlace(*belief, track, *seen, stamp_s);
-      if (seen->look != nullptr) {
-        takeLook(*belief, *seen, looks_[static_cast<std::size_t>(track.observation)],
-                 viewpoint.position_m, stamp_s);
-      }
-      continue;
-    }
+    if (track.observation != Track::kUnseen) continue;
     const Sight sight =
         viewpoint.sight_of ? viewpoint.sight_of(track.motion.position_m()) : Sight::kUnknown;
     const bool is_gone = sight == Sight::kFree || sight == Sight::kOutside;
     belief->present *= is_gone ? 1.0 - kDetected : std::exp(-std::max(dt_s, 0.0) / kCoastMemory_s);
   }
-  beliefs_.erase(std::remove_if(beliefs_.begin(), beliefs_.end(),
-                                [](const Belief& belief) { return !belief.is_alive; }),
-                 beliefs_.end());
+  mixSwaps(report.swaps);
+  for (const Track& track : tracks) {
+    if (track.observation == Track::kUnseen) continue;
+    Belief& belief = *find(track.id);
+    const auto i = static_cast<std::size_t>(track.observation);
+    takePlace(belief, track, observations[i], stamp_s);
+    if (observations[i].look != nullptr) {
+      takeLook(belief, observations[i], looks_[i], viewpoint.position_m, stamp_s);
+    }
+  }
   weighTogether();
   remember(tracks, observations, stamp_s);
 
@@ -241,25 +239,21 @@ void Identity::mixSwaps(const std::vector<Swap>& swaps) {
     Belief* b = find(swap.track_b);
     if (a == nullptr || b == nullptr) continue;
     const double q = swap.probability;
-    const Evidence place = mix(a->log_place, b->log_place, q);
-    const Evidence looks = (1.0 - q) * a->log_looks + q * b->log_looks;
-    b->log_place = mix(b->log_place, a->log_place, q);
-    b->log_looks = (1.0 - q) * b->log_looks + q * a->log_looks;
-    a->log_place = place;
-    a->log_looks = looks;
+    const Evidence of_a = a->log_place + a->log_free + a->log_views;
+    const Evidence of_b = b->log_place + b->log_free + b->log_views;
+    const Evidence views_a = a->log_views;
+    a->log_views += q * (b->log_views - a->log_views);
+    b->log_views += q * (views_a - b->log_views);
+    a->log_place = mix(of_a, of_b, q) - a->log_free - a->log_views;
+    b->log_place = mix(of_b, of_a, q) - b->log_free - b->log_views;
+    for (View* view : {&a->view, &b->view}) view->count *= 1.0 - q;  // The next looks tell.
   }
-}
-
-/// Of a track's hypotheses, and of it being empty: whoever it was is not there any more.
-Evidence Identity::weightOf(const Belief& belief, double& nobody) {
-  Evidence weight = relative(belief.logWeight());
-  nobody = (1.0 - belief.present) * weight.sum();
-  return belief.present * weight;
 }
 
 /// The exact marginals of all beliefs together, where each person can be one track only: sums over
 /// all ways to give people to tracks, by which of the people are taken (forward-backward).
-void Identity::weighTogether() {
+/// @param is_left  Whether tracks that are not seen may be empty, and their people somebody else.
+void Identity::weigh(bool is_left, std::vector<Evidence>& marginals) {
   int bit_of[kHypotheses];
   int bits = 0;
   for (int h = kTarget; h < kHypotheses; ++h) {
@@ -269,15 +263,21 @@ void Identity::weighTogether() {
   const std::size_t count = beliefs_.size();
   forward_.assign((count + 1) * sets, 0.0);
   backward_.assign((count + 1) * sets, 0.0);
+  marginals.assign(count, Evidence::Zero());
   forward_[0] = 1.0;
   std::fill(backward_.end() - static_cast<std::ptrdiff_t>(sets), backward_.end(), 1.0);
   const auto rescale = [&](double* row) {
     const double most = *std::max_element(row, row + sets);
     for (std::size_t s = 0; s < sets; ++s) row[s] /= std::max(most, 1e-300);
   };
+  const auto weightsOf = [&](const Belief& belief, double& nobody) {
+    const Evidence weight = relative(belief.logWeight());
+    nobody = is_left ? (1.0 - belief.present) * weight.sum() : 0.0;
+    return Evidence(is_left ? belief.present * weight : weight);
+  };
   for (std::size_t j = 0; j < count; ++j) {
     double nobody = 0.0;
-    const Evidence weight = weightOf(beliefs_[j], nobody);
+    const Evidence weight = weightsOf(beliefs_[j], nobody);
     const double* before = &forward_[j * sets];
     double* after = &forward_[(j + 1) * sets];
     for (std::size_t s = 0; s < sets; ++s) {
@@ -289,32 +289,79 @@ void Identity::weighTogether() {
     }
     rescale(after);
   }
-  away_.setOnes();
   for (std::size_t j = count; j-- > 0;) {
-    Belief& belief = beliefs_[j];
     double nobody = 0.0, empty = 0.0;
-    const Evidence weight = weightOf(belief, nobody);
+    const Evidence weight = weightsOf(beliefs_[j], nobody);
     const double* before = &forward_[j * sets];
     const double* after = &backward_[(j + 1) * sets];
     double* now = &backward_[j * sets];
-    belief.probability.setZero();
+    Evidence& marginal = marginals[j];
     for (std::size_t s = 0; s < sets; ++s) {
       now[s] = after[s] * (nobody + weight[kThing] + weight[kStranger]);
       empty += before[s] * after[s] * nobody;
-      belief.probability[kThing] += before[s] * after[s] * weight[kThing];
-      belief.probability[kStranger] += before[s] * after[s] * weight[kStranger];
+      marginal[kThing] += before[s] * after[s] * weight[kThing];
+      marginal[kStranger] += before[s] * after[s] * weight[kStranger];
       for (int h = kTarget; h < kHypotheses; ++h) {
         if (bit_of[h] < 0 || (s >> bit_of[h] & 1U) != 0) continue;
         const double rest = weight[h] * after[s | std::size_t{1} << bit_of[h]];
         now[s] += rest;
-        belief.probability[h] += before[s] * rest;
+        marginal[h] += before[s] * rest;
       }
     }
     rescale(now);
-    belief.probability /= empty + belief.probability.sum();
-    away_ -= belief.probability;
+    marginal /= empty + marginal.sum();
   }
-  away_ = away_.max(0.0);
+}
+
+/// Whoever was in view together with somebody stays another when that one has left; only who came
+/// since may be them.
+void Identity::weighTogether() {
+  weigh(false, together_);
+  double unseen_since_s = kInfinity;
+  for (const Belief& belief : beliefs_) {
+    if (belief.present < 1.0) unseen_since_s = std::min(unseen_since_s, belief.seen_s);
+  }
+  if (unseen_since_s < kInfinity) weigh(true, after_);
+  away_.setOnes();
+  for (const bool is_new : {false, true}) {
+    for (std::size_t j = 0; j < beliefs_.size(); ++j) {
+      Belief& belief = beliefs_[j];
+      if ((belief.born_s > unseen_since_s) != is_new) continue;
+      belief.probability = is_new ? after_[j] : Evidence(belief.present * together_[j]);
+      auto people = belief.probability.tail<kHypotheses - kTarget>();
+      people = people.min(away_.tail<kHypotheses - kTarget>());
+      away_ = (away_ - belief.probability).max(0.0);
+    }
+  }
+}
+
+void Identity::endBeliefs(const std::vector<Track>& tracks) {
+  for (Belief& belief : beliefs_) {
+    belief.is_alive = std::any_of(tracks.begin(), tracks.end(),
+                                  [&](const Track& track) { return track.id == belief.track_id; });
+  }
+  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
+    if (!beliefs_[i].is_alive) end(i);
+  }
+  beliefs_.erase(std::remove_if(beliefs_.begin(), beliefs_.end(),
+                                [](const Belief& belief) { return !belief.is_alive; }),
+                 beliefs_.end());
+}
+
+/// A track ends. What its person could not be besides, they are not now.
+void Identity::end(std::size_t ended) {
+  const Belief& left = beliefs_[ended];
+  for (std::size_t j = 0; j < beliefs_.size(); ++j) {
+    Belief& other = beliefs_[j];
+    if (!other.is_alive || other.born_s > left.seen_s) continue;
+    const Evidence weight = other.logWeight();
+    for (int h = kTarget; h < kHypotheses; ++h) {
+      if (!(together_[ended][h] > 0.0 && together_[j][h] > 0.0)) continue;
+      const double alone = weight[h] - weight[kStranger];
+      const double together = std::log(together_[j][h] / together_[j][kStranger]);
+      other.log_free[h] = std::min(other.log_free[h], together - alone);
+    }
+  }
 }
 
 void Identity::remember(const std::vector<Track>& tracks,
@@ -343,9 +390,9 @@ void Identity::remember(const std::vector<Track>& tracks,
     const double news = 0.1;
     if (best == kStranger) {
       const bool is_another = target_sure_m && (*target_sure_m - place_m).norm() > kAlone_m;
-      const bool is_unlike = belief.log_looks[kTarget] < -5.0;
-      const bool is_met = (is_another || is_unlike) && belief.probability[kStranger] > 0.9 &&
-                          belief.looks > 1.5;
+      const bool is_unlike = belief.logLooks()[kTarget] < -5.0;
+      const bool is_met =
+          (is_another || is_unlike) && belief.probability[kStranger] > 0.9 && belief.looks > 1.5;
       if (is_met) meet(belief);
     } else if (belief.probability[best] > kSure) {
       if (best == kTarget) {
@@ -382,7 +429,7 @@ void Identity::meet(Belief& belief) {
   if (h == kStranger) return;
   for (Belief& other : beliefs_) {
     other.log_place[h] = other.log_place[kStranger] - 4.0;
-    other.log_looks[h] = 0.0;
+    other.log_views[h] = other.view.mean[h] = 0.0;
   }
   belief.log_place[h] = belief.log_place[kStranger];
   belief.log_place[kStranger] -= 4.0;
@@ -395,7 +442,10 @@ void Identity::makeTarget(int track_id, const Eigen::Vector2d& place_m, double s
   if (belief == nullptr) belief = &begin(track_id, place_m, stamp_s);
   for (double& weight : belief->log_place) weight = std::isfinite(weight) ? -7.0 : weight;
   belief->log_place[kTarget] = 0.0;
-  belief->log_looks.setZero();
+  belief->log_views.setZero();
+  belief->log_free.setZero();
+  belief->view = {};
+  belief->looks = 0.0;
   last_[kTarget] = Absence{place_m, stamp_s};
   weighTogether();
 }

@@ -78,21 +78,36 @@ class Identity {
   const std::vector<Evidence>& looks() const { return looks_; }
 
  private:
+  /// Looks from one side at somebody at one place: their mean says what one look does, but better.
+  struct View {
+    Eigen::Vector2d place_m = Eigen::Vector2d::Zero();
+    Eigen::Vector2d ray_m = Eigen::Vector2d::Zero();  ///< From the camera.
+    double since_s = 0.0;
+    double weight = 0.0;  ///< As far as it is another view than the one before.
+    Evidence mean = Evidence::Zero();
+    double count = 0.0;
+    Evidence evidence() const { return weight * mean; }
+  };
+
   struct Belief {
     int track_id = 0;
     Evidence log_place = Evidence::Zero();  ///< Weights by where it came from and goes,
-    Evidence log_looks = Evidence::Zero();  ///< and by what it looks like.
-    Evidence logWeight() const { return log_place + log_looks; }  ///< Of this track alone.
-    Evidence probability = Evidence::Zero();                      ///< Of all together.
+    Evidence logLooks() const { return log_views + view.evidence(); }  ///< and by looks.
+    /// By who was somebody else in view at the same time, and has left.
+    Evidence log_free = Evidence::Zero();
+    Evidence logWeight() const {
+      return log_place + log_free + logLooks();
+    }                                                   ///< All but who is
+                                                        ///< in view now.
+    Evidence probability = Evidence::Zero();            ///< Of all together.
     Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  ///< Where it rests, or was lately,
     double since_s = 0.0;                               ///< since then;
-    double seen_s = 0.0;                                ///< seen last.
-    Eigen::Vector2d look_place_m = Eigen::Vector2d::Zero();  ///< Of the last look that counted,
-    Eigen::Vector2d look_ray_m = Eigen::Vector2d::Zero();    ///< seen from the camera.
-    double looked_s = 0.0;
-    double looks = 0.0;   ///< Independent ones so far,
-    double news = 0.0;    ///< and in this step.
-    Eigen::ArrayXXf sum;  ///< Of the looks.
+    double seen_s = 0.0;                                ///< seen last,
+    double born_s = 0.0;                                ///< and first.
+    Evidence log_views = Evidence::Zero();              ///< Of the views before the present one.
+    View view;
+    double looks = 0.0;    ///< Independent ones so far.
+    Eigen::ArrayXXf sum;   ///< Of all looks.
     double present = 1.0;  ///< Probability that whoever it is still is there.
     bool is_alive = true;
   };
@@ -106,8 +121,10 @@ class Identity {
   void takeLook(Belief& belief, const Observation& seen, const Evidence& look,
                 const Eigen::Vector2d& eye_m, double stamp_s);
   void mixSwaps(const std::vector<Swap>& swaps);
-  static Evidence weightOf(const Belief& belief, double& nobody);
   void weighTogether();
+  void weigh(bool is_left, std::vector<Evidence>& marginals);
+  void endBeliefs(const std::vector<Track>& tracks);
+  void end(std::size_t ended);
   void remember(const std::vector<Track>& tracks, const std::vector<Observation>& observations,
                 double stamp_s);
   void meet(Belief& belief);
@@ -116,10 +133,11 @@ class Identity {
   Gallery gallery_;
   ClutterMap clutter_;
   std::vector<Belief> beliefs_;
-  std::vector<Evidence> looks_;  // of the step's observations
+  std::vector<Evidence> looks_;               // of the step's observations
   Evidence away_ = Evidence::Ones();          // of each person, that they are none of the tracks
   std::vector<std::optional<Absence>> last_;  // where each was seen last
   std::vector<double> forward_, backward_;
+  std::vector<Evidence> together_, after_;  // marginals, see weighTogether()
 };
 
 }  // namespace heel
