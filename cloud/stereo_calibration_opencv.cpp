@@ -80,13 +80,14 @@ class StoredValues {
       const auto node = nodes_.find(name);
       if (node == nodes_.end()) continue;
       cv::Mat stored, matrix;
-      // A matrix is as large as it says, whatever it holds.
-      const auto cells = [&](const char* key) {
+      // A matrix is as large as it says, whatever it holds; a text counts as 2^31 - 1.
+      const auto isSmall = [&](const char* key) {
         const cv::FileNode side = node->second.isMap() ? node->second[key] : cv::FileNode();
-        return side.isInt() || side.isReal() ? static_cast<double>(side) : 0.0;
+        if (!side.isInt() && !side.isReal()) return false;
+        return static_cast<double>(side) >= 0.0 && static_cast<double>(side) <= kMostOfASide;
       };
       try {
-        if (cells("rows") <= kMostOfASide && cells("cols") <= kMostOfASide) node->second >> stored;
+        if (isSmall("rows") && isSmall("cols")) node->second >> stored;
         stored.convertTo(matrix, CV_64F);
       } catch (const cv::Exception&) {
         matrix.release();

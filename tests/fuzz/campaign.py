@@ -19,6 +19,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -32,16 +33,16 @@ def last(pattern, text):
     return int(numbers[-1]) if numbers else 0
 
 
-def run(fuzzer, work, options):
+def run(fuzzer, work, scratch, options):
     """Fuzzes one reader; gives its row of the table, and what it did not bear."""
     reader = fuzzer.name[len("fuzz_"):]
     folder = work / reader
     shutil.rmtree(folder, ignore_errors=True)
-    corpus, scratch, found = folder / "corpus", folder / "scratch", folder / "found"
-    for part in (corpus, scratch, found):
+    corpus, found = folder / "corpus", folder / "found"
+    for part in (corpus, found):
         part.mkdir(parents=True)
     former = HERE / "findings" / reader
-    environment = {**os.environ, "TMPDIR": str(scratch)}
+    environment = {**os.environ, "TMPDIR": scratch}
     subprocess.run([fuzzer, "--seeds", corpus], check=True, env=environment)
     started = time.monotonic()
     inputs = edges = memory = 0
@@ -93,8 +94,11 @@ def main():
     if missing or not built:
         sys.exit(f"campaign.py: not built: {', '.join(missing) or 'any fuzzer'}")
     work = options.build.resolve() / "campaign"
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        results = list(pool.map(lambda name: run(built[name], work, options),
+    # Each input becomes a file: where there is one, in a file system in memory.
+    memory = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
+    with (tempfile.TemporaryDirectory(prefix="heel_fuzz_", dir=memory) as scratch,
+          concurrent.futures.ThreadPoolExecutor(options.jobs) as pool):
+        results = list(pool.map(lambda name: run(built[name], work, scratch, options),
                                 options.readers or built))
     print(HEADER, *(row for row, _ in results), sep="\n")
     found = [folder for _, folder in results if folder]
