@@ -24,6 +24,7 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 KINDS = ["crash", "leak", "oom", "timeout"]
+INTERRUPTED = 72  # libFuzzer's exit code when somebody stopped it
 HEADER = ("| reader | inputs | minutes | edges | peak memory | crashes and leaks | over 2 GB "
           "| over 5 s |\n| --- " + "| ---: " * 7 + "|")
 
@@ -69,7 +70,7 @@ def run(fuzzer, work, scratch, options):
             if code != 0:
                 break
     counts = {kind: len(list(found.glob(kind + "-*"))) for kind in KINDS}
-    if code != 0 and not any(counts.values()):
+    if code not in (0, INTERRUPTED) and not any(counts.values()):
         counts["crash"] = 1
     row = (f"| {reader} | {inputs:,} | {(time.monotonic() - started) / 60:.1f} | {edges:,} "
            f"| {memory} MB | {counts['crash'] + counts['leak']} | {counts['oom']} "
