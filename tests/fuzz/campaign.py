@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Heel authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the fuzzers (cmake --preset fuzz; cmake --build --preset fuzz --target fuzzers).
+"""Runs the fuzzers (cmake --preset fuzz; cmake --build --preset fuzz).
 
   campaign.py [READER...] [--seconds 600] [--inputs 1000000] [--most 7200] [--jobs 2]
 
