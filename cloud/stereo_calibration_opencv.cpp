@@ -7,11 +7,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <exception>
 #include <fstream>
 #include <initializer_list>
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace heel {
 namespace {
@@ -59,14 +61,18 @@ class StoredValues {
       origin_ += (origin_.empty() ? "" : " + ") + file.string();
       if (!fs::is_regular_file(file)) fail(file.string(), "there is no such file");
       if (isTooDeep(file)) fail(file.string(), "its values are too deep within each other");
+      bool has_names = false;
       try {
         storages_.emplace_back(file.string(), cv::FileStorage::READ);
         const cv::FileNode root = storages_.back().root();
-        if (!root.isMap()) fail(file.string(), "it holds no named values");
-        for (const auto& name : root.keys()) nodes_.emplace(plainName(name), root[name]);
-      } catch (const cv::Exception&) {
+        has_names = root.isMap();
+        for (const auto& name : has_names ? root.keys() : std::vector<std::string>()) {
+          nodes_.emplace(plainName(name), root[name]);
+        }
+      } catch (const std::exception&) {  // OpenCV's parser throws length_error, too
         fail(file.string(), "it is not an OpenCV calibration file (YAML, XML or JSON)");
       }
+      if (!has_names) fail(file.string(), "it holds no named values");
     }
   }
 
@@ -80,15 +86,16 @@ class StoredValues {
       const auto node = nodes_.find(name);
       if (node == nodes_.end()) continue;
       cv::Mat stored, matrix;
-      // A matrix is as large as it says, whatever it holds.
-      const auto cells = [&](const char* key) {
+      // A matrix is as large as it says, whatever it holds; a text counts as 2^31 - 1.
+      const auto isSmall = [&](const char* key) {
         const cv::FileNode side = node->second.isMap() ? node->second[key] : cv::FileNode();
-        return side.isInt() || side.isReal() ? static_cast<double>(side) : 0.0;
+        if (!side.isInt() && !side.isReal()) return false;
+        return static_cast<double>(side) >= 0.0 && static_cast<double>(side) <= kMostOfASide;
       };
       try {
-        if (cells("rows") <= kMostOfASide && cells("cols") <= kMostOfASide) node->second >> stored;
+        if (isSmall("rows") && isSmall("cols")) node->second >> stored;
         stored.convertTo(matrix, CV_64F);
-      } catch (const cv::Exception&) {
+      } catch (const std::exception&) {
         matrix.release();
       }
       const bool fits = rows > 0 ? matrix.rows == rows && matrix.cols == cols

@@ -4,7 +4,7 @@
 #include "mapping/map_server_file.hpp"
 
 #include "cloud/image_extent.hpp"
-#include "mapping/whole_file.hpp"
+#include "cloud/whole_file.hpp"
 
 #include <opencv2/core/mat.hpp>
 #include <opencv2/imgcodecs.hpp>

@@ -4,7 +4,7 @@
 #include "mapping/wall_map_file.hpp"
 
 #include "cloud/file_limits.hpp"
-#include "mapping/whole_file.hpp"
+#include "cloud/whole_file.hpp"
 
 #include <octomap/OcTree.h>
 

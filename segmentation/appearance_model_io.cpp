@@ -3,15 +3,15 @@
 
 #include "segmentation/appearance_model_io.hpp"
 
+#include "cloud/whole_file.hpp"
+
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
 #include <sstream>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -319,31 +319,10 @@ std::string toYaml(const AppearanceModel& model) {
   return out.c_str();
 }
 
-/// @return What went wrong, if anything.
-std::error_code writeText(const fs::path& file, const std::string& text) {
-  errno = 0;
-  std::FILE* out = std::fopen(file.c_str(), "wb");
-  if (out == nullptr) return {errno, std::generic_category()};
-  const bool is_written =
-      std::fwrite(text.data(), 1, text.size(), out) == text.size() && std::fflush(out) == 0;
-  const std::error_code error =
-      is_written ? std::error_code() : std::error_code(errno, std::generic_category());
-  const bool is_closed = std::fclose(out) == 0;
-  return is_written && !is_closed ? std::error_code(errno, std::generic_category()) : error;
-}
-
 }  // namespace
 
 void saveAppearance(const AppearanceModel& model, const fs::path& file) {
-  const std::string text = toYaml(model);
-  fs::path part = file;
-  part += ".part";
-  std::error_code error = writeText(part, text);
-  if (!error) fs::rename(part, file, error);
-  if (!error) return;
-  std::error_code ignored;
-  fs::remove(part, ignored);
-  throw std::runtime_error(file.string() + " cannot be written: " + error.message());
+  writeWholeFile(file, toYaml(model));
 }
 
 AppearanceModel loadAppearance(const fs::path& file) {

@@ -35,7 +35,7 @@ class Ros2PageScan {
  private:
   using Bytes = std::vector<std::uint8_t>;
   bool readPage(std::uint64_t number, Bytes& page);
-  bool readCell(std::size_t at, Row& row);
+  bool readCell(std::size_t offset, Row& row);
   bool addOverflow(std::uint32_t page, std::size_t size);
   bool parseRecord(Row& row) const;
 

@@ -33,7 +33,8 @@ void addView(CLI::App& app);
 void addEvaluate(CLI::App& app);
 void addExperiment(CLI::App& app);
 
-/// Gives each verb the option --max-memory; call it when all verbs are there.
-void addMemoryLimit(CLI::App& app);
+/// Gives each verb the option --max-memory, and lets it refuse numbers that are not finite; call it
+/// when all verbs are there.
+void completeVerbs(CLI::App& app);
 
 }  // namespace heel

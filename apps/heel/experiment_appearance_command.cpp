@@ -4,7 +4,6 @@
 #include "apps/experiment/appearance_report.hpp"
 #include "apps/experiment/people_matrix_experiment.hpp"
 #include "apps/heel/experiment_commands.hpp"
-#include "apps/heel/number_range.hpp"
 #include "apps/heel/scene_argument.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "apps/report/run_end.hpp"
@@ -154,7 +153,7 @@ void addAppearanceExperiment(CLI::App& verb) {
   experiment
       ->add_option("--min-share", options->params.min_share,
                    "followed in so much of the time in view is detected")
-      ->check(between(0.0, 1.0))
+      ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   CLI::Option* people = experiment->add_option(
       "--people", options->people,

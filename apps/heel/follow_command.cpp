@@ -6,7 +6,6 @@
 #include "apps/heel/commands.hpp"
 #include "apps/heel/follow_output.hpp"
 #include "apps/heel/lap_clock.hpp"
-#include "apps/heel/number_range.hpp"
 #include "apps/heel/resident_memory.hpp"
 #include "apps/heel/scene_argument.hpp"
 #include "apps/report/progress_bar.hpp"
@@ -182,7 +181,7 @@ void addFollow(CLI::App& app) {
   verb->add_option("--rate", options->rate_hz,
                    "pictures and commands [Hz]; the period is rounded to 0.01 s (default: the "
                    "scene's pictures, 10 commands)")
-      ->check(between(1.0, 100.0));
+      ->check(CLI::Range(1.0, 100.0));
   verb->add_flag("--no-film", options->no_film, "write no film");
   addResultBag(*verb, options->bag);
   verb->callback([options] { run(*options); });

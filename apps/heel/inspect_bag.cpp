@@ -83,11 +83,11 @@ bool namesCamera(const BagTopics& t) {
 
 bool inspectBag(const std::filesystem::path& path, const BagTopics& topics) {
   const BagSurvey survey = surveyBag(path);
-  std::printf("%s: ROS %d bag, %zu messages on %zu topic%s over %.1f s, from %s\n",
-              std::filesystem::canonical(path).filename().c_str(),
-              survey.form == BagForm::kRos1 ? 1 : 2, survey.messages, survey.topics.size(),
-              survey.topics.size() == 1 ? "" : "s", secondsOf(survey.last_ns - survey.first_ns),
-              toText(survey.first_ns).c_str());
+  std::printf(
+      "%s: ROS %d bag, %zu messages on %zu topic%s over %.1f s, from %s\n",
+      std::filesystem::canonical(path).filename().c_str(), survey.form == BagForm::kRos1 ? 1 : 2,
+      survey.messages, survey.topics.size(), survey.topics.size() == 1 ? "" : "s",
+      secondsOf(survey.last_ns) - secondsOf(survey.first_ns), toText(survey.first_ns).c_str());
   printTopics(survey);
   printFrames(survey);
   bool has_camera = true;

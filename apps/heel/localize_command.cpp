@@ -5,7 +5,6 @@
 #include "apps/heel/bag_options.hpp"
 #include "apps/heel/commands.hpp"
 #include "apps/heel/localize_output.hpp"
-#include "apps/heel/number_range.hpp"
 #include "apps/heel/scene_argument.hpp"
 #include "apps/report/run_end.hpp"
 #include "apps/simulation/scene_grid.hpp"
@@ -119,7 +118,7 @@ void addLocalize(CLI::App& app) {
       ->transform(CLI::CheckedTransformer(scans))
       ->option_text("WHICH");
   verb->add_option("--cell", options->cell_size_m, "edge of a cell of the map [m]")
-      ->check(between(0.01, 1.0))
+      ->check(CLI::Range(0.01, 1.0))
       ->capture_default_str();
   CLI::Option* global =
       verb->add_flag("--global", options->params.global, "the robot may be anywhere at first");

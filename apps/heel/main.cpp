@@ -133,7 +133,7 @@ int main(int argc, char** argv) {
   heel::addView(app);
   heel::addEvaluate(app);
   heel::addExperiment(app);
-  heel::addMemoryLimit(app);
+  heel::completeVerbs(app);
   try {
     app.parse(argc, argv);
   } catch (...) {

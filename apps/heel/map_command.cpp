@@ -3,7 +3,6 @@
 
 #include "apps/heel/bag_options.hpp"
 #include "apps/heel/commands.hpp"
-#include "apps/heel/number_range.hpp"
 #include "apps/heel/scene_argument.hpp"
 #include "apps/mapper/map_picture.hpp"
 #include "apps/mapper/map_source.hpp"
@@ -85,9 +84,9 @@ void addMap(CLI::App& app) {
           "--resolution", options->params.cell_size_m,
           "edge of a cell, and of a picture's pixel [m] (default: the map's own, else 0.05; a "
           "picture needs it)")
-      ->check(between(0.001, 10.0));
+      ->check(CLI::Range(0.001, 10.0));
   verb->add_option("--height", options->params.wall_height_m, "to which a plan's walls go up [m]")
-      ->check(between(0.1, 100.0))
+      ->check(CLI::Range(0.1, 100.0))
       ->capture_default_str();
   verb->add_option("--low", options->band.low_m, "map.yaml shows what stands from here [m]")
       ->capture_default_str();

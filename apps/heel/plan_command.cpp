@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "apps/heel/commands.hpp"
-#include "apps/heel/number_range.hpp"
 #include "apps/heel/scene_argument.hpp"
 #include "apps/mapper/map_source.hpp"
 #include "apps/report/csv_file.hpp"
@@ -134,13 +133,13 @@ void addPlan(CLI::App& app) {
   verb->add_option("--out", options->out, "folder for plan.png, path.csv and summary.json")
       ->capture_default_str();
   verb->add_option("--radius", options->planner.robot_radius_m, "of the robot, in metres")
-      ->check(between(0.001, 100.0))
+      ->check(CLI::Range(0.001, 100.0))
       ->capture_default_str();
   verb->add_option(
           "--cell", options->source.cell_size_m,
           "edge of the map's cells, and of a picture's pixel, in metres (default: the map's own, "
           "else 0.05; a picture needs it)")
-      ->check(between(0.01, 0.5));
+      ->check(CLI::Range(0.01, 0.5));
   verb->callback([options] { run(*options); });
 }
 

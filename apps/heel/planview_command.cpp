@@ -6,7 +6,6 @@
 #include "apps/clouds/plan_view_picture.hpp"
 #include "apps/heel/cloud_batch.hpp"
 #include "apps/heel/commands.hpp"
-#include "apps/heel/number_range.hpp"
 #include "apps/report/video_writer.hpp"
 #include "segmentation/appearance_model_io.hpp"
 
@@ -172,19 +171,19 @@ void addPlanView(CLI::App& app) {
   verb->add_option("--up", options->up, "the clouds' axis that points up: x, y, z, -x, -y or -z")
       ->capture_default_str();
   verb->add_option("--height", options->height_m, "of the clouds' origin over the floor [m]")
-      ->check(between(-100.0, 100.0));
+      ->check(CLI::Range(-100.0, 100.0));
   verb->add_option("--pitch", options->pitch_deg, "how far the camera looks down [deg]")
       ->needs("--height")
       ->capture_default_str();
   verb->add_option("--heights", options->heights_m,
                    "of points that count without a model [m] (default 0.3 2.3)")
       ->expected(2)
-      ->type_name("LOW HIGH");
+      ->option_text("LOW HIGH");
   verb->add_option("--range", options->params.plan_view.max_range_m, "how far the plan reaches [m]")
-      ->check(between(0.1, 1000.0))
+      ->check(CLI::Range(0.1, 1000.0))
       ->capture_default_str();
   verb->add_option("--cell", options->params.plan_view.cell_size_m, "edge of a cell [m]")
-      ->check(between(0.001, 10.0))
+      ->check(CLI::Range(0.001, 10.0))
       ->capture_default_str();
   verb->add_flag("--no-pictures", options->no_pictures, "write the tables only");
   verb->callback([options] { run(*options); });

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "apps/heel/commands.hpp"
-#include "apps/heel/number_range.hpp"
 #include "apps/heel/scene_argument.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "apps/report/run_end.hpp"
@@ -59,7 +58,7 @@ void addSimulate(CLI::App& app) {
   verb->add_option("--bag", options->simulate.bag,
                    "also write a bag: NAME.bag for ROS 1; NAME.db3, or a folder, for ROS 2");
   verb->add_option("--duration", options->simulate.duration_s, "instead of the scene's own [s]")
-      ->check(between(0.01, 1e6));
+      ->check(CLI::Range(0.01, 1e6));
   verb->add_option("--seed", options->simulate.seed, "of noise and of people's ways")
       ->capture_default_str();
   verb->callback([options] { run(*options); });

@@ -116,11 +116,11 @@ void addTrack(CLI::App& app) {
   verb->add_option("--start", options->start_m,
                    "where the person stands in the first frame [m] (default: found by their looks)")
       ->expected(2)
-      ->type_name("X Y");
+      ->option_text("X Y");
   verb->add_option("--bounds", options->bounds_m,
                    "the room: nobody outside of it is taken for the person [m]")
       ->expected(4)
-      ->type_name("X0 Y0 X1 Y1");
+      ->option_text("X0 Y0 X1 Y1");
   verb->add_flag("--no-film", options->no_film, "write the tables only");
   addResultBag(*verb, options->bag);
   addCameraTopics(*verb, options->opening.topics);

@@ -55,7 +55,6 @@ std::unique_ptr<Recording> BagRecording::open(const std::filesystem::path& path,
   info.layout = layoutOf(survey, camera);
   info.sensor = camera.sensor;
   info.frame_count = camera.first->count;
-  info.duration_s = camera.first->duration_s();
   info.lost = survey.lost;
   info.T_base_camera = placeOnRobot(survey, params.topics, camera.first->frame_id);
   return std::unique_ptr<Recording>(new BagRecording(survey, camera, std::move(info)));
@@ -64,14 +63,19 @@ std::unique_ptr<Recording> BagRecording::open(const std::filesystem::path& path,
 BagRecording::BagRecording(const BagSurvey& survey, const BagCamera& camera, RecordingInfo info)
     : path_(survey.path.string()), bag_(openBag(survey.path)) {
   info_ = std::move(info);
-  const auto queue = [](const BagTopicSummary& topic) {
-    return Queue{
-        topic.topic.name, topic.topic.holds<CompressedImageMsg>(), topic.has_stamps, 0, {}};
+  const auto queueOf = [](const BagTopicSummary& topic) {
+    Queue queue;
+    queue.topic = topic.topic.name;
+    queue.is_compressed = topic.topic.holds<CompressedImageMsg>();
+    queue.has_stamps = topic.has_stamps;
+    queue.order = StampOrder(topic.stamps_s);
+    return queue;
   };
-  first_ = queue(*camera.first);
-  if (camera.second != nullptr) second_ = queue(*camera.second);
-  const double rate_hz = camera.first->rate_hz();
-  limit_ns_ = nanosecondsOf(rate_hz > 0.0 ? 0.5 / rate_hz : 0.02);
+  first_ = queueOf(*camera.first);
+  if (camera.second != nullptr) second_ = queueOf(*camera.second);
+  info_.duration_s = first_.order.duration_s();
+  const double rate_hz = first_.order.rate_hz();
+  limit_s_ = rate_hz > 0.0 ? 0.5 / rate_hz : 0.02;
   if (camera.sensor == SensorKind::kStereo) setUpStereo(survey, camera);
   if (camera.sensor == SensorKind::kRgbd) setUpRgbd(survey, camera);
 }
@@ -114,7 +118,7 @@ std::string BagRecording::nameOf(const Waiting& message) const {
 void BagRecording::take(const BagMessage& raw, Queue& queue) {
   Waiting message;
   message.number = ++queue.count;
-  message.stamp_ns = raw.stamp_ns;
+  message.stamp_s = secondsOf(raw.stamp_ns);
   if (queue.has_stamps) {
     HeaderMsg header;
     try {
@@ -122,8 +126,10 @@ void BagRecording::take(const BagMessage& raw, Queue& queue) {
     } catch (const std::runtime_error&) {
       return;  // it is told of where the frame is missed
     }
-    message.stamp_ns = header.stamp.ns;
+    message.stamp_s = secondsOf(header.stamp.ns);
   }
+  message.index = queue.stamped++;
+  if (message.index >= queue.order.size()) return;  // the bag has grown meanwhile
   message.bytes.assign(raw.data, raw.data + raw.size);
   queue.waiting.push_back(std::move(message));
 }
@@ -144,18 +150,20 @@ bool BagRecording::readMessage() {
 /// Whether the partner of the first that waits can be told, if it has one.
 bool BagRecording::isDecided() const {
   if (first_.waiting.empty()) return false;
+  const Waiting& first = first_.waiting.front();
   return info_.sensor == SensorKind::kCloud || at_end_ || first_.waiting.size() > kMostWaiting ||
+         first_.order.isAhead(first.index) ||
          std::any_of(second_.waiting.begin(), second_.waiting.end(), [&](const Waiting& other) {
-           return other.stamp_ns >= first_.waiting.front().stamp_ns;
+           return other.stamp_s >= first.stamp_s && !second_.order.isAhead(other.index);
          });
 }
 
-std::optional<BagRecording::Waiting> BagRecording::takePartner(std::int64_t stamp_ns) {
-  const auto apart = [&](const Waiting& m) { return std::abs(m.stamp_ns - stamp_ns); };
+std::optional<BagRecording::Waiting> BagRecording::takePartner(double stamp_s) {
+  const auto apart = [&](const Waiting& m) { return std::abs(m.stamp_s - stamp_s); };
   const auto nearest =
       std::min_element(second_.waiting.begin(), second_.waiting.end(),
                        [&](const Waiting& a, const Waiting& b) { return apart(a) < apart(b); });
-  if (nearest == second_.waiting.end() || apart(*nearest) > limit_ns_) return std::nullopt;
+  if (nearest == second_.waiting.end() || apart(*nearest) > limit_s_) return std::nullopt;
   Waiting partner = std::move(*nearest);
   second_.waiting.erase(second_.waiting.begin(), nearest + 1);
   return partner;
@@ -167,22 +175,14 @@ bool BagRecording::next(Frame& frame) {
     if (first_.waiting.empty()) return false;
     const Waiting first = std::move(first_.waiting.front());
     first_.waiting.pop_front();
-    const double stamp_s = secondsOf(first.stamp_ns);
     try {
-      if (first.stamp_ns <= last_ns_) {
-        throw std::runtime_error(first.stamp_ns == last_ns_
-                                     ? "the time stands still"
-                                     : "the time runs backwards, from " +
-                                           std::to_string(secondsOf(last_ns_)) + " s to " +
-                                           std::to_string(stamp_s) + " s");
-      }
-      last_ns_ = first.stamp_ns;
+      first_.order.check(first.index);
       std::optional<Waiting> second;
       if (info_.sensor != SensorKind::kCloud) {
-        second = takePartner(first.stamp_ns);
+        second = takePartner(first.stamp_s);
         if (!second) {
           throw std::runtime_error("there is no image on " + second_.topic + " within " +
-                                   std::to_string(secondsOf(limit_ns_)) + " s of it");
+                                   std::to_string(limit_s_) + " s of it");
         }
       }
       makeFrame(first, second ? &*second : nullptr, frame);
@@ -191,7 +191,7 @@ bool BagRecording::next(Frame& frame) {
       continue;
     }
     frame.number = first.number;
-    frame.stamp_s = stamp_s;
+    frame.stamp_s = first.stamp_s;
     frame.name = nameOf(first);
     return true;
   }

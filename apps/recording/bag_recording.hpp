@@ -8,11 +8,11 @@
 #include "apps/recording/bag_camera.hpp"
 #include "apps/recording/bag_image_reader.hpp"
 #include "apps/recording/recording.hpp"
+#include "apps/recording/stamp_order.hpp"
 #include "cloud/stereo_rig.hpp"
 
 #include <deque>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,10 +35,11 @@ class BagRecording final : public Recording {
   bool next(Frame& frame) override;
 
  private:
-  /// A message, and its number on its topic (from 1).
+  /// A message, its number on its topic (from 1), and its place among those that have a stamp.
   struct Waiting {
     std::size_t number = 0;
-    std::int64_t stamp_ns = 0;
+    std::size_t index = 0;
+    double stamp_s = 0.0;
     std::vector<std::uint8_t> bytes;
   };
   /// A topic's messages that wait.
@@ -46,7 +47,9 @@ class BagRecording final : public Recording {
     std::string topic;
     bool is_compressed = false;
     bool has_stamps = true;
+    StampOrder order;
     std::size_t count = 0;
+    std::size_t stamped = 0;
     std::deque<Waiting> waiting;
   };
 
@@ -57,7 +60,7 @@ class BagRecording final : public Recording {
   bool readMessage();
   void take(const BagMessage& raw, Queue& queue);
   bool isDecided() const;
-  std::optional<Waiting> takePartner(std::int64_t stamp_ns);
+  std::optional<Waiting> takePartner(double stamp_s);
   void makeFrame(const Waiting& first, const Waiting* second, Frame& frame);
   void readColor(const Queue& queue, const Waiting& message, cv::Mat& image_bgr);
   void readDepth(const Waiting& message, cv::Mat& depth_m);
@@ -69,8 +72,7 @@ class BagRecording final : public Recording {
   std::unique_ptr<BagReader> bag_;
   bool at_end_ = false;
   Queue first_, second_;
-  std::int64_t limit_ns_ = 0;  // two images of a frame are not further apart
-  std::int64_t last_ns_ = std::numeric_limits<std::int64_t>::min();
+  double limit_s_ = 0.0;  // two images of a frame are not further apart
   std::optional<StereoRig> rig_;
   cv::Mat undistort_x_, undistort_y_;  // of raw RGB-D images; empty: nothing to do
   BagImageReader images_;

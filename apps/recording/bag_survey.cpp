@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -50,7 +51,7 @@ class Surveyor {
     if (survey_.messages++ == 0) survey_.first_ns = survey_.last_ns = raw.stamp_ns;
     survey_.first_ns = std::min(survey_.first_ns, raw.stamp_ns);
     survey_.last_ns = std::max(survey_.last_ns, raw.stamp_ns);
-    recorded_[raw.topic].add(raw.stamp_ns);
+    recorded_[raw.topic].add(raw.stamp_ns, isFrame(topic));
     if (!topic.is_known) return;
     try {
       look(raw, topic);
@@ -65,7 +66,8 @@ class Surveyor {
     for (std::size_t i = 0; i < survey_.topics.size(); ++i) {
       BagTopicSummary& topic = survey_.topics[i];
       topic.has_stamps = stamped_[i].count > 0 && stamped_[i].last != 0;
-      const Times& times = topic.has_stamps ? stamped_[i] : recorded_[i];
+      Times& times = topic.has_stamps ? stamped_[i] : recorded_[i];
+      topic.stamps_s = std::move(times.all_s);
       topic.first_ns = times.first;
       topic.last_ns = times.last;
       topic.backward_stamps = times.backward;
@@ -76,8 +78,10 @@ class Surveyor {
   struct Times {
     std::size_t count = 0, backward = 0;
     std::int64_t first = 0, last = 0, before = 0;
+    std::vector<double> all_s;
 
-    void add(std::int64_t ns) {
+    void add(std::int64_t ns, bool keep) {
+      if (keep) all_s.push_back(secondsOf(ns));
       if (count == 0) first = last = ns;
       if (count > 0 && ns <= before) ++backward;
       first = std::min(first, ns);
@@ -87,15 +91,20 @@ class Surveyor {
     }
   };
 
+  static bool isFrame(const BagTopicSummary& summary) {
+    const BagTopic& t = summary.topic;
+    return t.holds<ImageMsg>() || t.holds<CompressedImageMsg>() || t.holds<PointCloud2Msg>();
+  }
+
   void addTopic() {
     BagTopicSummary summary;
     summary.topic = reader_.topics()[survey_.topics.size()];
     const BagTopic& t = summary.topic;
-    summary.is_known =
-        t.holds<ImageMsg>() || t.holds<CompressedImageMsg>() || t.holds<CameraInfoMsg>() ||
-        t.holds<PointCloud2Msg>() || t.holds<LaserScanMsg>() || t.holds<OdometryMsg>() ||
-        t.holds<PathMsg>() || t.holds<OccupancyGridMsg>() || t.holds<PoseArrayMsg>() ||
-        t.holds<PoseStampedMsg>() || t.holds<TFMessageMsg>() || t.holds<MarkerArrayMsg>();
+    summary.is_known = isFrame(summary) || t.holds<CameraInfoMsg>() || t.holds<LaserScanMsg>() ||
+                       t.holds<OdometryMsg>() || t.holds<PathMsg>() ||
+                       t.holds<OccupancyGridMsg>() || t.holds<PoseArrayMsg>() ||
+                       t.holds<PoseStampedMsg>() || t.holds<TFMessageMsg>() ||
+                       t.holds<MarkerArrayMsg>();
     survey_.topics.push_back(summary);
     recorded_.emplace_back();
     stamped_.emplace_back();
@@ -106,6 +115,9 @@ class Surveyor {
     HeaderMsg header;
     if (topic.topic.holds<TFMessageMsg>()) return lookAtFrames(raw);
     if (topic.topic.holds<MarkerArrayMsg>()) return;
+    reader_.read(raw, header);
+    if (first) topic.frame_id = frameName(header.frame_id);
+    stamped_[raw.topic].add(header.stamp.ns, isFrame(topic));
     if (first && topic.topic.holds<ImageMsg>()) {
       ImageHead image;
       reader_.read(raw, image);
@@ -128,9 +140,6 @@ class Surveyor {
       OdometryMsg odometry;
       reader_.read(raw, odometry);
     }
-    reader_.read(raw, header);
-    if (first) topic.frame_id = frameName(header.frame_id);
-    stamped_[raw.topic].add(header.stamp.ns);
   }
 
   void lookAtCompressed(const BagMessage& raw, BagTopicSummary& topic) {
@@ -181,7 +190,7 @@ std::string frameName(const std::string& frame_id) {
   return printable(has_slash ? frame_id.substr(1) : frame_id);
 }
 
-double BagTopicSummary::duration_s() const { return secondsOf(last_ns - first_ns); }
+double BagTopicSummary::duration_s() const { return secondsOf(last_ns) - secondsOf(first_ns); }
 
 double BagTopicSummary::rate_hz() const {
   return count > 1 && last_ns > first_ns ? static_cast<double>(count - 1) / duration_s() : 0.0;

@@ -29,6 +29,8 @@ struct BagTopicSummary {
   bool has_stamps = false;
   std::int64_t first_ns = 0, last_ns = 0;  ///< Least and greatest stamp.
   std::size_t backward_stamps = 0;         ///< Not later than the one before.
+  /// Of images and clouds: all stamps that can be read, in seconds.
+  std::vector<double> stamps_s;
   std::string frame_id;
   std::uint32_t width = 0, height = 0;  ///< Of images and clouds.
   std::string encoding;                 ///< Of images; "x y z rgb" of clouds.

@@ -6,10 +6,10 @@
 #pragma once
 
 #include "apps/recording/recording.hpp"
+#include "apps/recording/stamp_order.hpp"
 
 #include <cstddef>
 #include <filesystem>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -33,12 +33,10 @@ class IndexedRecording : public Recording {
   virtual void read(std::size_t index, Frame& frame) = 0;
 
  private:
-  bool isAhead(std::size_t index, double last_s) const;
   void checkStamp(std::size_t index);
 
-  std::vector<double> stamps_s_;
+  StampOrder order_;
   std::size_t next_index_ = 0;
-  double last_stamp_s_ = -std::numeric_limits<double>::infinity();
 };
 
 }  // namespace heel

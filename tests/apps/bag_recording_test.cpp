@@ -145,6 +145,26 @@ TEST_P(BagRecordings, LeavesOutFramesWhoseTimeRunsBackwards) {
   EXPECT_THAT(read.skipped[0].reason, HasSubstr("backwards, from 0.3"));
 }
 
+TEST_P(BagRecordings, WithOneStampFarAheadLoseThatFrameAlone) {
+  for (const bool left : {true, false}) {
+    const auto bag = beginStereo();
+    for (int i = 1; i <= 100; ++i) {
+      // The left one comes first: its partner is waited for.
+      const std::int64_t recorded_ns = i * 100'000'000LL;
+      const double s = 0.1 * i, wrong_s = i == 50 ? 1e6 : s;
+      bag->write(left_, recorded_ns, image(left ? wrong_s : s, "bgr8", 10, 3));
+      bag->write(right_, recorded_ns + 1, image(left ? s : wrong_s, "mono8", 90, 1));
+    }
+    bag->commit();
+    const Read read = readAll(path());
+    EXPECT_THAT(read.numbers, SizeIs(99));
+    EXPECT_NEAR(read.info.duration_s, 9.9, 1e-6);
+    ASSERT_THAT(read.skipped, SizeIs(1));
+    EXPECT_EQ(read.skipped[0].number, 50U);
+    EXPECT_THAT(read.skipped[0].reason, HasSubstr(left ? "jumps ahead to 1000000" : "no image on"));
+  }
+}
+
 TEST_P(BagRecordings, FindsTheCameraOnTheRobotInTf) {
   const auto bag = beginStereo();
   TFMessageMsg message;

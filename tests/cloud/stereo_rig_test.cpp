@@ -225,6 +225,10 @@ TEST_F(StereoCalibration, NamesTheFileAndTheReason) {
                          "%YAML:1.0\n---\nM1: !!opencv-matrix\n   rows: 40000\n"
                          "   cols: 40000\n   dt: d\n   data: [ 1. ]\n")),
               AllOf(HasSubstr("huge.yml"), HasSubstr("has not the right shape")));
+  EXPECT_THAT(said(write("text.yml",
+                         "%YAML:1.0\n---\nM1: !!opencv-matrix\n   rows: 3\n   cols: three\n"
+                         "   dt: d\n   data: [ 1. ]\n")),
+              HasSubstr("M1 has not the right shape"));
   EXPECT_THAT(stored({}, {"", "D1", "M2", "D2", "R", "T"}),
               AllOf(HasSubstr("bad.yml"), HasSubstr("(M1) is missing")));
   EXPECT_THAT(stored({}, {"M1", "D1", "M2", "", "R", "T"}), HasSubstr("(D2) is missing"));

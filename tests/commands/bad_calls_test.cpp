@@ -9,6 +9,8 @@
 
 #include <gmock/gmock.h>
 
+#include <regex>
+
 namespace heel::test {
 namespace {
 
@@ -28,12 +30,31 @@ TEST_P(Help, PrintsAnExample) {
   EXPECT_THAT(run.out, HasSubstr("\n  " + name + " ")) << "an example of the verb itself";
 }
 
+TEST_P(Help, NamesNoNumberThatMayBeInfinite) {
+  const auto with = [](std::vector<std::string> call, const std::vector<std::string>& more) {
+    call.insert(call.end(), more.begin(), more.end());
+    return heel(call);
+  };
+  // "--cell FLOAT", "--start X Y", but not "--out TEXT".
+  const std::regex number("\n  (--[a-z-]+) (FLOAT|INT|UINT|K:INT|X|X0|LOW|SIZE)\\b");
+  const std::string help = with(GetParam(), {"--help"}).out;
+  for (std::sregex_iterator option(help.begin(), help.end(), number), end; option != end;
+       ++option) {
+    for (const std::string bad : {"nan", "1e999"}) {
+      const HeelRun run = with(GetParam(), {(*option)[1], bad, bad, bad, bad});
+      EXPECT_TRUE(failsWith(run, {(*option)[1]}));
+      EXPECT_EQ(run.exit_code, 2);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Verbs, Help,
     testing::Values(std::vector<std::string>{}, std::vector<std::string>{"learn"},
                     std::vector<std::string>{"track"}, std::vector<std::string>{"filter"},
                     std::vector<std::string>{"inspect"}, std::vector<std::string>{"map"},
                     std::vector<std::string>{"plan"}, std::vector<std::string>{"localize"},
+                    std::vector<std::string>{"planview"}, std::vector<std::string>{"view"},
                     std::vector<std::string>{"follow"}, std::vector<std::string>{"simulate"},
                     std::vector<std::string>{"evaluate"}, std::vector<std::string>{"experiment"},
                     std::vector<std::string>{"experiment", "detector"},
@@ -42,6 +63,7 @@ INSTANTIATE_TEST_SUITE_P(
                     std::vector<std::string>{"experiment", "appearance"},
                     std::vector<std::string>{"experiment", "perception"},
                     std::vector<std::string>{"experiment", "gate"},
+                    std::vector<std::string>{"experiment", "follow"},
                     std::vector<std::string>{"experiment", "localization"}));
 
 TEST(Call, WithoutAVerbNamesTheVerbs) {

@@ -7,6 +7,7 @@
 #include "apps/bag/bag.hpp"
 
 #include "apps/recording/sensor_bag.hpp"
+#include "tests/commands/hall_scene.hpp"
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_model.hpp"
 #include "tests/support/data.hpp"
@@ -24,28 +25,10 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsSupersetOf;
 
-constexpr const char* kScene = R"(
-name: hall
-duration_s: 2
-floor: {material: parquet, color: oak}
-wall_surface: {material: roughcast, color: beige}
-walls:
-  - {from: [0, -2], to: [0, 2]}
-  - {from: [0, 2], to: [5, 2]}
-  - {from: [5, 2], to: [5, -2]}
-  - {from: [5, -2], to: [0, -2]}
-lights:
-  - {lamp: [2.5, 0, 2.4], power: 30, radius_m: 0.2}
-people:
-  - name: rosa
-    height_m: 1.8
-    start: [3, -0.5]
-    outfit: {top: {color: red}, trousers: {color: charcoal}}
-    path: [{to: [3, 0.8]}]
-robot:
-  start: [0.5, 0]
-  camera: {at: [0.05, 0.06, 1.13], pitch_deg: 5.7, width: 320, height: 240, view_deg: 60}
-)";
+const std::string kScene =
+    hallScene("2", R"({name: rosa, height_m: 1.8, start: [3, -0.5],
+     outfit: {top: {color: red}, trousers: {color: charcoal}}, path: [{to: [3, 0.8]}]})",
+              "{at: [0.05, 0.06, 1.13], pitch_deg: 5.7, width: 320, height: 240, view_deg: 60}");
 
 std::map<std::string, std::size_t> countsOf(const std::filesystem::path& path) {
   const auto bag = openBag(path);

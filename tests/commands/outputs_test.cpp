@@ -6,6 +6,7 @@
 
 #include "apps/report/output.hpp"
 #include "apps/report/result_files.hpp"
+#include "tests/commands/hall_scene.hpp"
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_model.hpp"
 #include "tests/commands/small_recording.hpp"
@@ -27,28 +28,10 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-constexpr const char* kScene = R"(
-name: hall
-duration_s: 1
-floor: {material: parquet, color: oak}
-wall_surface: {material: roughcast, color: beige}
-walls:
-  - {from: [0, -2], to: [0, 2]}
-  - {from: [0, 2], to: [5, 2]}
-  - {from: [5, 2], to: [5, -2]}
-  - {from: [5, -2], to: [0, -2]}
-lights:
-  - {lamp: [2.5, 0, 2.4], power: 30, radius_m: 0.2}
-people:
-  - name: "Rosa, the \"first\""
-    height_m: 1.8
-    start: [3, -0.5]
-    outfit: {top: {color: red}, trousers: {color: charcoal}}
-    path: [{to: [3, 0.8]}]
-robot:
-  start: [0.5, 0]
-  camera: {at: [0.05, 0.06, 1.13], pitch_deg: 5.7, width: 160, height: 120, view_deg: 60}
-)";
+const std::string kScene =
+    hallScene("1", R"({name: "Rosa, the \"first\"", height_m: 1.8, start: [3, -0.5],
+     outfit: {top: {color: red}, trousers: {color: charcoal}}, path: [{to: [3, 0.8]}]})",
+              "{at: [0.05, 0.06, 1.13], pitch_deg: 5.7, width: 160, height: 120, view_deg: 60}");
 
 /// All files below a folder, and what is in them, made short for messages.
 std::map<std::string, std::size_t> contentOf(const fs::path& folder) {

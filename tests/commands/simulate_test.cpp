@@ -4,6 +4,7 @@
 /// @file
 /// heel simulate, on a scene that is quickly rendered.
 
+#include "tests/commands/hall_scene.hpp"
 #include "tests/commands/heel.hpp"
 #include "tests/support/temp_folder.hpp"
 
@@ -18,29 +19,10 @@ using testing::IsSupersetOf;
 class Simulate : public testing::Test {
  protected:
   Simulate() {
-    writeText(folder_ / "hall.yaml", R"(
-name: hall
-duration_s: 0.5
-floor: {material: parquet, color: oak}
-wall_surface: {material: roughcast, color: beige}
-walls:
-  - {from: [0, -2], to: [0, 2]}
-  - {from: [0, 2], to: [5, 2]}
-  - {from: [5, 2], to: [5, -2]}
-  - {from: [5, -2], to: [0, -2]}
-lights:
-  - {lamp: [2.5, 0, 2.4], power: 30, radius_m: 0.2}
-people:
-  - name: bruno
-    height_m: 1.8
-    start: [3, 0]
-    yaw_deg: 180
-    outfit: {top: {color: forest}, trousers: {color: charcoal}}
-    path: [{wait_s: 1}]
-robot:
-  start: [0.5, 0]
-  camera: {at: [0, 0, 1], pitch_deg: 3, width: 320, height: 240, view_deg: 60}
-)");
+    writeText(folder_ / "hall.yaml",
+              hallScene("0.5", R"({name: bruno, height_m: 1.8, start: [3, 0], yaw_deg: 180,
+     outfit: {top: {color: forest}, trousers: {color: charcoal}}, path: [{wait_s: 1}]})",
+                        "{at: [0, 0, 1], pitch_deg: 3, width: 320, height: 240, view_deg: 60}"));
   }
 
   HeelRun simulate(const std::string& out, const std::string& seed = "1") {

@@ -11,6 +11,8 @@
 #include "apps/recording/cloud_file.hpp"
 #include "apps/recording/image_file.hpp"
 #include "apps/recording/laser_log.hpp"
+#include "apps/recording/recording.hpp"
+#include "apps/recording/sensor_bag.hpp"
 #include "apps/recording/stamps.hpp"
 #include "apps/report/result_files.hpp"
 #include "apps/simulation/scene.hpp"
@@ -55,21 +57,47 @@ Seeds cloudSeeds(const fs::path& folder, const std::string& ending) {
           })};
 }
 
+void readLog(const fs::path& file) {
+  const auto log = openLaserLog(file);
+  for (LaserReading reading; log->next(reading);) continue;
+}
+
 void readBag(const fs::path& file) {
   surveyBag(file);
   const auto bag = openBag(file);
   for (BagMessage raw; bag->next(raw);) continue;
+  try {
+    const auto recording = openRecording(file);
+    for (Frame frame; recording->next(frame);) continue;
+  } catch (const std::runtime_error&) {
+    // It may hold scans, nevertheless.
+  }
+  readLog(file);
 }
 
 Seeds bagSeeds(const fs::path& folder, const std::string& ending) {
-  return {drawn(folder, "seed" + ending, [](const fs::path& file) {
+  const auto drawCamera = [](const fs::path& file) {
+    RecordingInfo info;
+    info.sensor = SensorKind::kRgbd;
+    info.camera.left = {4, 3, 5.0, 5.0, 1.5, 1.0};
+    SensorBag bag(file, info);
+    Frame frame;
+    frame.image_bgr = cv::Mat(3, 4, CV_8UC3, cv::Scalar(1, 2, 3));
+    frame.depth_m = cv::Mat(3, 4, CV_32FC1, cv::Scalar(2.0));
+    for (; frame.stamp_s < 0.3; frame.stamp_s += 0.1) bag.add(frame);
+    bag.commit();
+  };
+  const auto drawOthers = [](const fs::path& file) {
     const auto bag = createBag(file);
     bag->write("/image", 1, filled<ImageMsg>());
     bag->write("/scan", 2, filled<LaserScanMsg>());
     bag->write("/odom", 3, filled<OdometryMsg>());
     bag->write("/tf", 4, filled<TFMessageMsg>());
+    bag->write("/points", 5, filled<PointCloud2Msg>());
     bag->commit();
-  })};
+  };
+  return {drawn(folder, "camera" + ending, drawCamera),
+          drawn(folder, "others" + ending, drawOthers)};
 }
 
 /// The first byte tells which message the others are.
@@ -152,11 +180,6 @@ AppearanceModel smallModel() {
   AppearanceParams params;
   params.bands = upperBody();
   return AppearanceModel(params, {person}, room);
-}
-
-void readLog(const fs::path& file) {
-  const auto log = openLaserLog(file);
-  for (LaserReading reading; log->next(reading);) continue;
 }
 
 }  // namespace

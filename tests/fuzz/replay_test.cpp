@@ -74,6 +74,17 @@ TEST_P(Fuzz, SeedsAreReadAndWhatIsMadeOfThemIsBorne) {
   }
 }
 
+/// What a fuzzer found once.
+TEST_P(Fuzz, FindingsAreBorne) {
+  const auto folder =
+      std::filesystem::path(HEEL_SOURCE_DIR) / "tests/fuzz/findings" / GetParam().name;
+  if (!std::filesystem::exists(folder)) return;
+  for (const auto& file : std::filesystem::directory_iterator(folder)) {
+    SCOPED_TRACE(file.path().filename());
+    expectBorne(GetParam(), readText(file));
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Readers, Fuzz, testing::ValuesIn(fuzzReaders()),
                          [](const auto& each) { return each.param.name; });
 

@@ -6,15 +6,29 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
+#include <string>
 
 namespace heel {
+namespace {
 
-void addMemoryLimit(CLI::App& app) {
+std::string whyNotFinite(const std::string& text) {
+  double value = 0.0;
+  const bool is_finite = !CLI::detail::lexical_cast(text, value) || std::isfinite(value);
+  return is_finite ? std::string() : "'" + text + "' is not a finite number";
+}
+
+}  // namespace
+
+void completeVerbs(CLI::App& app) {
   const auto verbs = app.get_subcommands([](const CLI::App*) { return true; });
-  for (CLI::App* verb : verbs) addMemoryLimit(*verb);
+  for (CLI::App* verb : verbs) completeVerbs(*verb);
   if (!verbs.empty()) return;
+  for (CLI::Option* option : app.get_options()) {
+    if (option->get_type_name().rfind("FLOAT", 0) == 0) option->check(whyNotFinite);
+  }
   const std::function<void(const std::uint64_t&)> set = [](const std::uint64_t& bytes) {
     setMemoryLimit(bytes);
   };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/whole_file.hpp"
+#include "cloud/whole_file.hpp"
 
 #include "cloud/file_limits.hpp"
 
