@@ -95,7 +95,7 @@ class Experiment {
       : wardrobe_(wardrobe),
         params_(params),
         progress_(progress),
-        rooms_(params.scenes, wardrobe.seed),
+        rooms_(params.scenes, wardrobe.seed, params.drawn_light),
         size_(wardrobe.people.size()) {}
 
   WardrobeRuns run() {

@@ -32,6 +32,7 @@ struct AppearanceExperimentParams {
   /// a track confirmed over several frames) at their place in this share of the frames that have
   /// them in view.
   double min_share = 0.25;
+  bool drawn_light = false;  ///< Whether every recording's light is drawn; see CameraParams.
   std::vector<OfferedModel> models = offeredModels();
   PerceptionParams perception;
   std::filesystem::path scenes;  ///< Folder of the scenes that come with Heel.

@@ -3,13 +3,13 @@
 
 #include "apps/experiment/perception_truth_experiment.hpp"
 
-#include "apps/experiment/simulated_frames.hpp"
 #include "apps/experiment/simulated_lesson.hpp"
 #include "apps/simulation/random.hpp"
 
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -71,23 +71,27 @@ void PixelCount::add(const PixelCount& other) {
   found += other.found;
 }
 
-PerceptionTruthRun runPerceptionTruthExperiment(std::uint64_t seed,
-                                                const PerceptionTruthParams& params) {
+PerceptionTrial makePerceptionTrial(std::uint64_t seed, const PerceptionTruthParams& params) {
   const Wardrobe wardrobe = randomWardrobe(seed);
   const WardrobeRooms rooms(params.scenes, seed);
-  PerceptionTruthRun run;
-  run.seed = seed;
-  run.similar = seed % 5 == 0;
-  const ScenePerson& target = wardrobe.people[run.similar ? 0 : 2];
-  const ScenePerson& other = wardrobe.people[run.similar ? 1 : 3];
-  const AppearanceModel model =
+  const bool similar = seed % 5 == 0;
+  const ScenePerson& target = wardrobe.people[similar ? 0 : 2];
+  const ScenePerson& other = wardrobe.people[similar ? 1 : 3];
+  AppearanceModel model =
       learnInWardrobe(rooms, target, params.appearance, params.perception.stereo, params.empty_s,
                       params.person_s, hashOf(seed, 21));
-
   SimulatedFramesParams span;
   span.seed = hashOf(seed, 22);
   span.to_s = params.follow_s;
-  const SimulatedFrames recording = renderFrames(rooms.trial({target, other}, span.seed), span);
+  return {similar, std::move(model), renderFrames(rooms.trial({target, other}, span.seed), span)};
+}
+
+PerceptionTruthRun runPerceptionTruthExperiment(std::uint64_t seed,
+                                                const PerceptionTruthParams& params) {
+  const auto [similar, model, recording] = makePerceptionTrial(seed, params);
+  PerceptionTruthRun run;
+  run.seed = seed;
+  run.similar = similar;
   PerceptionParams perception_params = params.perception;
   perception_params.gate = recording.gate;
   Perception perception(recording.setup, model, perception_params);

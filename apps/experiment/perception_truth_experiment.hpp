@@ -6,6 +6,7 @@
 #pragma once
 
 #include "apps/experiment/random_wardrobe.hpp"
+#include "apps/experiment/simulated_frames.hpp"
 #include "apps/follower/learn_person.hpp"
 #include "apps/follower/perception.hpp"
 #include "tracking/clear_mot.hpp"
@@ -28,6 +29,17 @@ struct PerceptionTruthParams {
   PerceptionParams perception;
   std::filesystem::path scenes;  ///< Folder of the scenes that come with Heel.
 };
+
+/// A person who was learned, and a recording of them and another to look for them in.
+struct PerceptionTrial {
+  bool similar = false;  ///< Whether the other wears nearly the same top.
+  AppearanceModel model;
+  SimulatedFrames recording;
+};
+
+/// Deterministic by seed.
+/// @throws std::runtime_error  as loadScene(), or if nothing of the person could be learned.
+PerceptionTrial makePerceptionTrial(std::uint64_t seed, const PerceptionTruthParams& params);
 
 /// Pixels that a stage lets pass, against the instance mask, over all frames.
 struct PixelCount {
@@ -52,7 +64,7 @@ struct PerceptionTruthRun {
 };
 
 /// Deterministic by seed. The pairs are matched by the perception itself, where its mask says.
-/// @throws std::runtime_error  as loadScene(), or if nothing of the person could be learned.
+/// @throws std::runtime_error  as makePerceptionTrial().
 PerceptionTruthRun runPerceptionTruthExperiment(std::uint64_t seed,
                                                 const PerceptionTruthParams& params);
 

@@ -136,16 +136,26 @@ void showUp(ScenePerson& person, Vector2d& at, const RobotParams& robot, double 
   ways.waitForRobot(person, 1.7, 12.0);
 }
 
+/// The first is the one to follow: anybody, and whoever looks like them may be about.
+std::vector<ScenePerson> inAnyOrder(std::vector<ScenePerson> people, std::uint64_t seed) {
+  RandomStream random(hashOf(seed, 33));
+  for (std::size_t i = people.size(); i > 1; --i) {
+    std::swap(people[i - 1],
+              people[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
+  }
+  return people;
+}
+
 }  // namespace
 
 Scene randomEpisode(std::uint64_t seed, const std::filesystem::path& scenes,
                     const RandomEpisodeParams& params) {
   RandomHome home = randomHome(seed, scenes / "models" / "furniture.yaml");
-  const Wardrobe wardrobe = randomWardrobe(seed);
   RandomStream random(hashOf(seed, 31));
   Ways ways(home, random);
 
-  ScenePerson person = wardrobe.people[2];  // The first two look alike: nobody else is like this.
+  const std::vector<ScenePerson> people = inAnyOrder(randomWardrobe(seed).people, seed);
+  ScenePerson person = people.front();
   Vector2d at;
   showUp(person, at, home.scene.robot, params.empty_s, ways, random);
   const double speed_mps = random.uniform(0.4, 0.7);
@@ -158,7 +168,7 @@ Scene randomEpisode(std::uint64_t seed, const std::filesystem::path& scenes,
 
   const int others = static_cast<int>(random.uniform() * (params.max_others + 1));
   for (int i = 0; i < others; ++i) {
-    ScenePerson other = wardrobe.people[static_cast<std::size_t>(3 + i)];
+    ScenePerson other = people[static_cast<std::size_t>(1 + i)];
     const std::size_t room = 1 + static_cast<std::size_t>(random.uniform() * 4.0);
     const Vector2d doorstep = home.rooms.back().low + Vector2d(1.0 + 3.0 * i, 0.7);
     Vector2d where = ways.placeIn(home.rooms[room], doorstep);
@@ -179,6 +189,7 @@ Scene randomEpisode(std::uint64_t seed, const std::filesystem::path& scenes,
   camera.width = 320;
   camera.height = 240;
   camera.rate_hz = params.camera_rate_hz;
+  camera.drawn_light = true;
   LaserParams& laser = home.scene.robot.laser;
   laser.view_rad = 2.0 * M_PI;  // People who pass by the robot stay in view of it.
   laser.beams = 361;

@@ -19,10 +19,11 @@ struct RandomEpisodeParams {
   double camera_rate_hz = 10.0;
 };
 
-/// One home, one person in clothes of their own, who comes before the robot, is looked at for ten
-/// seconds, and then visits rooms at a walking pace of their own, waiting now and then for the
-/// robot to come near and going back for it if it does not, as people do; and up to max_others in
-/// other clothes, who walk about.
+/// One home, one person drawn from everybody in a wardrobe, who comes before the robot, is looked
+/// at for ten seconds, and then visits rooms at a walking pace of their own, waiting now and then
+/// for the robot to come near and going back for it if it does not, as people do; and up to
+/// max_others of the wardrobe, who walk about: whoever looks like the person may be one of them.
+/// The camera's light is drawn from the run's seed.
 /// @param scenes  Folder of the scenes that come with Heel, for the furniture.
 /// @throws std::runtime_error  as loadScene().
 Scene randomEpisode(std::uint64_t seed, const std::filesystem::path& scenes,

@@ -156,13 +156,15 @@ Wardrobe randomWardrobe(std::uint64_t seed) {
   return wardrobe;
 }
 
-WardrobeRooms::WardrobeRooms(const std::filesystem::path& scenes, std::uint64_t seed)
+WardrobeRooms::WardrobeRooms(const std::filesystem::path& scenes, std::uint64_t seed,
+                             bool drawn_light)
     : learning_room_(loadScene((scenes / "wardrobe.yaml").string())),
       trial_room_(loadScene((scenes / "pair.yaml").string())) {
   RandomStream random(hashOf(seed, 12));
   for (Scene* room : {&learning_room_, &trial_room_}) {
     redecorate(*room, random);
     useSmallCamera(*room);
+    room->robot.camera.drawn_light = drawn_light;
     room->people.clear();
   }
 }

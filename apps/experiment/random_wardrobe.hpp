@@ -35,8 +35,9 @@ Wardrobe randomWardrobe(std::uint64_t seed);
 class WardrobeRooms {
  public:
   /// @param scenes  Folder that holds wardrobe.yaml and pair.yaml.
+  /// @param drawn_light  See CameraParams; every recording has another.
   /// @throws std::runtime_error  as loadScene().
-  WardrobeRooms(const std::filesystem::path& scenes, std::uint64_t seed);
+  WardrobeRooms(const std::filesystem::path& scenes, std::uint64_t seed, bool drawn_light = false);
 
   /// Phase 1: the room is empty for `empty_s`, then the person comes in and walks about, turning to
   /// all sides.

@@ -29,6 +29,7 @@ struct Options {
   std::filesystem::path people;
   bool people_only = false;
   std::string models;
+  std::string light;
   AppearanceExperimentParams params;
 };
 
@@ -131,6 +132,7 @@ void keepModels(std::vector<OfferedModel>& models, const std::string& text) {
 
 void run(Options& options) {
   keepModels(options.params.models, options.models);
+  options.params.drawn_light = options.light == "drawn";
   std::optional<Output> output = experimentOutput("appearance", options.out, {options.people});
   if (!options.people_only) runSimulated(options, output);
   if (!options.people.empty()) runPeople(options, output);
@@ -162,6 +164,7 @@ void addAppearanceExperiment(CLI::App& verb) {
       ->needs(people);
   experiment->add_option("--models", options->models,
                          "only models whose names, as the tables have them, hold this text");
+  addLight(*experiment, options->light);
   experiment->add_option("--out", options->out, "folder for tables and pictures");
   experiment->callback([options] { run(*options); });
 }

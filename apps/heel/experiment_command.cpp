@@ -157,6 +157,7 @@ void addExperiment(CLI::App& app) {
   addAppearanceExperiment(*verb);
   addFollowExperiment(*verb);
   addGateExperiment(*verb);
+  addLightExperiment(*verb);
   addLocalizationExperiment(*verb);
   addPerceptionExperiment(*verb);
 }

@@ -28,6 +28,7 @@ void endExperiment(std::optional<Output>& output);
 void addAppearanceExperiment(CLI::App& verb);
 void addFollowExperiment(CLI::App& verb);
 void addGateExperiment(CLI::App& verb);
+void addLightExperiment(CLI::App& verb);
 void addLocalizationExperiment(CLI::App& verb);
 void addPerceptionExperiment(CLI::App& verb);
 

@@ -34,6 +34,7 @@ struct Options {
   std::filesystem::path bag;
   ClosedLoopParams loop;
   std::string image_size;  // empty: the scene's
+  std::string light;       // the same
   double rate_hz = 0.0;    // 0: the scene's camera's, and ten commands a second
   bool random = false;
   RandomEpisodeParams episode;
@@ -45,6 +46,7 @@ Scene sceneOf(const Options& options) {
   Scene scene = options.random ? randomEpisode(options.loop.seed, sceneFolder(), options.episode)
                                : loadScene(sceneFile(options.scene).string());
   if (options.alone && !scene.people.empty()) scene.people.resize(1);
+  setLight(scene, options.light);
   CameraParams& camera = scene.robot.camera;
   char end = '\0';
   if (!options.image_size.empty() && (std::sscanf(options.image_size.c_str(), "%dx%d%c",
@@ -66,6 +68,7 @@ std::string commandOf(const Options& options) {
   }
   if (options.alone) command << " --alone";
   if (!options.image_size.empty()) command << " --image-size " << options.image_size;
+  if (!options.light.empty()) command << " --light " << options.light;
   if (options.rate_hz > 0.0) command << " --rate " << options.rate_hz;
   command << " --plan " << options.plan << " --seed " << options.loop.seed;
   if (options.loop.limit_s != shortest.loop.limit_s) {
@@ -162,7 +165,8 @@ void addFollow(CLI::App& app) {
   verb->add_option("SCENE", options->scene, "a scene's name (home, office, ...) or its YAML file")
       ->capture_default_str();
   CLI::Option* random =
-      verb->add_flag("--random", options->random, "a home, people and ways drawn from the seed");
+      verb->add_flag("--random", options->random,
+                     "a home, people, ways and the camera's light drawn from the seed");
   verb->add_option("--visits", options->episode.visits, "rooms that the person goes to")
       ->check(CLI::Range(1, 1000))
       ->needs(random)
@@ -182,6 +186,7 @@ void addFollow(CLI::App& app) {
                    "pictures and commands [Hz]; the period is rounded to 0.01 s (default: the "
                    "scene's pictures, 10 commands)")
       ->check(CLI::Range(1.0, 100.0));
+  addLight(*verb, options->light);
   verb->add_flag("--no-film", options->no_film, "write no film");
   addResultBag(*verb, options->bag);
   verb->callback([options] { run(*options); });

@@ -3,6 +3,8 @@
 
 #include "apps/heel/scene_argument.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <stdexcept>
 
 namespace heel {
@@ -31,6 +33,17 @@ fs::path sceneFolder() { return shippedFolder("scenes"); }
 
 fs::path sceneFile(const std::string& scene) {
   return find(scene, sceneFolder(), ".yaml", "scene");
+}
+
+void addLight(CLI::App& verb, std::string& light) {
+  verb.add_option("--light", light,
+                  "exposure, white balance, gamma, motion blur and flicker: 'fixed', or 'drawn' "
+                  "from the seed (default: as the scene says)")
+      ->check(CLI::IsMember({"fixed", "drawn"}));
+}
+
+void setLight(Scene& scene, const std::string& light) {
+  if (!light.empty()) scene.robot.camera.drawn_light = light == "drawn";
 }
 
 fs::path mapSource(const std::string& map) {

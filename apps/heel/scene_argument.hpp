@@ -5,8 +5,14 @@
 /// Scenes, maps and plans, as users name them.
 #pragma once
 
+#include "apps/simulation/scene.hpp"
+
 #include <filesystem>
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace heel {
 
@@ -16,6 +22,12 @@ std::filesystem::path sceneFolder();
 /// A scene's file: the path itself, or the name of a scene that comes with Heel.
 /// @throws std::runtime_error  if there is neither.
 std::filesystem::path sceneFile(const std::string& scene);
+
+/// Adds --light: 'fixed' or 'drawn'; empty is as the scene says.
+void addLight(CLI::App& verb, std::string& light);
+
+/// Gives the scene's camera that light.
+void setLight(Scene& scene, const std::string& light);
 
 /// What a map is made of: a path, or the name of a scene that comes with Heel; see openMap().
 /// @throws std::runtime_error  if it is a name, and there is no such scene.

@@ -18,11 +18,13 @@ namespace {
 
 struct Options {
   std::string scene;
+  std::string light;  // empty: the scene's
   SimulateOptions simulate;
 };
 
 void run(Options& options) {
-  const Scene scene = loadScene(sceneFile(options.scene).string());
+  Scene scene = loadScene(sceneFile(options.scene).string());
+  setLight(scene, options.light);
   ProgressBar progress("simulating", 100);
   options.simulate.progress = [&](double share) {
     progress.show(static_cast<std::size_t>(100.0 * share));
@@ -61,6 +63,7 @@ void addSimulate(CLI::App& app) {
       ->check(CLI::Range(0.01, 1e6));
   verb->add_option("--seed", options->simulate.seed, "of noise and of people's ways")
       ->capture_default_str();
+  addLight(*verb, options->light);
   verb->callback([options] { run(*options); });
 }
 

@@ -147,6 +147,9 @@ struct CameraParams {
   double shot_noise = 2.0;   ///< Standard deviation at half of full light [the same].
   double vignetting = 0.25;  ///< Share of light lost in the corners.
   double blur_px = 0.5;      ///< Standard deviation of the lens's blur.
+  /// Whether exposure, white balance, gamma, motion blur and flicker are drawn from the run's seed;
+  /// else the light stays as it is. See CameraLightParams.
+  bool drawn_light = false;
 };
 
 /// A planar laser scanner, mounted on the robot.

@@ -21,6 +21,7 @@ CameraParams readCamera(YamlMap& map) {
   camera.shot_noise = map.number("shot_noise", camera.shot_noise, kNotNegative);
   camera.vignetting = map.number("vignetting", camera.vignetting, kShare);
   camera.blur_px = map.number("blur_px", camera.blur_px, {0.0, 3.0});
+  camera.drawn_light = map.flag("drawn_light", camera.drawn_light);
   map.done();
   return camera;
 }

@@ -67,7 +67,11 @@ struct Simulator::State {
     if (!options.render) return;
     arena.execute([this] { lights = std::make_unique<LightMap>(scene, geometry, world); });
     shader = std::make_unique<Shader>(scene, geometry, world, *lights);
-    camera_model = std::make_unique<CameraModel>(scene.robot.camera, hashOf(options.seed, 2));
+    if (scene.robot.camera.drawn_light) {
+      light.emplace(CameraLightParams{}, hashOf(options.seed, 5));
+    }
+    camera_model = std::make_unique<CameraModel>(scene.robot.camera, hashOf(options.seed, 2),
+                                                 light ? light->gamma() : 1.0);
   }
   State(const State&) = delete;
   State& operator=(const State&) = delete;
@@ -87,6 +91,7 @@ struct Simulator::State {
   std::unique_ptr<LightMap> lights;
   std::unique_ptr<Shader> shader;
   std::unique_ptr<CameraModel> camera_model;
+  std::optional<DrawnLight> light;
   std::vector<Walker> walkers;
   DriveBase robot;
   WheelOdometry odometry;
@@ -150,14 +155,17 @@ void Simulator::State::render() {
   const std::uint64_t picture = hashOf(options.seed, 3, camera_clock.count());
   const float right_gain = 1.0F + 0.03F * static_cast<float>(uniformFrom(options.seed) - 0.5);
   arena.execute([&] {
+    tbb::parallel_invoke([&] { renderView(world, *shader, pinhole, T_world_left, left); },
+                         [&] { renderView(world, *shader, pinhole, T_world_right, right); });
+    CameraLight now;
+    if (light) {
+      now = light->at(readings.stamp_s, left.radiance, params.exposure,
+                      pinhole.fx * robot.speed().turn_radps);
+    }
     tbb::parallel_invoke(
+        [&] { camera_model->develop(left.radiance, picture, 1.0F, now, stereo.left_bgr); },
         [&] {
-          renderView(world, *shader, pinhole, T_world_left, left);
-          camera_model->develop(left.radiance, picture, 1.0F, stereo.left_bgr);
-        },
-        [&] {
-          renderView(world, *shader, pinhole, T_world_right, right);
-          camera_model->develop(right.radiance, picture + 1, right_gain, stereo.right_bgr);
+          camera_model->develop(right.radiance, picture + 1, right_gain, now, stereo.right_bgr);
         });
   });
   stereo.depth_m = left.depth_m;

@@ -92,6 +92,15 @@ TEST(AppearanceExperiment, TellsCrimsonFromNavyAndWritesItDown) {
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 5);  // A header and four runs.
 }
 
+TEST(WardrobeRooms, HaveTheLightThatIsAskedFor) {
+  const ScenePerson person = laboratoryWardrobe().people[0];
+  for (const bool drawn : {false, true}) {
+    const WardrobeRooms rooms(kScenes, 5, drawn);
+    EXPECT_EQ(rooms.acquisition(person, 5.0, 6).robot.camera.drawn_light, drawn);
+    EXPECT_EQ(rooms.trial({person}, 6).robot.camera.drawn_light, drawn);
+  }
+}
+
 TEST(SimulatedFrames, AreTheSameOnEveryRunAndTruthIsInTheBaseFrame) {
   const WardrobeRooms rooms(kScenes, 5);
   const Scene scene = rooms.trial({laboratoryWardrobe().people[0]}, 6);

@@ -4,6 +4,7 @@
 #include "apps/experiment/random_episode.hpp"
 
 #include "apps/experiment/random_home.hpp"
+#include "apps/experiment/random_wardrobe.hpp"
 #include "apps/simulation/floor_plan.hpp"
 #include "apps/simulation/scene_map.hpp"
 #include "planning/global_planner.hpp"
@@ -12,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <set>
 #include <string>
 
 namespace heel {
@@ -181,6 +183,29 @@ TEST(RandomEpisode, ThePersonGoesSomewhere) {
     }
     EXPECT_GT(furthest_m, 3.0) << "seed " << seed << ": no visit was possible";
   }
+}
+
+TEST(RandomEpisode, ThePersonIsAnybodyAndTheirLikeMayBeAbout) {
+  std::set<std::string> targets;
+  int beside_their_like = 0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const Scene scene = randomEpisode(seed, scenes());
+    const Wardrobe wardrobe = randomWardrobe(seed);
+    std::set<std::string> names;
+    for (const ScenePerson& person : scene.people) names.insert(person.name);
+    EXPECT_EQ(names.size(), scene.people.size()) << "nobody is there twice";
+    targets.insert(scene.people[0].name);
+    const std::string& one = wardrobe.people[0].name;
+    const std::string& like = wardrobe.people[1].name;
+    if (scene.people[0].name == one) beside_their_like += static_cast<int>(names.count(like));
+    if (scene.people[0].name == like) beside_their_like += static_cast<int>(names.count(one));
+  }
+  EXPECT_EQ(targets.size(), 5U);
+  EXPECT_GE(beside_their_like, 2);
+}
+
+TEST(RandomEpisode, TheLightIsDrawn) {
+  EXPECT_TRUE(randomEpisode(1, scenes()).robot.camera.drawn_light);
 }
 
 TEST(RandomEpisode, NobodyIsThereToDisturbIfNobodyMayBe) {

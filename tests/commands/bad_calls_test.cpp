@@ -63,6 +63,7 @@ INSTANTIATE_TEST_SUITE_P(
                     std::vector<std::string>{"experiment", "appearance"},
                     std::vector<std::string>{"experiment", "perception"},
                     std::vector<std::string>{"experiment", "gate"},
+                    std::vector<std::string>{"experiment", "light"},
                     std::vector<std::string>{"experiment", "follow"},
                     std::vector<std::string>{"experiment", "localization"}));
 

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// A person learned in one light and looked for in another.
+#pragma once
+
+#include "apps/experiment/experiments.hpp"
+#include "apps/experiment/perception_truth_experiment.hpp"
+#include "apps/recording/frame.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace heel {
+
+/// How pictures are altered, in light rather than in grey levels; what was white stays at most
+/// white.
+struct LightChange {
+  double stops = 0.0;             ///< Of exposure.
+  double red_against_blue = 0.0;  ///< 0.3: red over blue is 1.3 times what it was; green stays.
+};
+
+/// @throws std::invalid_argument  if the frame has no image.
+void changeLight(Frame& frame, const LightChange& change);
+
+/// -1, 0 and +1 stop, each with red against blue at -30 %, 0 and +30 %.
+std::vector<LightChange> changesOfLight();
+
+/// What was found after each of changesOfLight().
+using LightRun = std::vector<TargetMetrics>;
+
+/// The recordings of runPerceptionTruthExperiment(): learned in one, looked for in the other,
+/// altered.
+/// @throws std::runtime_error  as runPerceptionTruthExperiment().
+LightRun runLightExperiment(std::uint64_t seed, const PerceptionTruthParams& params);
+
+/// Everybody in a recording with truth.csv, each learned from the first half of the frames in which
+/// their place is exact, and found by looks in the second, altered.
+/// @throws std::runtime_error  as runTargetsExperiment().
+LightRun runLightExperiment(const std::filesystem::path& recording, const ExperimentParams& params);
+
+/// Adds up what recall and wrong-person share are made of.
+void add(LightRun& sum, const LightRun& run);
+
+}  // namespace heel
