@@ -24,6 +24,7 @@ constexpr double kSure = 0.98;          // Looks at somebody of whom we are so s
 constexpr double kSurest = 12.0;        // Logarithm of the greatest odds of places and ways.
 constexpr double kOtherView = 0.5;      // A look with so much news begins another view;
 constexpr double kMostLooks = 10.0;     // so many of the last ones make its mean.
+constexpr double kMistaken = -4.6;      // Of a hundred identities that seem sure one is wrong.
 constexpr double kAlone_m = 1.0;        // Nobody nearer: then a look is theirs alone.
 
 Evidence relative(const Evidence& log_weight) { return (log_weight - log_weight.maxCoeff()).exp(); }
@@ -359,7 +360,7 @@ void Identity::end(std::size_t ended) {
       if (!(together_[ended][h] > 0.0 && together_[j][h] > 0.0)) continue;
       const double alone = weight[h] - weight[kStranger];
       const double together = std::log(together_[j][h] / together_[j][kStranger]);
-      other.log_free[h] = std::min(other.log_free[h], together - alone);
+      other.log_free[h] = std::min(other.log_free[h], std::max(together - alone, kMistaken));
     }
   }
 }
