@@ -164,8 +164,7 @@ void Tracker::noteSwaps() {
     const int seen_a = assignment_.column_of_row[a];
     for (std::size_t b = a + 1; b < rows_.size(); ++b) {
       const int seen_b = assignment_.column_of_row[b];
-      const double more =
-          cost(a, seen_b) + cost(b, seen_a) - cost(a, seen_a) - cost(b, seen_b);
+      const double more = cost(a, seen_b) + cost(b, seen_a) - cost(a, seen_a) - cost(b, seen_b);
       if (seen_a == seen_b || !(more < kUnlikely)) continue;
       report_.swaps.push_back(
           {tracks_[at(rows_[a])].id, tracks_[at(rows_[b])].id, 1.0 / (1.0 + std::exp(0.5 * more))});

@@ -171,8 +171,12 @@ void Follower::notePeople() {
   }
   const Identity& identity = perception_->identity();
   for (const Track& track : perception_->tracks()) {
-    if (track.status == TrackStatus::kTentative || track.id == target_.track_id) continue;
-    if (identity.probabilities(track.id)[kThing] > 1.0 - params_.surely_person) continue;
+    if (track.status == TrackStatus::kTentative) continue;
+    const bool is_target = step_.target && (track.motion.position_m() - *step_.target).norm() <
+                                               params_.target_radius_m;
+    if (is_target) continue;  // their other leg, too
+    const Evidence who = identity.probabilities(track.id);
+    if (who.sum() - who[kThing] < params_.surely_person) continue;
     MovingPerson& person = people_.emplace_back();
     person.position = track.motion.position_m();
     if (identity.restsFor_s(track.id, steady_s_) < params_.walks_on_s) {

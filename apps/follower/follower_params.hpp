@@ -69,7 +69,7 @@ struct FollowerParams {
   double lost_turn_radps = 0.4;  ///< Turn of a robot that does not know where it is.
   double give_up_s = 4.0;        ///< Blocked for so long, it is as near as it can get.
   double beside_s = 2.0;         ///< For so long a lost person is avoided where they may be.
-  double surely_person = 0.8;    ///< Who is no thing with this probability is avoided as a person.
+  double surely_person = 0.8;    ///< Who is there with this probability is avoided as a person.
   double stands_mps = 0.15;      ///< Who is slower stands: paths go around them, ...
   double beside_people_m = 0.05;   ///< ... with so much more room than around things.
   double target_radius_m = 0.45;   ///< Readings this near to the target are the target's own.

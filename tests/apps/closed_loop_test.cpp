@@ -96,7 +96,11 @@ void expectGoodEnd(const FollowLog& log) {
   for (const FollowSample& sample : log.samples) {
     ASSERT_FALSE(sample.contact) << "at " << sample.stamp_s << " s";
     ASSERT_FALSE(sample.wrong_person) << "at " << sample.stamp_s << " s";
-    ASSERT_GE(sample.command.forward_mps, 0.0) << "at " << sample.stamp_s << " s";
+    ASSERT_GE(sample.command.forward_mps, 0.0)
+        << "at " << sample.stamp_s << " s, " << sample.state << ": " << sample.reason << ", "
+        << sample.person_distance_m << " m from the person, who is seen to be "
+        << (sample.target_estimate ? (*sample.target_estimate - *sample.person_true).norm() : -1.0)
+        << " m off";
     ASSERT_LE(sample.command.forward_mps, log.max_speed_mps + 1e-9);
   }
 }
