@@ -61,14 +61,13 @@ struct FollowerParams {
   double no_frame_s = 0.25;      ///< Without a picture for longer, tracks go on by the laser.
   double lost_after_s = 0.5;     ///< Without the target's place for longer, it is lost.
   double worth_a_look = 0.05;    ///< Who is the target with more than this probability may be them.
-  double walks_on_s = 2.0;       ///< Who was lost is expected to walk on for so long.
+  double walks_on_s = 2.0;       ///< Who walked is expected to walk on for so long.
   double first_looks_s = 5.0;    ///< Who may be a lost person is looked at for so long at once,
   double look_share = 0.15;      ///< and in this share of the time in all.
   double seek_radps = 0.9;       ///< Turn of a seek.
   double ahead_rad = 0.3;        ///< What is within this of straight ahead is in view.
   double lost_turn_radps = 0.4;  ///< Turn of a robot that does not know where it is.
   double give_up_s = 4.0;        ///< Blocked for so long, it is as near as it can get.
-  double beside_s = 2.0;         ///< For so long a lost person is avoided where they may be.
   double surely_person = 0.8;    ///< Who is there with this probability is avoided as a person.
   double stands_mps = 0.15;      ///< Who is slower stands: paths go around them, ...
   double beside_people_m = 0.05;   ///< ... with so much more room than around things.
