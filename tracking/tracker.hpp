@@ -68,9 +68,8 @@ class Tracker {
   void gateObservations(const std::vector<Observation>& observations, const Viewpoint& viewpoint);
   void associate(const std::vector<Observation>& observations, const LookLikelihood& looks,
                  bool tentative);
-  void fillCosts(int row, const Track& track, const std::vector<Observation>& observations,
-                 const LookLikelihood& looks);
-  void noteSwaps();
+  void fillCosts(const std::vector<Observation>& observations, const LookLikelihood& looks);
+  void noteSwaps(const std::vector<Observation>& observations, const LookLikelihood& looks);
   void updateTracks(double stamp_s, const std::vector<Observation>& observations);
   Track& startTrack(double stamp_s, const Eigen::Vector2d& position_m,
                     const Eigen::Matrix2d& noise_m2);
@@ -87,9 +86,10 @@ class Tracker {
   int next_id_ = 1;
   std::vector<Track> tracks_;
   TrackerReport report_;
-  std::vector<int> accepted_;  ///< Indices of observations, ordered by value.
-  std::vector<int> free_;      ///< Those of them that no track has taken yet.
-  std::vector<int> rows_;      ///< Indices of the tracks that choose.
+  std::vector<int> accepted_;    ///< Indices of observations, ordered by value.
+  std::vector<int> free_;        ///< Those of them that no track has taken yet.
+  std::vector<int> rows_;        ///< Indices of the tracks that choose.
+  std::vector<Swap> newcomers_;  ///< Swaps with who may appear: track_b is an observation's index.
   CostMatrix costs_;
   AssignmentSolver solver_;
   Assignment assignment_;
