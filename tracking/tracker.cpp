@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -61,9 +60,11 @@ const TrackerReport& Tracker::step(double stamp_s, const std::vector<Observation
     track.observation = Track::kUnseen;
     track.shares = false;
   }
-  associate(observations, looks, false);
-  associate(observations, looks, true);
-  noteSwaps(observations, looks);
+  fillCosts(observations, looks);
+  column_of_track_.assign(tracks_.size(), Assignment::kNone);
+  associate(false);
+  associate(true);
+  noteSwaps();
   updateTracks(stamp_s, observations);
   endTracks(stamp_s);
   startTracks(stamp_s, observations);
@@ -124,44 +125,15 @@ void Tracker::gateObservations(const std::vector<Observation>& observations,
   });
 }
 
-/// Gives the observations that are still free to the tentative tracks, or to all others.
-void Tracker::associate(const std::vector<Observation>& observations, const LookLikelihood& looks,
-                        bool tentative) {
-  rows_.clear();
-  for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    if ((tracks_[i].status == TrackStatus::kTentative) == tentative) {
-      rows_.push_back(static_cast<int>(i));
-    }
-  }
-  free_.clear();
-  for (const int index : accepted_) {
-    if (report_.uses[at(index)].fate != ObservationFate::kUpdated) {
-      free_.push_back(index);
-    }
-  }
-  fillCosts(observations, looks);
-  solver_.solve(costs_, 0.0, assignment_);
-  for (std::size_t row = 0; row < rows_.size(); ++row) {
-    const int column = assignment_.column_of_row[row];
-    if (column != Assignment::kNone) {
-      Track& track = tracks_[at(rows_[row])];
-      track.observation = free_[at(column)];
-      report_.uses[at(track.observation)] = {ObservationFate::kUpdated, GateVerdict::kAccepted,
-                                             track.id};
-      ++report_.updated;
-    }
-  }
-}
-
 /// A pair's cost is -2 ln of its likelihood over that of leaving both, which costs 0.
 void Tracker::fillCosts(const std::vector<Observation>& observations, const LookLikelihood& looks) {
-  costs_.reset(static_cast<int>(rows_.size()), static_cast<int>(free_.size()));
+  costs_.reset(static_cast<int>(tracks_.size()), static_cast<int>(accepted_.size()));
   for (int row = 0; row < costs_.rows(); ++row) {
-    const Track& track = tracks_[at(rows_[at(row)])];
+    const Track& track = tracks_[at(row)];
     const double reach_m = params_.slack_m + params_.max_speed_mps * (*stamp_s_ - track.seen_s);
     double best_score = 0.0;
     for (int column = 0; column < costs_.columns(); ++column) {
-      const int index = free_[at(column)];
+      const int index = accepted_[at(column)];
       const Observation& o = observations[at(index)];
       const Innovation seen = innovation(track.motion, o.position_m, noiseOf(o));
       const double distance2 = squaredMahalanobis(seen);
@@ -172,40 +144,67 @@ void Tracker::fillCosts(const std::vector<Observation>& observations, const Look
       best_score = std::max(best_score, o.score);
     }
     for (int column = 0; column < costs_.columns() && best_score > 0.0; ++column) {
-      const double share = observations[at(free_[at(column)])].score / best_score;
+      const double share = observations[at(accepted_[at(column)])].score / best_score;
       costs_(row, column) -= params_.score_weight * std::log(std::max(share, kLeastScoreShare));
     }
   }
 }
 
+/// Gives the observations that are still free to the tentative tracks, or to all others.
+void Tracker::associate(bool tentative) {
+  rows_.clear();
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if ((tracks_[i].status == TrackStatus::kTentative) == tentative) {
+      rows_.push_back(static_cast<int>(i));
+    }
+  }
+  free_.clear();
+  for (int column = 0; column < costs_.columns(); ++column) {
+    if (report_.uses[at(accepted_[at(column)])].fate != ObservationFate::kUpdated) {
+      free_.push_back(column);
+    }
+  }
+  choice_.reset(static_cast<int>(rows_.size()), static_cast<int>(free_.size()));
+  for (int row = 0; row < choice_.rows(); ++row) {
+    for (int column = 0; column < choice_.columns(); ++column) {
+      choice_(row, column) = costs_(rows_[at(row)], free_[at(column)]);
+    }
+  }
+  solver_.solve(choice_, 0.0, assignment_);
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    const int column = assignment_.column_of_row[row];
+    if (column == Assignment::kNone) continue;
+    Track& track = tracks_[at(rows_[row])];
+    column_of_track_[at(rows_[row])] = free_[at(column)];
+    track.observation = accepted_[at(free_[at(column)])];
+    report_.uses[at(track.observation)] = {ObservationFate::kUpdated, GateVerdict::kAccepted,
+                                           track.id};
+    ++report_.updated;
+  }
+}
+
 /// Notes which tracks, and which observations that nobody took, may as well be each other's.
-void Tracker::noteSwaps(const std::vector<Observation>& observations, const LookLikelihood& looks) {
-  rows_.resize(tracks_.size());
-  std::iota(rows_.begin(), rows_.end(), 0);
-  free_ = accepted_;
-  fillCosts(observations, looks);
-  const auto cost = [this](int row, int column) { return column < 0 ? 0.0 : costs_(row, column); };
-  const auto columnOf = [this](const Track& track) {
-    const auto found = std::find(free_.begin(), free_.end(), track.observation);
-    return found == free_.end() ? Assignment::kNone : static_cast<int>(found - free_.begin());
+void Tracker::noteSwaps() {
+  const auto cost = [this](int row, int column) {
+    return column == Assignment::kNone ? 0.0 : costs_(row, column);
   };
   const auto probabilityOf = [](double more) { return 1.0 / (1.0 + std::exp(0.5 * more)); };
   newcomers_.clear();
   for (int a = 0; a < costs_.rows(); ++a) {
     Track& track = tracks_[at(a)];
-    const int seen_a = columnOf(track);
+    const int seen_a = column_of_track_[at(a)];
     for (int b = a + 1; b < costs_.rows(); ++b) {
       Track& other = tracks_[at(b)];
-      const int seen_b = columnOf(other);
+      const int seen_b = column_of_track_[at(b)];
       if (seen_a == seen_b) continue;
       // Who is unseen where an observation is may have been observed as one with whom it is of.
-      track.shares |= seen_b < 0 && cost(b, seen_a) < 0.0;
-      other.shares |= seen_a < 0 && cost(a, seen_b) < 0.0;
+      track.shares |= seen_b == Assignment::kNone && cost(b, seen_a) < 0.0;
+      other.shares |= seen_a == Assignment::kNone && cost(a, seen_b) < 0.0;
       const double more = cost(a, seen_b) + cost(b, seen_a) - cost(a, seen_a) - cost(b, seen_b);
       if (more < kUnlikely) report_.swaps.push_back({track.id, other.id, probabilityOf(more)});
     }
-    for (int column = 0; seen_a >= 0 && column < costs_.columns(); ++column) {
-      const int index = free_[at(column)];
+    for (int column = 0; seen_a != Assignment::kNone && column < costs_.columns(); ++column) {
+      const int index = accepted_[at(column)];
       const double more = cost(a, column) - cost(a, seen_a);
       if (report_.uses[at(index)].fate == ObservationFate::kUpdated || !(more < kUnlikely))
         continue;

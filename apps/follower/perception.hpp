@@ -104,6 +104,8 @@ class Perception {
   /// Goes on by the laser alone, when no frame comes.
   const PerceptionStep& step(double stamp_s, const RobotPlace& robot, const LaserBodies& legs);
 
+  /// The track that is likeliest to be the target; null: none may be.
+  const Track* likeliest() const { return tracker_.likeliest(); }
   const Identity& identity() const { return tracker_.identity(); }
   const std::vector<Track>& tracks() const { return tracker_.tracker().tracks(); }
   const TrackerReport& report() const { return tracker_.tracker().report(); }
