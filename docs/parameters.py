@@ -17,8 +17,8 @@ from read_parameters import MODULES, ROOT, changed_defaults, read_structs
 PAGE = ROOT / "docs" / "parameters.md"
 
 # What one changes in practice, and why: (heading, what it is about, rows of parameter and when).
-# A parameter is named from a struct that one fills, through its members. Defaults are looked up; a name
-# that is gone is an error. They are marked nowhere else.
+# A parameter is named from a struct that one fills, through its members. Defaults are looked up; a
+# name that is gone is an error. They are marked nowhere else.
 FIRST = [
     ("Your robot", "`Follower` is told of the robot by a `RobotDescription`, and sets the radii, "
      "heights and limits of its parts by it. The other parameters here are set by hand.", [
