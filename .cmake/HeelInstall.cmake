@@ -1,4 +1,4 @@
-# What is installed where, and the Debian packages made of it (see README.md, "Install").
+# What is installed where, and the Debian packages made of it (see docs/command.md, "Install").
 
 include(CMakePackageConfigHelpers)
 

@@ -21,16 +21,20 @@ namespace heel {
 /// How the floor is told from tables and walls. Defaults suit rooms and a camera on a robot or on
 /// a wall that is tilted by less than 40 degrees from the guess.
 struct GroundPlaneParams {
-  double max_range_m = 6.0;             ///< Points further off are not used.
-  double inlier_distance_m = 0.03;      ///< Of the floor's points, from the plane.
-  double max_tilt_rad = 0.7;            ///< Between the floor's normal and the guess of "up".
-  double min_inlier_share = 0.05;       ///< Of the points, that a floor must have.
-  double max_below_share = 0.15;        ///< Points below a floor, per point of it: it has none but
-                                        ///< noise, whereas a table has the floor.
-  double below_m = 0.1;                 ///< What counts as below, plus ...
-  double below_per_square_m = 0.02;     ///< ... this times the squared depth (stereo's noise).
-  std::size_t points_per_frame = 4000;  ///< Drawn evenly from each cloud.
-  std::size_t max_points = 40000;       ///< Later clouds are not used any more.
+  double max_range_m = 6.0;  ///< Points further away than this are not used.
+  /// The floor's points are no further than this from its plane.
+  double inlier_distance_m = 0.03;
+  double max_tilt_rad = 0.7;  ///< Greatest angle between the floor's normal and the guessed "up".
+  double min_inlier_share = 0.05;  ///< A floor has at least this share of the points.
+  /// Most points below a floor, per point of it. Below a floor there is only noise; below a table
+  /// there is the floor.
+  double max_below_share = 0.15;
+  /// A point is below the floor if it is lower by more than this (and below_per_square_m).
+  double below_m = 0.1;
+  /// Added to below_m per squared metre of depth, for stereo's noise grows so.
+  double below_per_square_m = 0.02;
+  std::size_t points_per_frame = 4000;  ///< So many points are drawn evenly from each cloud.
+  std::size_t max_points = 40000;  ///< Once there are so many points, later clouds are not used.
 };
 
 /// The floor, as seen from the camera, and on what that rests.
@@ -70,8 +74,8 @@ class GroundPlaneEstimator {
 
 /// How far the floor that was found may be from the configured mounting.
 struct MountingTolerance {
-  double height_m = 0.05;   ///< Of the camera over the floor.
-  double angle_rad = 0.05;  ///< Of pitch and of roll.
+  double height_m = 0.05;   ///< Greatest difference of the camera's height over the floor.
+  double angle_rad = 0.05;  ///< Greatest difference of pitch, and of roll.
 };
 
 /// A sentence that says how the mountings differ; empty if they agree.

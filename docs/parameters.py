@@ -16,48 +16,77 @@ from read_parameters import MODULES, ROOT, changed_defaults, read_structs
 
 PAGE = ROOT / "docs" / "parameters.md"
 
-# What people change first. Values are looked up; a name that is gone is an error.
+# What one changes in practice, and why: (heading, what it is about, rows of parameter and when).
+# A parameter is named from a struct that one fills, through its members. Defaults are looked up; a
+# name that is gone is an error. They are marked nowhere else.
 FIRST = [
-    ("Near things have no depth: a long baseline, or a fine camera",
-     ["StereoMatcherParams.disparities"],
-     "The nearest depth is focal length times baseline over it. More costs time."),
-    ("Your light is poor: shadows become foreground, or the person does not",
-     ["BackgroundParams.min_intensity_step", "BackgroundParams.intensity_spreads"],
-     "Higher means less foreground."),
-    ("The room cannot be empty for 5 s, or the person cannot stay for 10 s",
-     ["AcquisitionParams.background_s", "AcquisitionParams.person_s"],
-     "`heel learn --background` and `--person`."),
-    ("Children, or people who sit",
-     ["CandidateParams.min_height_m", "PersonShape.min_height_m", "HeightCropParams.min_m",
-      "AppearanceParams.bands"],
-     "Lower the heights and the bands' limits together; furniture begins to count, too."),
-    ("A large hall",
-     ["PlanViewParams.max_range_m", "GroundPlaneParams.max_range_m"],
-     "Only if your baseline carries so far; see [camera.md](camera.md)."),
-    ("A high camera, or one that looks down steeply",
-     ["GroundPlaneParams.max_tilt_rad"],
-     "From how level a camera the search for the floor starts."),
-    ("The target changes to somebody else after a loss",
-     ["TargetParams.take_above", "TargetParams.keep_above"],
-     "Higher is stricter, and the target is found again later."),
-    ("The target is given up too soon, or too late",
-     ["TrackerParams.max_coast_s", "FollowerParams.lost_after_s"],
-     "The first is for tracks, the second for what the robot does."),
-    ("Your frames come slowly (below 4 Hz) or with gaps",
-     ["TrackerParams.max_gap_s", "TrackerParams.max_coast_s", "TrackerParams.confirm_frames"],
-     "Longer times; fewer frames to confirm."),
-    ("Your robot is wider, or faster",
-     ["DriveLimits.radius_m", "DriveLimits.max_speed_mps", "SearchMapParams.robot_speed_mps",
-      "SearchMapParams.robot_turn_radps", "SearchMapParams.robot_clearance_m"],
-     "`Follower` takes the first two, and all other radii, from its `RobotDescription`; the last "
-     "three are set by hand."),
-    ("The robot follows too closely, or from too far",
-     ["FollowerParams.near_m", "FollowerParams.far_m", "GoalChooserParams.standoff_m"],
-     "Keep near_m below far_m."),
-    ("The robot loses its place on the map",
-     ["MotionModelParams.distance_noise", "MotionModelParams.turn_noise",
-      "LocalizationParams.max_particles", "LocalizationParams.lost_fit"],
-     "Wheels that slip need wider noise, wider noise needs more particles."),
+    ("Your robot", "`Follower` is told of the robot by a `RobotDescription`, and sets the radii, "
+     "heights and limits of its parts by it. The other parameters here are set by hand.", [
+        ("RobotDescription.drive.radius_m", "Your robot is wider or narrower than a Pioneer 3-DX."),
+        ("RobotDescription.drive.max_speed_mps", "Your robot may drive faster, or must be slower. "
+         "Everything in [results](results.md) was measured at 0.3."),
+        ("RobotDescription.height_m", "Your robot is taller or lower: what hangs lower than this "
+         "is an obstacle."),
+        ("RobotDescription.scanner_height_m", "Your laser is mounted higher or lower."),
+        ("FollowerParams.search.map.robot_speed_mps", "You changed the robot's speed: the search "
+         "plans its time with this one."),
+        ("FollowerParams.search.map.robot_turn_radps", "You changed how fast the robot turns."),
+        ("FollowerParams.search.map.robot_clearance_m", "You changed the radius: this is the "
+         "radius and 0.09 m."),
+        ("FollowerParams.localization.motion.distance_noise", "The wheels slip, and the robot "
+         "loses its place: raise it. More noise needs more particles."),
+        ("FollowerParams.localization.motion.turn_noise", "The wheels slip in turns: raise it."),
+    ]),
+    ("Your camera", "[How far a camera measures](camera.md#how-far-it-measures) depends on its "
+     "baseline and focal length.", [
+        ("FollowerParams.perception.stereo.disparities", "Near things have no depth, as with a "
+         "long baseline or many pixels. The nearest depth is focal length times baseline over "
+         "this; more takes more time. Set it in `learn.stereo` and in `CameraSetupParams::stereo` "
+         "as well."),
+        ("CameraSetupParams.ground.max_tilt_rad", "The camera looks down steeply, and the floor "
+         "is not found: raise it."),
+        ("FollowerParams.perception.tracker.confirm_frames", "Frames come at less than 4 Hz: "
+         "lower it, and `confirm_hits` with it."),
+        ("FollowerParams.perception.tracker.max_coast_s", "Tracks end too soon while somebody is "
+         "hidden, or too late."),
+        ("FollowerParams.perception.tracker.max_gap_s", "Frames come with longer gaps than this: "
+         "raise it."),
+    ]),
+    ("Your building", "", [
+        ("FollowerParams.perception.plan_view.max_range_m", "You follow in a large hall, with a "
+         "camera that measures so far."),
+        ("CameraSetupParams.ground.max_range_m", "The floor near the camera is hidden, and the "
+         "camera measures further."),
+        ("FollowerParams.learn.acquisition.detector.height.max_m", "Your ceiling is lower than "
+         "this."),
+        ("FollowerParams.paths.unknown_is_free", "Your map has gaps through which the robot must "
+         "go."),
+        ("FollowerParams.obstacles.max_memory_s", "Many people walk about, and the robot avoids "
+         "places that they have left: lower it."),
+        ("FollowerParams.localization.max_particles", "The robot is not found in a large "
+         "building: raise it."),
+        ("FollowerParams.localization.lost_fit", "The robot says that it is lost where furniture "
+         "hides the walls: lower it."),
+    ]),
+    ("Your people, and your taste", "", [
+        ("FollowerParams.learn.acquisition.background_s", "The room can't be empty for so long "
+         "(`heel learn --background`)."),
+        ("FollowerParams.learn.acquisition.person_s", "The person can't stay for so long (`heel "
+         "learn --person`)."),
+        ("FollowerParams.learn.acquisition.detector.person.min_height_m", "You learn children, or "
+         "people who sit: lower it. Furniture then begins to count, too."),
+        ("FollowerParams.perception.candidates.min_height_m", "You follow children, or people who "
+         "sit: lower it."),
+        ("FollowerParams.perception.target.take_above", "Wrong people are followed: raise it. The "
+         "right one is then found later. `keep_above` stays below it."),
+        ("FollowerParams.goal.standoff_m", "The robot comes too close, or stays too far away. "
+         "`near_m` and `far_m` go with it."),
+        ("FollowerParams.near_m", "The robot should stop nearer to the person, or further away."),
+        ("FollowerParams.far_m", "The robot should drive on sooner, or later. It is more than "
+         "`near_m`."),
+        ("FollowerParams.search.budget_s", "The robot should search longer for a lost person, or "
+         "give up sooner."),
+    ]),
 ]
 
 
@@ -112,17 +141,33 @@ def struct_section(struct, structs, users, changed):
     return out
 
 
+def find(path, structs):
+    """(struct, field, default there) of a parameter named through the members of a struct."""
+    root, *names = path.split(".")
+    struct, changes = structs[root], changes_of(root, structs)
+    for name in names[:-1]:
+        struct = structs[struct.field(name).type]
+    field = struct.field(names[-1])
+    return struct, field, changes.get(".".join(names), field.default)
+
+
+def changes_of(root, structs):
+    return {shown: value for title, _, _, changes in changed_defaults(structs)
+            if title == f"`{root}`" for shown, _, _, _, value, _ in changes}
+
+
 def first_section(structs):
-    out = ["## What one changes first", "",
-           "| when | parameter (default) | note |", "| --- | --- | --- |"]
-    for when, names, note in FIRST:
-        shown = []
-        for name in names:
-            struct, _, field = name.partition(".")
-            default = structs[struct].field(field).default
-            shown.append(f"[{struct}](#{struct.lower()})`.{field}` ({code(default)})")
-        out.append(f"| {when} | {', '.join(shown)} | {note} |")
-    return out + [""]
+    out = []
+    for title, about, rows in FIRST:
+        out += [f"### {title}", ""] + ([about, ""] if about else [])
+        out += ["| parameter | unit | default | change it when |", "| --- | --- | --- | --- |"]
+        for path, when in rows:
+            struct, field, default = find(path, structs)
+            shown = path.replace(".", "::", 1)
+            out.append(f"| [`{shown}`](#{struct.name.lower()}) | {field.unit()} | {code(default)} "
+                       f"| {when} |")
+        out.append("")
+    return out
 
 
 def make_page():
@@ -142,23 +187,27 @@ def make_page():
 
     count = sum(1 for struct in structs.values() for field in struct.fields()
                 if field.type not in structs)
+    first = sum(len(rows) for _, _, rows in FIRST)
     out = [
         "<!-- Made by docs/parameters.py of the headers: change their comments, and run it. -->",
         "", "# Parameters", "",
-        f"All {count} parameters of the library, in {len(structs)} structs: what each is, its unit "
-        "and its default. The defaults suit a",
-        "robot indoors, with a stereo or RGB-D camera of about 640x480, and people who walk. This "
-        "page is made of the code by",
-        "`docs/parameters.py`; a test compares the two.",
+        f"Heel has {count} parameters in {len(structs)} structs. Their defaults suit a robot "
+        "indoors, a stereo or RGB-D camera",
+        f"of about 640x480, and people who walk. First come the {first} that one changes in "
+        "practice, then [all of",
+        "them](#all-structs). The page is made of the headers by `docs/parameters.py`; a "
+        "test compares the two.",
         "",
-        "A parameter is a field. Make the struct, change the field, and give it to the "
-        "constructor: `heel::PlanViewParams params;",
-        "params.cell_size_m = 0.1; heel::PlanView view(params);`. A value that makes no sense is a "
-        "`std::invalid_argument`. The",
-        "`heel` command uses the defaults, but for what its options say. *Share* is a part of a "
-        "whole, from 0 to 1; no unit: a plain",
+        "A parameter is a field of a struct. Make the struct, change the field, and give it to a "
+        "constructor or function:",
+        "`heel::FollowerParams params; params.near_m = 0.8; heel::Follower follower(robot, walls, "
+        "plan, start, params);`. A value",
+        "out of its range throws `std::invalid_argument`. The `heel` command uses the defaults, "
+        "except where it has an option.",
+        "A *share* is a part of a whole, from 0 to 1; a parameter without a unit is a plain "
         "number.",
         "",
+        "## What one changes", "",
     ]
     out += first_section(structs)
     out += ["## All structs", ""]

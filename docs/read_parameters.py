@@ -24,7 +24,8 @@ MODULES = {
 }
 
 # Structs of parameters with another name.
-OTHERS = {"BagTopics", "DriveLimits", "HeightBand", "MountingTolerance", "PersonShape"}
+OTHERS = {"BagTopics", "DriveLimits", "HeightBand", "MountingTolerance", "PersonShape",
+          "RobotDescription"}
 
 UNITS = [  # the longest endings first
     ("_mps2", "m/s²"), ("_radps2", "rad/s²"), ("_radps", "rad/s"), ("_mps", "m/s"),

@@ -35,10 +35,13 @@ struct BeamEnds {
 
 /// The mixture that a beam's end is drawn from. Beams without an end (no return) say nothing.
 struct LikelihoodFieldParams {
-  double hit_m = 0.1;      ///< Standard deviation of the end's distance from a mapped surface.
-  double hit_share = 0.7;  ///< Of beams that end at what the map shows; the others end anywhere.
-  double random_over_m = 20.0;  ///< Over what range "anywhere" is spread evenly.
-  double far_m = 2.0;           ///< Distances are cut off here.
+  /// Standard deviation of a beam's end from the surface on the map that it hits.
+  double hit_m = 0.1;
+  /// Share of the beams that end at what the map shows; the others end anywhere.
+  double hit_share = 0.7;
+  /// Ends that the map does not explain are spread evenly over this range.
+  double random_over_m = 20.0;
+  double far_m = 2.0;  ///< Greater distances between an end and the map count as this one.
 };
 
 /// Distance to the nearest mapped surface, and the log-likelihood of a beam's end, cell by cell:

@@ -25,30 +25,39 @@ struct LocalizationParams {
   ScanBeamsParams scan;
   PoseSearchParams search;
 
-  std::size_t min_particles = 500;   ///< Kept when the robot is sure where it is.
-  std::size_t max_particles = 5000;  ///< Bounds the time of a scan; more for a large building.
-  double kld_error = 0.05;           ///< See kldParticles().
-  double kld_quantile = 2.326;       ///< Of 99 %.
-  double bin_m = 0.2;                ///< Edge of the bins that KLD counts.
-  double bin_rad = 0.175;            ///< The same for headings.
+  /// So many particles are kept when the robot is sure where it is.
+  std::size_t min_particles = 500;
+  /// Bounds the number of particles, and so the time of a scan; more for a large building.
+  std::size_t max_particles = 5000;
+  double kld_error = 0.05;  ///< Error that KLD sampling allows, see kldParticles().
+  /// Quantile of the normal distribution that KLD sampling uses; this one is of 99 %.
+  double kld_quantile = 2.326;
+  double bin_m = 0.2;      ///< Edge of the bins of position that KLD sampling counts.
+  double bin_rad = 0.175;  ///< Width of the bins of heading that KLD sampling counts.
 
-  /// Neighbouring beams err together, so 60 of them are worth fewer that do not: log-likelihoods
-  /// are multiplied with this.
+  /// Factor on the log-likelihoods of beams: neighbouring beams err together, so 60 of them are
+  /// worth fewer independent ones.
   double evidence = 0.15;
-  double resample_below = 0.5;  ///< Share of particles that are effective.
-  double min_move_m = 0.05;     ///< A scan is weighed after this way ...
-  double min_turn_rad = 0.05;   ///< ... or this turn; the same view twice is no news.
-  double cluster_m = 0.5;       ///< Particles this near to a cluster's mean belong to it ...
-  double cluster_rad = 0.5;     ///< ... if their headings are this near as well.
-  double sure_share = 0.8;      ///< Weight that the largest cluster must have.
-  int confirming_scans = 8;     ///< So many weighed scans must agree with a place found anew.
-  double near_m = 0.2;          ///< An end this near to where the map has it is explained.
-  double lost_fit = 0.65;       ///< Lost where the fit is worse on average (ScanResiduals::fit) ...
-  double lost_drop = 0.75;      ///< ... or has fallen to this share of what was usual.
-  double fast_rate = 0.15;      ///< Weight of a new scan in the fit's short average ...
-  double slow_rate = 0.005;     ///< ... and in what is usual.
-  double injected_share = 0.25;  ///< Of the particles, replaced by searched ones while lost.
-  std::uint64_t seed = 1;        ///< Of all that is drawn by chance.
+  /// Particles are drawn anew when a smaller share of them is effective.
+  double resample_below = 0.5;
+  /// A scan is weighed after this way (or min_turn_rad): the same view twice is no news.
+  double min_move_m = 0.05;
+  double min_turn_rad = 0.05;  ///< A scan is weighed after this turn (or min_move_m).
+  double cluster_m = 0.5;      ///< Particles of a cluster are no further than this from its mean.
+  double cluster_rad = 0.5;    ///< Headings of a cluster differ by no more than this from its mean.
+  /// The robot is sure of its place when the largest cluster has this share of the weight.
+  double sure_share = 0.8;
+  int confirming_scans = 8;  ///< So many weighed scans must agree with a place found anew.
+  double near_m = 0.2;       ///< A beam's end this near to where the map has it is explained.
+  /// The robot is lost where the fit's short average (ScanResiduals::fit) is lower than this.
+  double lost_fit = 0.65;
+  /// The robot is lost, too, where the fit has fallen to this share of what was usual.
+  double lost_drop = 0.75;
+  double fast_rate = 0.15;   ///< Weight of a new scan in the fit's short average.
+  double slow_rate = 0.005;  ///< Weight of a new scan in the usual fit.
+  /// Share of the particles that a search of the map replaces while the robot is lost.
+  double injected_share = 0.25;
+  std::uint64_t seed = 1;  ///< Seed of all that is drawn by chance.
 };
 
 /// Where the robot is, and how far that can be trusted.

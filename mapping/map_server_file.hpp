@@ -15,10 +15,11 @@ namespace heel {
 /// black and 0 for white, p > occupied_thresh is a wall, p < free_thresh is free, the rest is
 /// unknown. Colours count by their brightness; an alpha channel is not looked at.
 struct MapImageParams {
-  Eigen::Vector2d origin_m = Eigen::Vector2d::Zero();  ///< Of the lower left corner.
-  bool negate = false;                                 ///< Then white is p = 1.
-  double occupied_thresh = 0.65;                       ///< What is over it is a wall.
-  double free_thresh = 0.196;                          ///< Free below this.
+  /// Place of the picture's lower left corner.
+  Eigen::Vector2d origin_m = Eigen::Vector2d::Zero();
+  bool negate = false;            ///< Whether white is occupied (p = 1) and black free.
+  double occupied_thresh = 0.65;  ///< A pixel whose p is greater than this is a wall.
+  double free_thresh = 0.196;     ///< A pixel whose p is less than this is free.
 };
 
 /// Reads a picture (PGM, PNG, ...) as a floor plan; its upper row has the largest y.

@@ -14,10 +14,10 @@ namespace heel {
 /// corrections of a real differential drive's log amount to: too narrow loses the robot, too wide
 /// costs particles.
 struct MotionModelParams {
-  double distance_noise = 0.1;  ///< Of the way gone, per root of a metre [m].
-  double side_noise = 0.03;     ///< Across it, per root of a metre [m].
-  double turn_noise = 0.12;     ///< Of the heading, per root of a radian turned [rad].
-  double drift_noise = 0.06;    ///< Of the heading, per root of a metre gone [rad].
+  double distance_noise = 0.1;  ///< Error of the distance, per root of a metre gone [m].
+  double side_noise = 0.03;     ///< Error to the side, per root of a metre gone [m].
+  double turn_noise = 0.12;     ///< Error of the heading, per root of a radian turned [rad].
+  double drift_noise = 0.06;    ///< Error of the heading, per root of a metre gone [rad].
 };
 
 /// A motion put together from increments of the odometry.

@@ -30,37 +30,40 @@ namespace heel {
 /// How far the layer sees and how long it remembers. The defaults suit a robot at walking pace
 /// indoors, with a planar laser at 10 Hz and a stereo camera.
 struct ObstacleLayerParams {
-  double size_m = 8.0;        ///< Edge of the window, with the robot in its middle.
+  double size_m = 8.0;  ///< Edge of the window that is looked at, with the robot in its middle.
   double cell_size_m = 0.05;  ///< Edge of a cell.
 
   double min_height_m = 0.06;  ///< Points lower than this are floor.
   double max_height_m = 1.2;   ///< Points higher than this pass over the robot.
   double point_range_m = 4.0;  ///< Points further than this from the robot are too uncertain.
   int min_points = 3;          ///< Points in a cell, in one frame, that make an obstacle.
-  double own_radius_m = 0.15;  ///< Nothing stands so near to the base's origin: the robot does.
+  double own_radius_m = 0.15;  ///< What seems this near to the base's origin is the robot itself.
 
-  double laser_height_m = 0.3;      ///< Of the laser's plane over the floor.
-  double laser_thickness_m = 0.1;   ///< Points this near to the plane are seen by the laser too.
-  double laser_min_range_m = 0.05;  ///< Shorter ranges are faults.
-  double laser_max_range_m = 8.0;   ///< A beam without an echo has seen free space so far.
-  /// A beam clears as far as its neighbours are no more than this apart; further off, a chair's leg
+  double laser_height_m = 0.3;  ///< Height of the laser's plane over the floor.
+  /// Points this near to the laser's plane are seen by the laser too.
+  double laser_thickness_m = 0.1;
+  double laser_min_range_m = 0.05;  ///< Shorter ranges of the laser are faults.
+  double laser_max_range_m = 8.0;   ///< A beam without an echo has seen free space up to here.
+  /// A beam clears as far as its neighbours are no further apart than this; beyond, a chair's leg
   /// fits between two beams, and its absence in a scan says nothing.
   double clear_spacing_m = 0.05;
   double clear_after_s = 0.3;  ///< What was seen more recently than this is not cleared.
 
-  /// An obstacle is remembered for `memory_gain` times as long as it was seen, within these limits:
-  /// somebody who walks by leaves a short trail, and a table that the robot drove up to is still
-  /// known when it has left the camera's view.
+  /// An obstacle is remembered for at least this time; see memory_gain.
   double min_memory_s = 2.0;
-  double max_memory_s = 15.0;  ///< See min_memory_s; less where many people walk about.
-  double memory_gain = 5.0;    ///< See min_memory_s.
+  /// An obstacle is remembered for at most this time; less where many people walk about.
+  double max_memory_s = 15.0;
+  /// An obstacle is remembered for so many times as long as it was seen: somebody who walks by
+  /// leaves a short trail, and a table that the robot drove up to is known when it has left the
+  /// picture.
+  double memory_gain = 5.0;
 
-  /// A stool's seat that the camera no longer sees is there while the laser sees the stool's leg:
-  /// points that were seen for `held_after_s` are remembered for so long near anything that the
-  /// laser has seen for as long; 0: never.
+  /// What the camera saw is remembered for so long beside something that the laser still sees: a
+  /// stool's seat over its leg; 0: never.
   double held_s = 60.0;
-  double held_after_s = 1.0;   ///< See held_s.
-  double held_within_m = 0.3;  ///< Near, for held_s.
+  /// held_s is for what camera and laser have both seen for at least this time.
+  double held_after_s = 1.0;
+  double held_within_m = 0.3;  ///< held_s is for what is this near to what the laser sees.
 };
 
 /// A rolling window of the floor in world axes around the robot, with what the laser and the

@@ -15,9 +15,11 @@ namespace heel {
 
 /// Which beams are used.
 struct ScanBeamsParams {
-  std::size_t beams = 60;     ///< At most so many, spread evenly over those that may be used.
-  double min_range_m = 0.05;  ///< Nearer ends are the robot's own, or dust.
-  double max_range_m = 20.0;  ///< Further ones tell too little of the heading for their errors.
+  /// At most so many beams are used, spread evenly over those that may be.
+  std::size_t beams = 60;
+  double min_range_m = 0.05;  ///< Beams that end nearer than this hit the robot itself, or dust.
+  /// Beams that end further away than this tell too little for their errors.
+  double max_range_m = 20.0;
 };
 
 /// Chooses the ends of beams that are finite, in range, and on none of the discs.

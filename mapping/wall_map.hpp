@@ -20,8 +20,8 @@ namespace heel {
 
 /// Heights over the floor, from the lower to the upper [m].
 struct HeightBand {
-  double low_m = 0.0;
-  double high_m = 2.0;
+  double low_m = 0.0;   ///< Lower end.
+  double high_m = 2.0;  ///< Upper end.
 };
 
 /// The heights at which a robot or a person can bump into something.

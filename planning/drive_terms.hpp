@@ -30,13 +30,16 @@ using DriveScores = std::array<double, kDriveTerms>;
 const char* nameOf(DriveTerm term);
 
 struct DriveTermParams {
-  /// In the order of DriveTerm: progress, path, heading, clearance, people, view, smoothness.
+  /// Weights of the costs, in the order of DriveTerm: progress, path, heading, clearance, people,
+  /// view, smoothness.
   DriveScores weights = {10.0, 2.0, 1.5, 2.0, 16.0, 1.5, 0.4};
-  double path_off_m = 0.3;         ///< Mean distance to the path at which its cost is half.
-  double comfort_m = 0.25;         ///< Room to walls and furniture from which on more is no better.
-  double people_comfort_m = 0.35;  ///< The same for people.
+  /// Mean distance from the path at which the cost of leaving it is half.
+  double path_off_m = 0.3;
+  double comfort_m = 0.25;         ///< More room than this to walls and furniture is no better.
+  double people_comfort_m = 0.35;  ///< More room than this to people is no better.
   double foresight_s = 2.0;        ///< How long people are taken to keep their velocity.
-  double half_view_rad = 0.4;      ///< Off the middle of the camera's picture.
+  /// The person is in view if no further than this from the middle of the picture.
+  double half_view_rad = 0.4;
 };
 
 /// What all futures of one decision have in common.

@@ -12,9 +12,9 @@
 namespace heel {
 
 struct FacingParams {
-  double gain = 1.8;        ///< Turn per angle [1/s].
-  double still_rad = 0.05;  ///< Not worth a turn, ...
-  double begin_rad = 0.12;  ///< ... nor this, when it stands.
+  double gain = 1.8;        ///< Speed of turning per angle that is left [1/s].
+  double still_rad = 0.05;  ///< A turn ends when no more than this is left of it.
+  double begin_rad = 0.12;  ///< A robot that stands turns only for more than this.
 };
 
 /// The turn in rad/s that brings the robot round to `point`: proportional, never so fast that it

@@ -15,21 +15,23 @@
 namespace heel {
 
 struct GoalChooserParams {
-  double standoff_m = 1.0;        ///< From the person's middle to the robot's.
-  double least_standoff_m = 0.8;  ///< Never nearer than this.
-  double most_standoff_m = 1.6;   ///< Not further, if there is a place.
-  double radius_m = 0.26;         ///< Of the robot.
-  double margin_m = 0.08;         ///< Room that the robot needs around it.
-  double lead_s = 0.4;            ///< Goes to where the person will be then.
-  double doorway_depth_m = 0.7;   ///< Before and behind a doorway is passage, this far.
-  double keep_m = 0.25;           ///< A new place must be cheaper by what this much way costs.
+  double standoff_m = 1.0;        ///< Distance to keep, from the person's middle to the robot's.
+  double least_standoff_m = 0.8;  ///< The robot never stands nearer to the person than this.
+  /// The robot does not stand further from the person than this, if there is a place.
+  double most_standoff_m = 1.6;
+  double radius_m = 0.26;        ///< Radius of the robot.
+  double margin_m = 0.08;        ///< Room that the robot needs around it.
+  double lead_s = 0.4;           ///< The robot goes to where the person will be after this time.
+  double doorway_depth_m = 0.7;  ///< Passage reaches this far before and behind a doorway.
+  double keep_m = 0.25;          ///< A new place must be cheaper by what this much way costs.
   // Costs.
-  double way_cost = 1.0;       ///< Per metre of straight line from the robot.
-  double standoff_cost = 2.5;  ///< Per metre nearer or further than standoff_m.
-  double doorway_cost = 2.0;   ///< Of standing in the middle of a passage; less towards its rims.
-  double narrow_cost = 0.5;    ///< Of having no more room than needed; none with 0.3 m more.
-  double ahead_cost = 0.6;     ///< Of standing where a person is walking to at 1 m/s.
-  double unseen_cost = 3.0;    ///< Of a place from which the person is not seen.
+  double way_cost = 1.0;       ///< Cost per metre of straight line from the robot.
+  double standoff_cost = 2.5;  ///< Cost per metre nearer or further than standoff_m.
+  /// Cost of standing in the middle of a passage; less towards its rims.
+  double doorway_cost = 2.0;
+  double narrow_cost = 0.5;  ///< Cost of having no more room than needed; 0 with 0.3 m more.
+  double ahead_cost = 0.6;   ///< Cost of standing where a person is walking to at 1 m/s.
+  double unseen_cost = 3.0;  ///< Cost of a place from which the person is not seen.
 };
 
 /// A place to stand, turned to the person.

@@ -17,10 +17,10 @@ namespace heel {
 
 /// What a wave goes through.
 struct GridWaveParams {
-  int stride = 1;          ///< How many of the map's cells one of the wave's is wide; up to 7.
-  double radius_m = 0.3;   ///< Of the body, with its safety.
-  double comfort_m = 0.2;  ///< Cells with less room than this beyond the radius cost more ...
-  double crowding = 0.0;   ///< ... by up to this share of their length.
+  int stride = 1;          ///< How many of the map's cells one cell of the wave is wide; up to 7.
+  double radius_m = 0.3;   ///< Radius of the body, with its safety.
+  double comfort_m = 0.2;  ///< Cells with less room than this beyond the radius cost more.
+  double crowding = 0.0;   ///< A cell without comfort_m counts as longer, by up to this share.
 };
 
 /// Where a wave begins.

@@ -17,18 +17,23 @@ struct LocalPlannerParams {
   DriveLimits limits;
   DriveTermParams terms;
   FacingParams facing;
-  double horizon_s = 4.0;         ///< How far the futures reach.
-  int latency_periods = 1;        ///< How late the brakes may act, besides the period itself.
-  double margin_m = 0.04;         ///< Room that is left to things when the robot has braked.
-  double people_margin_m = 0.1;   ///< The same for people, wherever on their way they are then.
-  double slow_gap_m = 0.08;       ///< With less room than this the speed falls, ...
-  double least_speed_mps = 0.08;  ///< ... down to this where there is none.
-  double slow_people_gap_m = 0.3;
-  double look_away_s = 0.5;     ///< After standing so long for the view of a person, it turns away.
-  double give_way_gap_m = 0.2;  ///< Backs off when a person will be nearer than this, ...
-  double give_way_s = 1.2;      ///< ... this soon.
-  double arrive_m = 0.08;       ///< Nearer than this to the path's end it has arrived, ...
-  double depart_m = 0.2;        ///< ... until the end is further than this.
+  double horizon_s = 4.0;  ///< How far into the future the tried motions reach.
+  /// How many periods late the brakes may act, besides the period itself.
+  int latency_periods = 1;
+  double margin_m = 0.04;  ///< Room that is left to things when the robot has braked.
+  /// Room that is left to people when the robot has braked, wherever on their way they are then.
+  double people_margin_m = 0.1;
+  double slow_gap_m = 0.08;        ///< With less room to things than this the robot slows down.
+  double least_speed_mps = 0.08;   ///< Speed where there is no room left to slow down for.
+  double slow_people_gap_m = 0.3;  ///< With less room to people than this the robot slows down.
+  /// A robot that has stood so long to keep a person in view may turn away from them.
+  double look_away_s = 0.5;
+  double give_way_gap_m = 0.2;  ///< The robot backs off when a person will come nearer than this.
+  double give_way_s = 1.2;      ///< How far ahead in time give_way_gap_m is looked for.
+  /// The robot has arrived when it is nearer than this to the path's end.
+  double arrive_m = 0.08;
+  /// A robot that has arrived drives again when the end is further away than this.
+  double depart_m = 0.2;
 };
 
 enum class DriveStatus { kMoving, kTurning, kStopped, kBlocked, kArrived };

@@ -20,25 +20,26 @@ namespace heel {
 
 struct SearchMapParams {
   double cell_size_m = 0.2;    ///< Edge of a cell of the belief.
-  double body_radius_m = 0.2;  ///< Of a person.
+  double body_radius_m = 0.2;  ///< Radius of a person.
 
   // How people walk.
-  double top_speed_mps = 1.2;    ///< Nobody is faster.
-  double usual_speed_mps = 0.5;  ///< Of somebody who stood when last seen; pauses included.
-  double straight_s = 2.0;       ///< Time after which one has changed one's way by 45 degrees.
-  double place_sigma_m = 0.3;    ///< How well the place where they were last seen is known.
+  double top_speed_mps = 1.2;    ///< Nobody walks faster than this.
+  double usual_speed_mps = 0.5;  ///< Speed of somebody who stood when last seen, pauses included.
+  double straight_s = 2.0;       ///< Time after which a walker has turned by 45 degrees.
+  /// Standard deviation of the place where the person was last seen.
+  double place_sigma_m = 0.3;
 
   // What the robot sees, and how it moves.
-  double field_of_view_rad = 1.0;  ///< Horizontal, of the camera.
-  double min_range_m = 0.6;
-  double max_range_m = 5.0;
-  double max_scan_m = 6.0;          ///< Legs further away can be missed by the laser.
-  double notice_s = 0.3;            ///< Time that a person in view goes unnoticed, on average.
-  double robot_clearance_m = 0.35;  ///< Free around a place to look from.
-  double robot_speed_mps = 0.3;
-  double robot_turn_radps = 0.8;
-  double look_s = 1.5;          ///< Time that a look takes, until a track is sure.
-  double view_spacing_m = 0.6;  ///< From one place to look from to the next.
+  double field_of_view_rad = 1.0;   ///< Horizontal field of view of the camera.
+  double min_range_m = 0.6;         ///< The camera sees nobody nearer than this.
+  double max_range_m = 5.0;         ///< The camera sees nobody further away than this.
+  double max_scan_m = 6.0;          ///< Legs further away than this can be missed by the laser.
+  double notice_s = 0.3;            ///< Time for which a person in view goes unnoticed, on average.
+  double robot_clearance_m = 0.35;  ///< Free room around a place to look from.
+  double robot_speed_mps = 0.3;     ///< Speed at which the robot gets to a place.
+  double robot_turn_radps = 0.8;    ///< Speed at which the robot turns to look.
+  double look_s = 1.5;              ///< Time that a look takes, until a track is sure.
+  double view_spacing_m = 0.6;      ///< Distance from one place to look from to the next.
 };
 
 /// A place to look from.

@@ -15,13 +15,14 @@ namespace heel {
 
 /// The robot as a disc that drives and turns. The defaults are a Pioneer 3-DX at the paper's speed.
 struct DriveLimits {
-  double radius_m = 0.26;
-  double max_speed_mps = 0.3;
-  double max_reverse_mps = 0.15;  ///< Only to make room for somebody.
-  double max_turn_radps = 1.0;
-  double max_acceleration_mps2 = 0.5;
-  double max_turn_acceleration_radps2 = 2.0;
-  double period_s = 0.1;  ///< From one command to the next.
+  double radius_m = 0.26;      ///< Radius of the disc that holds the robot.
+  double max_speed_mps = 0.3;  ///< Greatest speed forwards.
+  /// Greatest speed backwards, which is only used to make room for somebody.
+  double max_reverse_mps = 0.15;
+  double max_turn_radps = 1.0;                ///< Greatest speed of turning.
+  double max_acceleration_mps2 = 0.5;         ///< Greatest acceleration, and deceleration.
+  double max_turn_acceleration_radps2 = 2.0;  ///< Greatest acceleration of turning.
+  double period_s = 0.1;                      ///< Time from one command to the next.
 };
 
 /// @throws std::invalid_argument  unless every limit is positive and finite.

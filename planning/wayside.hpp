@@ -13,12 +13,12 @@
 namespace heel {
 
 struct WaysideParams {
-  double radius_m = 0.26;        ///< Of the robot.
-  double margin_m = 0.08;        ///< Room that it needs around it.
+  double radius_m = 0.26;        ///< Radius of the robot.
+  double margin_m = 0.08;        ///< Room that the robot needs around it.
   double person_m = 0.35;        ///< Half the width that a person needs to walk at ease.
-  double reach_m = 3.0;          ///< Looks for places no further than this.
-  double away_m = 1.0;           ///< Keeps this far from the person.
-  double doorway_depth_m = 0.9;  ///< So far before and behind a doorway people come through.
+  double reach_m = 3.0;          ///< Places further from the robot than this are not looked at.
+  double away_m = 1.0;           ///< The robot keeps this far from the person.
+  double doorway_depth_m = 0.9;  ///< People come through this far before and behind a doorway.
   double apart_m = 0.4;          ///< Places nearer to each other than this are one.
 };
 

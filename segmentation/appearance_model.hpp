@@ -48,20 +48,22 @@ std::vector<BodyBand> wholeBody();
 
 /// How an appearance is modelled.
 struct AppearanceParams {
-  ColorModel model = ColorModel::kColorRatio;  ///< kPrincipalColors is the paper's.
-  /// Heights whose colours the filter learns each by itself. upperBody() is the paper's;
+  /// How colours are scored; kPrincipalColors is the paper's way.
+  ColorModel model = ColorModel::kColorRatio;
+  /// Bands of height whose colours are learned each by itself. upperBody() is the paper's;
   /// wholeBody(), which `heel learn` takes, finds trousers too.
   std::vector<BodyBand> bands = torsoAndHead();
   ThresholdParams threshold;
   ColorRatioParams color_ratio;
   PrincipalColorParams principal_colors;
   HueSaturationParams hue_saturation;
-  /// Multiplies a colour's score by p / (p + q), p and q the person's and the room's smoothed
-  /// shares of it (see colorRatioScore(), which does so by itself): what the empty room has as well
-  /// counts little.
+  /// Multiplies a colour's score by p / (p + q), where p and q are the person's and the room's
+  /// smoothed shares of that colour: what the empty room has as well counts little. kColorRatio
+  /// does so anyway.
   bool suppress_background = false;
-  double max_error_share = 0.6;    ///< Over it, a band does not tell the person from the room.
-  std::uint64_t min_points = 500;  ///< A band needs that many points to be relied on.
+  /// A band with more errors than this does not tell the person from the room.
+  double max_error_share = 0.6;
+  std::uint64_t min_points = 500;  ///< A band with fewer points than this is not relied on.
 };
 
 /// What is known of one band.

@@ -38,12 +38,13 @@ enum class ThresholdRule {
 };
 
 struct ThresholdParams {
-  /// Fewest errors: on real recordings the other rule lost people whose clothes looked darker on
-  /// their way back.
+  /// How the threshold is chosen. Fewest errors: on real recordings the other rule lost people
+  /// whose clothes looked darker on their way back.
   ThresholdRule rule = ThresholdRule::kFewestErrors;
-  /// For kFewestErrors: more lets less of the room pass, and less of the person.
+  /// For kFewestErrors: a greater weight lets less of the room pass, and less of the person.
   double false_positive_weight = 1.0;
-  double max_false_negative_share = 0.3;  ///< For kMostSelective.
+  /// For kMostSelective: the greatest share of the person that may be lost.
+  double max_false_negative_share = 0.3;
 };
 
 /// The threshold that a rule chooses; of equally good ones the lowest for kFewestErrors. At most

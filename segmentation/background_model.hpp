@@ -16,11 +16,14 @@ namespace heel {
 /// Disparity is measured as inverse depth [1/m]: disparity divided by focal length and baseline, so
 /// the same numbers hold for every stereo rig and for RGB-D cameras.
 struct BackgroundParams {
-  double min_valid_share = 0.3;      ///< Depth is known where this share of the frames had it.
-  double min_disparity_step = 0.02;  ///< Smallest step to the front that counts [1/m].
-  double disparity_spreads = 4.0;    ///< And at least this many times the pixel's own spread.
+  /// A pixel's depth is known if at least this share of the frames had it.
+  double min_valid_share = 0.3;
+  double min_disparity_step = 0.02;  ///< Smallest step towards the camera that counts [1/m].
+  /// A step also counts only from this many times the pixel's own spread on.
+  double disparity_spreads = 4.0;
   double min_intensity_step = 20.0;  ///< Smallest change of intensity that counts, of 255.
-  double intensity_spreads = 4.0;    ///< And at least this many times the pixel's own spread.
+  /// A change also counts only from this many times the pixel's own spread on.
+  double intensity_spreads = 4.0;
 };
 
 /// What differs from the background in one frame. Reused from frame to frame.

@@ -20,11 +20,12 @@ using ColorScore = std::function<double(std::uint8_t b, std::uint8_t g, std::uin
 
 /// The paper's model (sections 2 and 3.1), for one or several principal colours.
 struct PrincipalColorParams {
-  int count = 1;                 ///< k; 1 is the paper's setting, 0 chooses it from the data.
+  /// k, the number of colours; 1 is the paper's setting, 0 chooses it from the data.
+  int count = 1;
   int max_count = 4;             ///< Greatest k that is chosen from the data.
   double min_spread_drop = 0.4;  ///< One more colour must take away this share of the spread.
-  int hue_bins = 36;             ///< Over the full circle.
-  int value_bins = 32;           ///< Over [0, 1].
+  int hue_bins = 36;             ///< Bins of hue over the full circle.
+  int value_bins = 32;           ///< Bins of value over [0, 1].
 };
 
 /// The greatest, over the principal colours, of s D_H(h) + (1 - s) D_V(v).
@@ -37,8 +38,8 @@ ColorScore principalColorScore(const ColorHistogram& person,
 
 /// One histogram of hue and saturation together.
 struct HueSaturationParams {
-  int hue_bins = 36;        ///< Over the full circle.
-  int saturation_bins = 8;  ///< Over [0, 1].
+  int hue_bins = 36;        ///< Bins of hue over the full circle.
+  int saturation_bins = 8;  ///< Bins of saturation over [0, 1].
 };
 
 /// The person's share of the colour's bin, smoothed by one bin each way. Blind to value, so light
@@ -49,14 +50,14 @@ ColorScore hueSaturationScore(const ColorHistogram& person, const HueSaturationP
 
 /// How colours are smoothed and compared with the room's. Units are at each field.
 struct ColorRatioParams {
-  /// Added to each channel before its logarithm: below it, colours count as alike.
+  /// Added to each channel before its logarithm is taken: darker colours than this count as alike.
   double dark_offset = 12.0;
-  double chroma_limit = 1.5;    ///< log-chromaticities are clipped at +- this.
-  int chroma_bins = 36;         ///< Over both signs, for each of the two chromaticities.
-  int brightness_bins = 32;     ///< Over the logarithms of 0 to 255.
+  double chroma_limit = 1.5;    ///< Log-chromaticities are clipped at plus and minus this.
+  int chroma_bins = 36;         ///< Bins of each of the two chromaticities, over both signs.
+  int brightness_bins = 32;     ///< Bins of brightness, over the logarithms of 0 to 255.
   double smoothing_bins = 1.0;  ///< Standard deviation of the Gaussian on the histograms.
-  /// How much weight, beside the room's 1, has "anything else": a stranger or thing of any colour.
-  /// It keeps out colours that neither the person nor the room showed.
+  /// Weight of "anything else", a stranger or thing of any colour, where the room has 1. It keeps
+  /// out colours that neither the person nor the room showed.
   double other_weight = 1.0;
 };
 

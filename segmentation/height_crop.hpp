@@ -14,8 +14,8 @@ namespace heel {
 /// Heights over the floor [m]. The upper limit leaves room over a tall person, so that a wall shows
 /// itself by reaching it.
 struct HeightCropParams {
-  double min_m = 0.3;  ///< Over noise of the floor and most feet.
-  double max_m = 2.3;  ///< Lower it under a low ceiling.
+  double min_m = 0.3;  ///< Lower points are left out: the floor's noise, and most of the feet.
+  double max_m = 2.3;  ///< Higher points are left out; lower this under a low ceiling.
 };
 
 /// The height stage of the chain. Holds PCL's filter, so that its memory is reused.

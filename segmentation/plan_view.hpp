@@ -20,7 +20,8 @@ namespace heel {
 struct PlanViewParams {
   /// Edge of a cell. Coarser is faster, fits sparser clouds, and joins people who stand close.
   double cell_size_m = 0.05;
-  double max_range_m = 8.0;  ///< The grid covers |x| and |y| up to this; other points are left out.
+  /// The grid covers |x| and |y| up to this; points outside are left out.
+  double max_range_m = 8.0;
 };
 
 /// From where the points were seen. A pixel at distance d stands for a surface of (d / f)^2, so

@@ -31,21 +31,29 @@ struct WorldBlob {
 /// The defaults let partial bodies through, as behind the colour filter. A component is split at
 /// the peaks of its surface map, smoothed to the size of a body, if there is a valley between them.
 struct WorldBlobParams {
-  int min_points = 10;        ///< Fewer are noise.
-  double min_area_m2 = 0.01;  ///< Less is noise (a hand has about 0.015).
-  double max_gap_m = 0.05;    ///< Cells that far apart, edge to edge, are still one; 0: they touch.
-  bool split = true;          ///< Off: the paper's plain connected components.
-  double smoothing_m = 0.075;      ///< Standard deviation of the Gaussian on the surface map.
-  double min_separation_m = 0.35;  ///< Two people's centres are not closer.
-  double max_valley = 0.9;         ///< Lowest value between two peaks, over the lower peak's.
+  int min_points = 10;  ///< A blob with fewer points than this is noise.
+  /// A blob with less area than this is noise (a hand has about 0.015).
+  double min_area_m2 = 0.01;
+  /// Cells that are this far apart, edge to edge, are still one blob; 0: they must touch.
+  double max_gap_m = 0.05;
+  /// Whether blobs are split into people who touch; without, they are the paper's connected
+  /// components.
+  bool split = true;
+  /// Standard deviation of the Gaussian on the surface map whose peaks are people.
+  double smoothing_m = 0.075;
+  double min_separation_m = 0.35;  ///< The middles of two people are at least this far apart.
+  /// Two peaks are two people if the valley between them is lower than this share of the lower
+  /// peak.
+  double max_valley = 0.9;
 };
 
 /// What a blob must be to be a person without a look at its colours.
 struct PersonShape {
-  double min_height_m = 1.2;  ///< Of the highest point; lower for children and who sits.
-  double max_height_m = 2.1;  ///< Higher is a wall or a door.
-  double min_area_m2 = 0.05;  ///< A head and a shoulder.
-  double max_extent_m = 1.2;  ///< Along the floor; longer is furniture.
+  /// A person's highest point is at least this high; lower it for children and people who sit.
+  double min_height_m = 1.2;
+  double max_height_m = 2.1;  ///< What reaches higher than this is a wall or a door.
+  double min_area_m2 = 0.05;  ///< Least area on the floor: that of a head and a shoulder.
+  double max_extent_m = 1.2;  ///< What is longer than this along the floor is furniture.
 
   /// For a scene whose background is not known, where furniture passes for half hidden people: half
   /// of a body must be seen.

@@ -26,8 +26,8 @@ struct TrackingFrame {
 
 struct ClearMotParams {
   double match_distance_m = 0.5;  ///< An estimate further than this from a person is not of them.
-  /// Keep last frame's pairs while they are near enough, and count switches. Off for detectors
-  /// whose results have no identity: each frame is then matched anew.
+  /// Whether last frame's pairs are kept while they are near enough, and switches counted. Off for
+  /// detectors, whose results have no identity: each frame is then matched anew.
   bool has_identity = true;
 };
 

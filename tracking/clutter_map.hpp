@@ -24,11 +24,12 @@ enum class Sight {
 using SightOf = std::function<Sight(const Eigen::Vector2d&)>;
 
 struct ClutterMapParams {
-  double cell_m = 0.25;
-  double range_m = 8.0;  ///< Further away nothing is counted.
-  /// Things a square metre that look like people, where nothing is known yet.
+  double cell_m = 0.25;  ///< Edge of a cell.
+  double range_m = 8.0;  ///< Nothing further away than this is counted.
+  /// Things per square metre that look like people, assumed where nothing is known yet.
   double density_per_m2 = 0.1;
-  double prior_s = 1.0;  ///< So much looking is what that is worth.
+  /// How long a place must be looked at for this to count as much as density_per_m2.
+  double prior_s = 1.0;
 };
 
 /// Remembers, for each place, how much of the time in which it was seen a thing was observed there.

@@ -46,13 +46,15 @@ using Evidence = Eigen::Array<double, kHypotheses, 1>;
 /// likeness = rarity_share * KL(look || anybody) - KL(look || person), in the light that fits best.
 /// The first two were learned on people of real recordings, see docs/results.md.
 struct GalleryParams {
-  double look_gain = 0.9;         ///< As far as parts of a body are independent.
-  double likeness_offset = 0.38;  ///< At minus this, a part says nothing.
-  double worst_likeness = -1.5;   ///< No part says more against a person than this [nat].
-  /// Of what a rare colour is worth: whoever wears one wears much of it.
+  /// Factor on a look's log odds; less than 1, for the parts of a body are not independent.
+  double look_gain = 0.9;
+  /// Added to the likeness of each part; a part whose likeness is minus this says nothing.
+  double likeness_offset = 0.38;
+  double worst_likeness = -1.5;  ///< No part says more against a person than this [nat].
+  /// How much of a rare colour's evidence counts: whoever wears a rare colour wears much of it.
   double rarity_share = 0.5;
-  /// Share of looks that mislead (shade, somebody half in front): none says more against anybody
-  /// than this leaves, nor more for them than its square.
+  /// Share of looks that mislead (shade, somebody half in front). It bounds what one look can say
+  /// against anybody; its square bounds what one can say for them.
   double misleading_share = 0.05;
 };
 

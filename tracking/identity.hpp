@@ -21,18 +21,20 @@ namespace heel {
 struct IdentityParams {
   GalleryParams gallery;
   ClutterMapParams clutter;
-  /// A look is news as far as body, view or light have changed: at rest, one in still_look_s; on
-  /// the way, of the body or of the camera towards or around it, one in look_way_m.
+  /// While neither the body nor the camera moves, one look in this time counts as new.
   double still_look_s = 30.0;
-  double look_way_m = 0.5;  ///< See still_look_s.
-  /// People who have stood for a time stay for about as long, and this time, again; things stay.
+  /// While the body or the camera moves, one look in this way counts as new.
+  double look_way_m = 0.5;
+  /// Somebody who has stood for a time is expected to stand for that time and this longer; things
+  /// stay.
   double stands_s = 10.0;
-  /// Looks of one track are alike: many are worth no more than 1 / look_correlation of them.
+  /// Looks of one track are alike: many together are worth no more than 1 / this of them.
   double look_correlation = 0.2;
-  /// Strangers who come into view a square metre and look, beside the things there. The target, and
-  /// each of the others, come as often while they are away.
+  /// Strangers who come into view per square metre and look; things are counted elsewhere
+  /// (ClutterMapParams). The target, and each of the others, come as often while they are away.
   double newcomer_density_per_m2 = 0.05;
-  double walk_mps = 1.0;  ///< Who is away gets away from where they were seen at about this speed.
+  /// Speed at which somebody out of view gets away from where they were last seen.
+  double walk_mps = 1.0;
 };
 
 /// What is known of somebody who is not in view.

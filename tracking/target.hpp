@@ -18,12 +18,14 @@ namespace heel {
 
 struct TargetParams {
   IdentityParams identity;
-  double start_distance_m = 0.5;  ///< A track this near to the place given at the start is it.
-  /// Somebody is taken for the target with this probability: the greater, the more a wrong person
-  /// costs against a lost one (c times as much: c / (1 + c)).
+  double start_distance_m = 0.5;  ///< A track this near to a given starting place is the target.
+  /// Somebody is taken for the target from this probability on. If a wrong person costs c times as
+  /// much as a lost one, it is c / (1 + c).
   double take_above = 0.6;
-  double keep_above = 0.4;          ///< And is kept down to this one.
-  bool start_by_appearance = true;  ///< Find the target by looks when no start was given.
+  /// Somebody who was taken for the target stays it down to this probability.
+  double keep_above = 0.4;
+  /// Whether the target is found by looks when no starting place was given.
+  bool start_by_appearance = true;
 };
 
 enum class TargetStatus {

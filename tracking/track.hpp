@@ -18,26 +18,31 @@ namespace heel {
 
 struct TrackerParams {
   MotionParams motion;
-  double position_sigma_m = 0.12;      ///< Of an observation's place, per axis.
-  double start_speed_sigma_mps = 1.0;  ///< Of a new track's unknown velocity, per axis.
-  double gate_prob = 0.997;            ///< Share of a track's own observations inside its gate.
-  /// No gate is wider than the way of a person who turns about and walks at this speed, and
-  /// slack_m more.
+  double position_sigma_m = 0.12;  ///< Standard deviation of an observation's place, per axis.
+  /// Standard deviation of a new track's unknown velocity, per axis.
+  double start_speed_sigma_mps = 1.0;
+  double gate_prob = 0.997;  ///< Share of a track's own observations that its gate lets in.
+  /// Bounds the gate: nobody is expected further from where they were seen than they walk at this
+  /// speed, and slack_m.
   double max_speed_mps = 2.0;
-  double slack_m = 0.5;         ///< See max_speed_mps.
-  double detection_prob = 0.9;  ///< That a person in view is observed in a frame.
+  double slack_m = 0.5;         ///< Added to the way that max_speed_mps allows.
+  double detection_prob = 0.9;  ///< Probability that a person in view is observed in a frame.
   /// Observations from nowhere (newcomers, clutter) per square metre and frame. An observation is
   /// given to a track only where the track explains it better than this.
   double new_density_per_m2 = 0.02;
   /// Of several observations that compete for a track, one whose score is the fraction f of the
   /// best one's pays -score_weight ln(f) on the scale of squared Mahalanobis distances.
   double score_weight = 1.0;
-  double birth_clearance_m = 0.4;  ///< Closer to a track in view, what is left is its fragment.
-  int confirm_hits = 2;            ///< A track is confirmed when seen in this many
-  int confirm_frames = 3;          ///< of this many frames (at most 32), else it is dropped.
-  double max_coast_s = 1.0;        ///< A confirmed track unseen for longer is lost. At a low
-                                   ///< frame rate, at least three frames' time.
-  double max_gap_s = 2.0;          ///< A longer gap between two frames loses all tracks.
+  /// An observation left over this near to a track in view is a fragment of it and starts no track.
+  double birth_clearance_m = 0.4;
+  /// A track is confirmed when it was seen in this many of its first confirm_frames frames.
+  int confirm_hits = 2;
+  /// A track that is not confirmed after so many frames (at most 32) is dropped.
+  int confirm_frames = 3;
+  /// A confirmed track that was not seen for longer is lost. At a low frame rate, at least three
+  /// frames' time.
+  double max_coast_s = 1.0;
+  double max_gap_s = 2.0;  ///< A longer gap than this between two frames ends all tracks.
 };
 
 /// @throws std::invalid_argument  if a parameter is out of range; the text names it.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// What the README's tables about real people are made with.
+/// What the tables of docs/results.md about real people are made with.
 #pragma once
 
 #include "apps/follower/learn_person.hpp"

@@ -13,23 +13,26 @@ namespace heel {
 
 /// How long things take, and how far the person can get between two frames.
 struct AcquisitionParams {
-  double background_s = 5.0;   ///< Empty scene at the start.
+  double background_s = 5.0;   ///< The scene is empty for so long at the start.
   double person_s = 10.0;      ///< The acquisition ends this long after the person entered.
-  int confirm_frames = 2;      ///< Somebody is there when seen in so many: depth is noisy.
-  double others_s = 0.5;       ///< Somebody else is there when seen all this time.
-  double max_missing_s = 1.0;  ///< Not seen for longer: the person has left.
-  double max_speed_mps = 3.0;  ///< With max_jump_m: how far the person may be from the last place.
-  double max_jump_m = 0.3;
-  /// Depth is coarse far away, and breaks one body into two along the ray of sight: what is this
-  /// near to that ray, and no further away along it than max_split_m, is the same person's.
+  int confirm_frames = 2;      ///< Somebody is there when seen in so many frames: depth is noisy.
+  double others_s = 0.5;       ///< A second person is there when seen all this time.
+  double max_missing_s = 1.0;  ///< A person who was not seen for longer has left.
+  /// The person is no further from their last place than they walk at this speed, and max_jump_m.
+  double max_speed_mps = 3.0;
+  double max_jump_m = 0.3;  ///< Added to the way that max_speed_mps allows.
+  /// Far away depth is coarse, and breaks one body into two, one behind the other. What is this
+  /// near to the ray of sight through the person (and within max_split_m) is theirs.
   double ray_width_m = 0.35;
+  /// What is no further than this before or behind the person, along the ray of sight, is theirs;
+  /// see ray_width_m.
   double max_split_m = 0.8;
-  double min_learn_height_m = 1.0;  ///< What is higher is labelled as torso, the rest as legs.
-  /// Depth and colour images never fit to the pixel, so a moving person's disparity takes in a rim
-  /// of the room. The person's pixels are therefore those that differ in intensity too, unless
-  /// fewer than this share of them do: then the clothes have the wall's colour. Besides somebody
-  /// whose do, nobody is there with fewer: depth that comes and goes on a plain wall is like that,
-  /// and frames with it are not used.
+  /// What is higher than this is labelled as torso, the rest as legs.
+  double min_learn_height_m = 1.0;
+  /// The person's pixels are those that differ in depth and in intensity: depth alone takes in a
+  /// rim of the room. If a smaller share than this differs in intensity, the clothes have the
+  /// wall's colour, and depth alone counts. Beside somebody in other clothes, though, such a blob
+  /// is noise on a plain wall, and the frame is not used.
   double min_changed_share = 0.5;
   PeopleDetectorParams detector;
 };

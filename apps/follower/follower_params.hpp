@@ -23,11 +23,11 @@ namespace heel {
 
 /// The robot, as far as following needs to know it.
 struct RobotDescription {
-  DriveLimits drive;
-  double height_m = 1.1;
-  FloorPose T_base_scanner;
-  double scanner_height_m = 0.3;
-  CameraSetup camera;  ///< Looks ahead, along the base frame's X axis.
+  DriveLimits drive;              ///< Its size and how it drives.
+  double height_m = 1.1;          ///< Its height over the floor: what hangs lower is in its way.
+  FloorPose T_base_scanner;       ///< Where the laser scanner is, in the base frame.
+  double scanner_height_m = 0.3;  ///< Height of the laser's plane over the floor.
+  CameraSetup camera;             ///< Its camera, which looks ahead along the base frame's X axis.
 
   double halfView_rad() const;  ///< Half the camera's horizontal field of view; 0: unknown.
 };
@@ -52,27 +52,39 @@ struct FollowerParams {
 
   FollowerParams();  ///< With what suits following where a part's own default is for other uses.
 
-  double near_m = 1.0;           ///< The paper's metre: nearer than this the robot stops ...
-  double far_m = 1.2;            ///< ... until the person is further than this.
-  double beside_m = 0.7;         ///< Somebody this near leaves the robot no room to drive.
-  double comes_mps = 0.15;       ///< Who comes nearer than far_m at this speed wants to get past.
-  double makes_room_s = 20.0;    ///< Leaves the way to them for so long at most, ...
-  double waits_aside_s = 6.0;    ///< ... and for so long once it is out of their way.
-  double no_frame_s = 0.25;      ///< Without a picture for longer, tracks go on by the laser.
-  double lost_after_s = 0.5;     ///< Without the target's place for longer, it is lost.
-  double worth_a_look = 0.05;    ///< Who is the target with more than this probability may be them.
-  double walks_on_s = 2.0;       ///< Who walked is expected to walk on for so long.
-  double first_looks_s = 5.0;    ///< Who may be a lost person is looked at for so long at once,
-  double look_share = 0.15;      ///< and in this share of the time in all.
-  double seek_radps = 0.9;       ///< Turn of a seek.
-  double ahead_rad = 0.3;        ///< What is within this of straight ahead is in view.
-  double lost_turn_radps = 0.4;  ///< Turn of a robot that does not know where it is.
-  double give_up_s = 4.0;        ///< Blocked for so long, it is as near as it can get.
-  double surely_person = 0.8;    ///< Who is there with this probability is avoided as a person.
-  double stands_mps = 0.15;      ///< Who is slower stands: paths go around them, ...
-  double beside_people_m = 0.05;   ///< ... with so much more room than around things.
+  /// The robot stops when the person is nearer than this: the paper's metre.
+  double near_m = 1.0;
+  /// A robot that stands with the person follows again when they are further away than this.
+  double far_m = 1.2;
+  double beside_m = 0.7;  ///< Somebody this near leaves the robot no room to drive.
+  /// Somebody within far_m who comes nearer at this speed wants to get past.
+  double comes_mps = 0.15;
+  double makes_room_s = 20.0;  ///< The robot leaves the way to somebody for so long at most.
+  double waits_aside_s = 6.0;  ///< The robot waits beside the way for so long at most.
+  double no_frame_s = 0.25;    ///< Without a picture for longer, tracks go on by the laser.
+  double lost_after_s = 0.5;   ///< Without the target's place for longer, it is lost.
+  /// While the target is lost, somebody who is it with more than this probability is looked at.
+  double worth_a_look = 0.05;
+  /// Somebody who walked is expected to walk on for so long: where they may be is looked at first,
+  /// and avoided.
+  double walks_on_s = 2.0;
+  /// People who may be the lost target are looked at for so long before anything else.
+  double first_looks_s = 5.0;
+  /// People who may be the lost target are looked at for this share of the time, beyond
+  /// first_looks_s.
+  double look_share = 0.15;
+  double seek_radps = 0.9;       ///< Speed of turning while the robot looks around for the target.
+  double ahead_rad = 0.3;        ///< What is within this angle of straight ahead is in view.
+  double lost_turn_radps = 0.4;  ///< Speed of turning of a robot that does not know where it is.
+  /// A robot that was blocked for so long is as near to its goal as it can get.
+  double give_up_s = 4.0;
+  /// Somebody who is a person with this probability is avoided as one.
+  double surely_person = 0.8;
+  double stands_mps = 0.15;  ///< Somebody slower than this stands, and paths lead around them.
+  /// Paths lead around people with so much more room than around things.
+  double beside_people_m = 0.05;
   double target_radius_m = 0.45;   ///< Readings this near to the target are the target's own.
-  double mapped_within_m = 0.15;   ///< What is seen this near to what the map shows is that.
+  double mapped_within_m = 0.15;   ///< What is seen this near to something on the map is that.
   double obstacles_every_s = 0.2;  ///< How often the camera looks for obstacles.
 };
 

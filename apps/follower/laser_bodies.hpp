@@ -18,17 +18,19 @@
 namespace heel {
 
 struct LaserBodiesParams {
-  double off_map_m = 0.15;   ///< An end this near to what the map shows is that.
-  double max_range_m = 5.0;  ///< Further away, a leg is a beam or two.
-  double max_gap_m = 0.3;    ///< Ends of neighbouring beams further apart are two things.
-  double max_width_m = 0.9;  ///< A wider thing is no person.
-  double pair_m = 0.5;       ///< Two legs nearer than this are one person's.
-  /// Of where a person is, seen by their legs: these stride, and a thing's middle shifts as the
-  /// robot drives around it.
+  double off_map_m = 0.15;  ///< A beam's end this near to something on the map is that.
+  /// Nothing further away is taken for legs: there a leg is a beam or two.
+  double max_range_m = 5.0;
+  /// Ends of neighbouring beams that are further apart are of two things.
+  double max_gap_m = 0.3;
+  double max_width_m = 0.9;  ///< A thing that is wider than this is no person.
+  double pair_m = 0.5;       ///< Two legs nearer to each other than this are one person's.
+  /// Standard deviation of a person's place by their legs: these stride, and a thing's middle
+  /// shifts as the robot drives around it.
   double sigma_m = 0.05;
-  double half_width_m = 0.35;  ///< Legs are no further than this to the sides of a person's place,
-  double reach_m = 0.4;        ///< nor than this before or behind it.
-  double max_age_s = 0.3;      ///< An older scan says nothing.
+  double half_width_m = 0.35;  ///< Legs are no further than this to the side of a person's place.
+  double reach_m = 0.4;        ///< Legs are no further than this before or behind a person's place.
+  double max_age_s = 0.3;      ///< A scan that is older than this says nothing.
 };
 
 /// Finds, in a scan, things of a person's size that the map does not show. Reuses its memory.

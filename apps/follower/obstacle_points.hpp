@@ -17,13 +17,13 @@
 namespace heel {
 
 struct ObstaclePointsParams {
-  int width_px = 160;          ///< Images are made this small, or left as they are if smaller.
-  double nearest_m = 0.45;     ///< Nearer things can't be matched; what seems so is false.
-  double max_range_m = 2.0;    ///< On the floor, from the camera; it is coarse further away.
-  double min_height_m = 0.08;  ///< Lower points are the floor's noise.
-  double max_height_m = 1.2;   ///< Higher ones the robot passes under.
-  /// Only where the image changes by this much from one column to the next (of 256 levels) is a
-  /// match to be trusted: in blank surfaces it runs on from their rims. Rims are obstacle enough.
+  int width_px = 160;        ///< Images are reduced to this width, or left as they are if smaller.
+  double nearest_m = 0.45;   ///< Nearer things can't be matched; what seems to be nearer is false.
+  double max_range_m = 2.0;  ///< Points further away than this on the floor are too coarse.
+  double min_height_m = 0.08;  ///< Lower points are noise of the floor.
+  double max_height_m = 1.2;   ///< The robot passes under higher points.
+  /// A match is trusted only where the image changes by this much from one column to the next (of
+  /// 256 levels): in blank surfaces it runs on from their rims. Rims are obstacle enough.
   int min_texture = 8;
 };
 

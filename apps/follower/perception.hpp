@@ -36,13 +36,14 @@ const char* toText(Stage stage);
 /// What a blob must be to be looked at as a person. Lenient: only the parts of a body that have the
 /// target's colours are seen.
 struct CandidateParams {
-  int min_cells = 10;          ///< Of the plan view.
-  double min_score = 12.0;     ///< Sum of the cells' heights [m].
-  double min_height_m = 1.25;  ///< Of its highest point.
-  /// To start a track: a head and a shoulder. A track goes on with less, for of a person half
-  /// hidden or in the shade little passes; furniture seldom shows more.
+  int min_cells = 10;          ///< A blob has at least so many cells of the plan view.
+  double min_score = 12.0;     ///< The heights of a blob's cells sum to at least this [m].
+  double min_height_m = 1.25;  ///< A blob's highest point is at least this high.
+  /// Least area of a blob that starts a track: that of a head and a shoulder. A track goes on with
+  /// less, for little of a person passes who is half hidden or in the shade.
   double min_start_area_m2 = 0.05;
-  double min_distance_m = 0.3;  ///< From the camera, on the floor; nearer is "too close".
+  /// Blobs nearer than this to the camera, on the floor, are "too close".
+  double min_distance_m = 0.3;
 };
 
 struct PerceptionParams {
@@ -53,7 +54,7 @@ struct PerceptionParams {
   BodyDescriberParams body;
   TrackerParams tracker;
   TargetParams target;
-  GeometricGate gate;  ///< Besides "too close": where a person can be seen.
+  GeometricGate gate;  ///< Where a person can be seen; anywhere if empty.
 };
 
 /// Where the robot is when a frame is taken. A robot that stands still has its base frame as world.

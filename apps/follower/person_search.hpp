@@ -14,8 +14,8 @@ namespace heel {
 
 struct PersonSearchParams {
   SearchMapParams map;
-  double budget_s = 240.0;  ///< Of one search.
-  double new_view_s = 3.0;  ///< So often it thinks again where to look.
+  double budget_s = 240.0;  ///< A search ends after so long.
+  double new_view_s = 3.0;  ///< How often the robot chooses anew where to look.
 };
 
 /// Keeps, from the moment of a loss on, where the person can be: spread by time, thinned by looks.

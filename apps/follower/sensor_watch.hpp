@@ -16,14 +16,15 @@
 namespace heel {
 
 struct SensorWatchParams {
-  double max_image_age_s = 0.6;  ///< Without a good image for longer the robot stops; so too ...
-  double max_scan_age_s = 0.35;  ///< ... without a scan, ...
-  double max_odometry_age_s = 0.35;  ///< ... or odometry.
-  double max_gap_s = 1.0;            ///< Between two steps; more is a jump in time.
-  double max_pair_gap_s = 0.02;      ///< Between the left and the right image.
-  double min_brightness = 8.0;       ///< Mean of the 256 levels; darker images show nothing.
-  double max_speed_mps = 1.5;        ///< Odometry that runs faster has slipped or been reset.
-  double max_turn_radps = 4.0;
+  double max_image_age_s = 0.6;  ///< The robot stops when the last good image is older than this.
+  double max_scan_age_s = 0.35;  ///< The robot stops when the last scan is older than this.
+  /// The robot stops when the last odometry is older than this.
+  double max_odometry_age_s = 0.35;
+  double max_gap_s = 1.0;        ///< More than this between two steps is a jump in time.
+  double max_pair_gap_s = 0.02;  ///< Greatest time between the left and the right image.
+  double min_brightness = 8.0;   ///< Images with a lower mean (of 256 levels) show nothing.
+  double max_speed_mps = 1.5;    ///< Odometry that drives faster has slipped or been reset.
+  double max_turn_radps = 4.0;   ///< Odometry that turns faster has slipped or been reset.
 };
 
 /// Looks at what came in, and when.

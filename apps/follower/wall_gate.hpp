@@ -16,14 +16,16 @@ namespace heel {
 
 /// How far what is seen may be off, and how a person is looked for.
 struct WallGateParams {
-  /// The frame of the observations and of the viewpoint, in the map's: where the robot's base is,
-  /// if they are in its frame; nothing if they are in the map's already.
+  /// The pose of the observations' frame in the map: that of the robot's base, if they are in its
+  /// frame; the identity if they are in the map's.
   FloorPose observations_in_map;
-  double eye_height_m = 1.15;  ///< Of the camera over the floor.
-  double body_height_m = 1.3;  ///< Where a ray ends; it passes over what is lower.
-  double half_body_m = 0.15;   ///< Nobody's middle comes nearer to a wall.
-  HeightBand body{0.95, 1.9};  ///< Where what stands nearer than that counts as a wall.
-  double sigmas = 2.0;         ///< So many standard deviations are allowed for.
+  double eye_height_m = 1.15;  ///< Height of the camera over the floor.
+  /// Height at which rays to a person end; they pass over what is lower.
+  double body_height_m = 1.3;
+  double half_body_m = 0.15;  ///< Nobody's middle is nearer to a wall than this.
+  /// What the map shows between these heights counts as a wall for half_body_m.
+  HeightBand body{0.95, 1.9};
+  double sigmas = 2.0;  ///< So many standard deviations of the place are allowed for.
 };
 
 /// A depth's standard deviation over its square [1/m], of a stereo camera whose disparities have

@@ -11,13 +11,13 @@ namespace heel {
 
 /// Names of topics and frames; an empty one is found by its type and by well-known names.
 struct BagTopics {
-  std::string left, right;   ///< Stereo images.
-  std::string color, depth;  ///< RGB-D images.
-  std::string cloud;         ///< PointCloud2 with colours.
-  std::string scan;          ///< LaserScan.
-  std::string odometry;      ///< Odometry of the wheels.
-  std::string truth;         ///< Odometry that tells where the robot really was.
-  std::string base_frame;  ///< The robot's frame of which tf knows; else base_footprint, base_link.
+  std::string left, right;   ///< Topics of the left and the right stereo image.
+  std::string color, depth;  ///< Topics of the colour and the depth image of an RGB-D camera.
+  std::string cloud;         ///< Topic of clouds (PointCloud2) with colours.
+  std::string scan;          ///< Topic of laser scans (LaserScan).
+  std::string odometry;      ///< Topic of the wheels' odometry.
+  std::string truth;         ///< Topic of odometry that tells where the robot really was.
+  std::string base_frame;    ///< The robot's frame in tf; else base_footprint, then base_link.
 };
 
 }  // namespace heel

@@ -45,8 +45,8 @@ struct SkippedFrame {
 /// How recordings are read; the defaults suit the data sets that we know.
 struct RecordingParams {
   double max_stamp_difference_s = 0.02;  ///< Images of one frame are not further apart than this.
-  double nominal_rate_hz = 10.0;  ///< Frames per second, where the recording stores no times.
-  BagTopics topics;               ///< Of bags.
+  double nominal_rate_hz = 10.0;         ///< Frames per second where the recording stores no times.
+  BagTopics topics;                      ///< Topics of bags.
 };
 
 /// A recording, read one frame at a time; holds one frame's data at the most, and the list of its

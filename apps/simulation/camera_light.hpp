@@ -16,15 +16,18 @@ namespace heel {
 /// What is drawn for a camera in a run. Ranges are those of webcams that set themselves; nothing
 /// was chosen on recordings.
 struct CameraLightParams {
-  double aim = 0.18;        ///< Mean signal that the exposure is set for: photography's mid grey.
-  double lag_s = 0.5;       ///< Time constant of the exposure.
-  double max_stops = 2.0;   ///< The exposure differs from the scene's by at most so many.
-  double balance = 0.3;     ///< Red's and blue's gains are between 1 / (1 + this) and 1 + this.
-  double balance_s = 90.0;  ///< Period in which they wander; drawn within a factor of 2.
+  double aim = 0.18;       ///< Mean signal that the exposure is set for: photography's mid grey.
+  double lag_s = 0.5;      ///< Time constant of the exposure.
+  double max_stops = 2.0;  ///< The exposure differs from the scene's by at most so many stops.
+  double balance = 0.3;    ///< The gains of red and blue are between 1 / (1 + this) and 1 + this.
+  /// Period in which the gains of red and blue wander; drawn within a factor of 2.
+  double balance_s = 90.0;
   double gamma = 1.25;      ///< The exponent behind sRGB's curve is between 1 / this and this.
-  double shutter_s = 0.02;  ///< How long it is open: what turns blurs.
-  double flicker = 0.02;    ///< Of lamps, as a share of the light: bands of rows that roll.
-  double flicker_bands = 3.0;  ///< In a picture: lamps of 100 Hz, read out within 30 ms.
+  double shutter_s = 0.02;  ///< How long the shutter is open: what turns meanwhile is blurred.
+  /// Flicker of lamps, as a share of the light, in bands of rows that roll.
+  double flicker = 0.02;
+  /// Bands of flicker in a picture: lamps of 100 Hz, read out within 30 ms.
+  double flicker_bands = 3.0;
 };
 
 /// The light of one picture. The default changes nothing.

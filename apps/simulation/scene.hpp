@@ -135,51 +135,54 @@ struct ScenePerson {
 
 /// A rectified stereo pair of cameras, mounted on the robot.
 struct CameraParams {
-  Eigen::Vector3d at{0.05, 0.06, 1.0};  ///< Left camera in the robot's base frame [m].
-  double pitch_rad = 0.0;               ///< Down is positive.
-  int width = 320;                      ///< Of the images [px].
-  int height = 240;                     ///< The same [px].
-  double horizontal_view_rad = 1.05;    ///< Field of view.
-  double baseline_m = 0.12;             ///< More measures further, and worse what is near.
-  double rate_hz = 10.0;
-  double exposure = 2.0;     ///< Signal for a radiance of 1; 1 saturates.
-  double read_noise = 0.2;   ///< Standard deviation in the dark [of 255 levels of light].
-  double shot_noise = 2.0;   ///< Standard deviation at half of full light [the same].
-  double vignetting = 0.25;  ///< Share of light lost in the corners.
+  /// Place of the left camera in the robot's base frame [m].
+  Eigen::Vector3d at{0.05, 0.06, 1.0};
+  double pitch_rad = 0.0;             ///< How far the camera looks down.
+  int width = 320;                    ///< Width of the images [px].
+  int height = 240;                   ///< Height of the images [px].
+  double horizontal_view_rad = 1.05;  ///< Horizontal field of view.
+  /// Distance between the cameras; a longer one measures further, and less of what is near.
+  double baseline_m = 0.12;
+  double rate_hz = 10.0;    ///< Pictures per second.
+  double exposure = 2.0;    ///< Signal for a radiance of 1; a signal of 1 saturates.
+  double read_noise = 0.2;  ///< Standard deviation in the dark [of 255 levels of light].
+  /// Standard deviation at half of full light [of 255 levels of light].
+  double shot_noise = 2.0;
+  double vignetting = 0.25;  ///< Share of the light that is lost in the corners.
   double blur_px = 0.5;      ///< Standard deviation of the lens's blur.
-  /// Whether exposure, white balance, gamma, motion blur and flicker are drawn from the run's seed;
-  /// else the light stays as it is. See CameraLightParams.
+  /// Whether exposure, white balance, gamma, motion blur and flicker are drawn from the run's seed
+  /// (CameraLightParams); else the light stays as it is.
   bool drawn_light = false;
 };
 
 /// A planar laser scanner, mounted on the robot.
 struct LaserParams {
-  Eigen::Vector3d at{0.12, 0.0, 0.3};  ///< In the robot's base frame [m].
-  double view_rad = 3.14159265358979;  ///< From the first beam to the last.
-  int beams = 181;
-  double rate_hz = 10.0;
-  double max_range_m = 20.0;
-  double noise_m = 0.01;  ///< Standard deviation of a range.
+  Eigen::Vector3d at{0.12, 0.0, 0.3};  ///< Place of the laser in the robot's base frame [m].
+  double view_rad = 3.14159265358979;  ///< Angle from the first beam to the last.
+  int beams = 181;                     ///< Beams of a scan.
+  double rate_hz = 10.0;               ///< Scans per second.
+  double max_range_m = 20.0;           ///< Beams see nothing further away than this.
+  double noise_m = 0.01;               ///< Standard deviation of a range.
 };
 
 /// Errors of the wheels' odometry, as standard deviations that grow with the way gone.
 struct OdometryParams {
-  double rate_hz = 10.0;
-  double distance_noise = 0.02;  ///< Of the distance, per square root of a metre gone [m].
-  double turn_noise = 0.02;      ///< Of the heading, per square root of a radian turned [rad].
-  double drift_noise = 0.01;     ///< Of the heading, per square root of a metre gone [rad].
+  double rate_hz = 10.0;         ///< Readings per second.
+  double distance_noise = 0.02;  ///< Error of the distance, per square root of a metre gone [m].
+  double turn_noise = 0.02;   ///< Error of the heading, per square root of a radian turned [rad].
+  double drift_noise = 0.01;  ///< Error of the heading, per square root of a metre gone [rad].
 };
 
 /// A differential-drive robot. The defaults are a Pioneer 3-DX at the paper's speed.
 struct RobotParams {
-  Eigen::Vector2d start = Eigen::Vector2d::Zero();
-  double start_yaw_rad = 0.0;
-  double radius_m = 0.26;
-  double height_m = 1.1;
-  double max_speed_mps = 0.3;
-  double max_turn_radps = 1.0;
-  double max_acceleration_mps2 = 0.5;
-  double max_turn_acceleration_radps2 = 2.0;
+  Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< Where the robot is at the beginning [m].
+  double start_yaw_rad = 0.0;                       ///< Its heading at the beginning.
+  double radius_m = 0.26;                           ///< Radius of the disc that holds the robot.
+  double height_m = 1.1;                            ///< Height of the robot.
+  double max_speed_mps = 0.3;                       ///< Greatest speed.
+  double max_turn_radps = 1.0;                      ///< Greatest speed of turning.
+  double max_acceleration_mps2 = 0.5;               ///< Greatest acceleration.
+  double max_turn_acceleration_radps2 = 2.0;        ///< Greatest acceleration of turning.
   CameraParams camera;
   LaserParams laser;
   OdometryParams odometry;

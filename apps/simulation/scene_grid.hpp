@@ -13,9 +13,11 @@ namespace heel {
 /// Which slice of the world a map shows.
 struct SceneGridParams {
   double cell_size_m = 0.05;  ///< Edge of a cell.
-  double low_m = 0.0;         ///< Furniture that reaches into these heights is in the map ...
-  double high_m = 1.9;        ///< ... such as the one height of a laser.
-  double margin_m = 0.2;      ///< Around the outer walls.
+  double low_m = 0.0;  ///< Furniture that reaches into the heights from here on is in the map.
+  /// Furniture that begins higher than this is not in the map; for one height of a laser, the same
+  /// as low_m.
+  double high_m = 1.9;
+  double margin_m = 0.2;  ///< Free margin around the outer walls.
 };
 
 /// Walls and the furniture that is in the robot's map; a cell is occupied if its middle is in one

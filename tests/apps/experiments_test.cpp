@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// What the README says of real people, as bounds that a change must not break.
+/// What docs/results.md says of real people, as bounds that a change must not break.
 
 #include "apps/experiment/experiments.hpp"
 

@@ -20,6 +20,7 @@ int main() {
   }
   room.addFreeFloor({-2.0, -2.0}, {2.0, 2.0});
 
+  //! [robot]
   heel::RobotDescription robot;
   robot.camera.sensor = heel::SensorKind::kRgbd;
   robot.camera.camera.left = {320, 240, 260.0, 260.0, 159.5, 119.5};
@@ -28,6 +29,7 @@ int main() {
   heel::Follower follower(robot, std::make_shared<heel::WallMap>(room.build()),
                           heel::loadPlan(PLANS "/search.pnml", heel::followingVocabulary()),
                           heel::FloorPose{});
+  //! [robot]
 
   heel::LaserScan scan;
   scan.first_rad = -M_PI / 2.0;
@@ -38,11 +40,13 @@ int main() {
     scan.ranges_m.push_back(static_cast<float>(1.95 / to_wall));
   }
   for (int i = 0; i < 10; ++i) {
+    //! [step]
     heel::RobotReadings readings;
     readings.stamp_s = 0.1 * i;
     readings.scan = &scan;
     readings.odometry = heel::FloorPose{};
     const heel::FollowStep& step = follower.step(readings);
+    //! [step]
     const double off_m = step.robot.pose.position.norm();
     std::printf("%.1f s: %s, %.2f m off, %s\n", readings.stamp_s, step.state(), off_m,
                 step.reason.c_str());
