@@ -15,6 +15,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTwoPi = 6.283185307179586;
 constexpr double kRest_m = 0.2;         // Whoever is no further off has not moved.
+constexpr double kPlaceSigma_m = 0.25;  // Of where a person who is tracked is observed next.
 constexpr double kMissed = 0.1;         // Of the looks at somebody in full view.
 constexpr double kCoastMemory_s = 1.0;  // Hidden somebody may have gone elsewhere in this time.
 constexpr double kRoom_m2 = 20.0;       // Where somebody who is away may be.
@@ -144,10 +145,11 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
   const bool has_moved = off_m > restRadiusOf(seen);
   const double elapsed_s = std::max(stamp_s - belief.seen_s, 0.0);
   const double news = newsOf(elapsed_s, has_moved ? off_m : 0.0);
+  const double there = kTwoPi * kPlaceSigma_m * kPlaceSigma_m;
   const double clutter = clutter_.density_per_m2(seen.position_m);
   const double stood_s = params_.stands_s + std::max(belief.seen_s - belief.since_s, 0.0);
   const double stands = std::log1p(elapsed_s / stood_s);  // -log P(stays | person)
-  belief.log_place[kThing] += has_moved ? news * std::log(clutter / track.density_per_m2) : stands;
+  belief.log_place[kThing] += has_moved ? news * std::log(clutter * there) : stands;
   // Whether it is whoever was there before: else they were missed, and something else came. As
   // long as they are seen, that needs time; else it may have happened at any time.
   const double missed = 1.0 - belief.present + belief.present * kMissed * news;
