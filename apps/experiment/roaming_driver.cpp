@@ -4,6 +4,7 @@
 #include "apps/experiment/roaming_driver.hpp"
 
 #include "apps/simulation/floor_plan.hpp"
+#include "apps/simulation/path_driver.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,6 @@ namespace heel {
 namespace {
 
 constexpr double kCell_m = 0.1;
-constexpr double kPerson_m = 0.75;  // As near as people's middles may come ahead.
 constexpr float kFar = std::numeric_limits<float>::infinity();
 constexpr double kPi = 3.14159265358979;
 
@@ -116,15 +116,8 @@ VelocityCommand RoamingDriver::drive(const WorldTruth& truth) {
     }
     at = best;
   }
-  const Eigen::Vector2d ahead = robot.inverse() * room_.center(at);
-  const double turn = std::atan2(ahead.y(), ahead.x());
-  VelocityCommand command;
-  command.turn_radps = std::clamp(1.5 * turn, -0.8, 0.8);
-  const bool waits = std::any_of(truth.people.begin(), truth.people.end(), [&](const auto& person) {
-    const Eigen::Vector2d off = robot.inverse() * person.position;
-    return off.norm() < kPerson_m && off.x() > 0.0;
-  });
-  command.forward_mps = waits || std::abs(turn) > 0.7 ? 0.0 : 0.3 * std::cos(turn);
+  VelocityCommand command = steerTo(robot, room_.center(at));
+  if (isSomebodyAhead(truth)) command.forward_mps = 0.0;
   const bool still = std::abs(truth.robot_speed.forward_mps) < 0.02 &&
                      std::abs(truth.robot_speed.turn_radps) < 0.05;
   stuck_ = still ? stuck_ + 1 : 0;

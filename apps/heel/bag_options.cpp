@@ -32,8 +32,12 @@ void addCameraTopics(CLI::App& verb, BagTopics& topics) {
   addBaseFrame(verb, topics);
 }
 
-void addPoseTopics(CLI::App& verb, BagTopics& topics) {
+void addOdometryTopic(CLI::App& verb, BagTopics& topics) {
   add(verb, "--odometry-topic", topics.odometry, "odometry");
+}
+
+void addPoseTopics(CLI::App& verb, BagTopics& topics) {
+  addOdometryTopic(verb, topics);
   add(verb, "--truth-topic", topics.truth, "odometry that tells the truth");
 }
 

@@ -18,6 +18,9 @@ namespace heel {
 /// Topics of images and clouds, and the base frame.
 void addCameraTopics(CLI::App& verb, BagTopics& topics);
 
+/// The topic of odometry.
+void addOdometryTopic(CLI::App& verb, BagTopics& topics);
+
 /// Topics of odometry and truth.
 void addPoseTopics(CLI::App& verb, BagTopics& topics);
 

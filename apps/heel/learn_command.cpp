@@ -4,6 +4,7 @@
 #include "apps/follower/learn_person.hpp"
 #include "apps/heel/bag_options.hpp"
 #include "apps/heel/commands.hpp"
+#include "apps/heel/robot_places.hpp"
 #include "apps/report/annotate.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "apps/report/run_end.hpp"
@@ -89,6 +90,18 @@ void print(const LearnedPerson& learned) {
   }
 }
 
+/// "; who says it, and when", if the robot moved while it was looked at; else empty.
+std::string whenItMoved(const WhileItStands& standing, const MotionWatch& watch) {
+  const auto leaves_s = standing.moved_s() ? standing.moved_s() : watch.leaves_s();
+  if (!leaves_s) return {};
+  char text[120];
+  std::snprintf(text, sizeof text,
+                "; %s the robot moves from %.1f s on, and learning needs it to stand",
+                standing.moved_s() ? "the odometry says that" : "it seems that",
+                *leaves_s - standing.info().first_s);
+  return text;
+}
+
 void run(const Options& options) {
   const std::string ending = options.out.extension().string();
   if (ending != ".yaml" && ending != ".yml") {
@@ -103,25 +116,34 @@ void run(const Options& options) {
   const CameraSetup setup = findCameraSetup(*openRecording(options.recording, options.opening));
   for (const std::string& warning : setup.warnings) warn(warning);
   const auto recording = openRecording(options.recording, options.opening);
+  const RobotPlaces robot(*recording, setup);
+  WhileItStands standing(*recording, robot);
+  MotionWatch watch(robot, setup);
   BestView best_view(setup);
   ProgressBar progress("learning", recording->info().frame_count);
   const LearnedPerson learned = [&] {
     std::size_t frames = 0;
     try {
-      return learnPerson(*recording, setup, options.params, [&](const Frame& frame, const auto& s) {
+      return learnPerson(standing, setup, options.params, [&](const Frame& frame, const auto& s) {
         if (isStopRequested()) throw Stopped("stopped: nobody is learned, and nothing is written");
         ++frames;
+        watch.look(frame);
         best_view.offer(frame, s);
         progress.show(frame.number);
       });
     } catch (const Stopped&) {
       throw;
     } catch (const std::runtime_error& error) {
+      const std::string moved = whenItMoved(standing, watch);
+      if (!moved.empty()) throw std::runtime_error(error.what() + moved);
       if (frames == 0) throw;
       throw NothingFound(error.what());  // the recording is good, but nobody is in it
     }
   }();
   for (const SkippedFrame& frame : learned.skipped) warn(frame.reason);
+  if (const std::string moved = whenItMoved(standing, watch); !moved.empty()) {
+    warn((standing.moved_s() ? "learning ended" : "the model may be of little use") + moved);
+  }
   const OutputPath picture = output / (name + ".png");
   const OutputPath view = output / (name + "_view.png");
   writePicture(picture, drawAppearance(learned.model));
@@ -148,7 +170,8 @@ void addLearn(CLI::App& app) {
       "person\n"
       "to follow enters, alone, and moves about (about 10 s). It ends by itself when the time is "
       "up,\n"
-      "the person leaves, or a second person comes into view.\n"
+      "the person leaves, a second person comes into view, or odometry or tf says that the robot\n"
+      "moves.\n"
       "Writes the model, a picture of it, and a picture of who was learned.");
   verb->add_option("RECORDING", options->recording, "folder of a recording, or a bag")->required();
   verb->add_option("--out", options->out, "where to write the model")->capture_default_str();
@@ -170,6 +193,7 @@ void addLearn(CLI::App& app) {
       ->check(CLI::Range(0, 8))
       ->type_name("K");
   addCameraTopics(*verb, options->opening.topics);
+  addOdometryTopic(*verb, options->opening.topics);
   verb->callback([options] { run(*options); });
 }
 

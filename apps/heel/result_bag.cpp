@@ -10,18 +10,12 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace heel {
 namespace {
 
 constexpr double kBody_m = 0.45, kStature_m = 1.7;  // of the cylinders
-
-HeaderMsg header(double stamp_s) {
-  HeaderMsg result;
-  result.stamp.ns = nanosecondsOf(stamp_s);
-  result.frame_id = "map";
-  return result;
-}
 
 /// Where someone is, facing where they go.
 PoseMsg poseOf(const MotionState& motion) {
@@ -55,7 +49,15 @@ MarkerMsg label(MarkerMsg marker, const Track& track, bool is_target) {
 
 }  // namespace
 
-ResultBag::ResultBag(const BagPlan& plan) : path_(plan.path), bag_(createBag(plan)) {}
+ResultBag::ResultBag(const BagPlan& plan, std::string frame)
+    : path_(plan.path), frame_(std::move(frame)), bag_(createBag(plan)) {}
+
+HeaderMsg ResultBag::header(double stamp_s) const {
+  HeaderMsg result;
+  result.stamp.ns = nanosecondsOf(stamp_s);
+  result.frame_id = frame_;
+  return result;
+}
 
 void ResultBag::addRobot(double stamp_s, const FloorPose& pose) {
   TFMessageMsg message;

@@ -16,11 +16,12 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace heel {
 
-/// Writes what RViz and other viewers show, all of it in the frame `map`:
+/// Writes what RViz and other viewers show, all of it in one frame, `map` if no other is named:
 ///
 /// | topic | holds |
 /// | --- | --- |
@@ -30,12 +31,12 @@ namespace heel {
 /// | `/heel/path` | Path: the way that the robot wants to go |
 /// | `/map` | OccupancyGrid |
 /// | `/heel/image/compressed` | what was seen, with all that was found drawn over it; JPEG |
-/// | `/tf` | map to base_footprint |
+/// | `/tf` | that frame to base_footprint |
 class ResultBag {
  public:
   /// @throws std::invalid_argument, std::runtime_error  as createBag(); the latter, so do the
   /// others.
-  explicit ResultBag(const BagPlan& plan);
+  explicit ResultBag(const BagPlan& plan, std::string frame = "map");
 
   const std::filesystem::path& path() const { return path_; }
 
@@ -50,7 +51,10 @@ class ResultBag {
   void commit(bool complete) { bag_->commit(complete); }
 
  private:
+  HeaderMsg header(double stamp_s) const;
+
   std::filesystem::path path_;
+  std::string frame_;
   std::unique_ptr<BagWriter> bag_;
 };
 

@@ -1,17 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "apps/experiment/roaming_driver.hpp"
 #include "apps/heel/commands.hpp"
 #include "apps/heel/scene_argument.hpp"
+#include "apps/recording/stamps.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "apps/report/run_end.hpp"
+#include "apps/simulation/path_driver.hpp"
 #include "apps/simulation/simulate.hpp"
 
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -19,12 +24,27 @@ namespace {
 struct Options {
   std::string scene;
   std::string light;  // empty: the scene's
+  std::string drive;  // empty: the robot stands still
   SimulateOptions simulate;
 };
+
+std::function<VelocityCommand(const WorldTruth&)> driverOf(const Scene& scene,
+                                                           const Options& options) {
+  if (options.drive.empty()) return {};
+  if (options.drive == "roam") {
+    auto driver = std::make_shared<RoamingDriver>(scene, options.simulate.seed);
+    return [driver](const WorldTruth& truth) { return driver->drive(truth); };
+  }
+  FloorPath path;
+  for (const auto& row : readRows(options.drive, 2, "x_m,y_m")) path.emplace_back(row[0], row[1]);
+  auto driver = std::make_shared<PathDriver>(std::move(path));
+  return [driver](const WorldTruth& truth) { return driver->drive(truth); };
+}
 
 void run(Options& options) {
   Scene scene = loadScene(sceneFile(options.scene).string());
   setLight(scene, options.light);
+  options.simulate.drive = driverOf(scene, options);
   ProgressBar progress("simulating", 100);
   options.simulate.progress = [&](double share) {
     progress.show(static_cast<std::size_t>(100.0 * share));
@@ -49,8 +69,10 @@ void addSimulate(CLI::App& app) {
       "Example:\n"
       "  heel simulate wardrobe --out recordings/wardrobe\n"
       "  heel learn recordings/wardrobe --out person.yaml\n"
-      "  heel simulate home --out recordings/home --bag home.bag\n"
-      "Writes what 'heel learn' and 'heel track' read, and truth.csv: where everyone really was.");
+      "  heel simulate home --out recordings/home --bag home.bag --drive roam\n"
+      "Writes what 'heel learn' and 'heel track' read, and truth.csv: where everyone really was.\n"
+      "A robot that drives has odometry (odometry.csv; /odom and /tf of the bag), truth.csv is in\n"
+      "the frame of its start, and robot.csv tells where it really was.");
   verb->add_option(
           "SCENE", options->scene,
           "a scene's name (wardrobe, pair, home, office, corridor, crowd) or its YAML file")
@@ -63,6 +85,10 @@ void addSimulate(CLI::App& app) {
       ->check(CLI::Range(0.01, 1e6));
   verb->add_option("--seed", options->simulate.seed, "of noise and of people's ways")
       ->capture_default_str();
+  verb->add_option("--drive", options->drive,
+                   "let the robot drive, where it would stand: 'roam', or a file with the places "
+                   "to pass, 'x_m,y_m' a line, in the scene's frame")
+      ->option_text("roam|PATH");
   addLight(*verb, options->light);
   verb->callback([options] { run(*options); });
 }

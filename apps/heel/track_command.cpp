@@ -5,6 +5,7 @@
 #include "apps/heel/bag_options.hpp"
 #include "apps/heel/commands.hpp"
 #include "apps/heel/lap_clock.hpp"
+#include "apps/heel/robot_places.hpp"
 #include "apps/heel/track_output.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "apps/report/run_end.hpp"
@@ -44,16 +45,35 @@ void print(const TrackOutput& output, std::size_t skipped) {
   std::printf("results in %s: %s\n", output.folder().c_str(), output.fileNames().c_str());
 }
 
+std::vector<std::string> motionWarnings(const RobotPlaces& robot, const MotionWatch& watch,
+                                        const Recording& recording) {
+  std::vector<std::string> warnings;
+  if (!robot.warning().empty()) warnings.push_back(robot.warning());
+  if (const auto leaves_s = watch.leaves_s()) {
+    char text[200];
+    std::snprintf(
+        text, sizeof text,
+        "the camera seems to move from %.1f s on, and no odometry or tf tells how: places "
+        "are as seen from it at each moment, so who stands seems to move",
+        *leaves_s - recording.info().first_s);
+    warnings.emplace_back(text);
+  }
+  return warnings;
+}
+
 void run(const Options& options) {
   const AppearanceModel model = loadAppearance(options.model);
+  const auto recording = openRecording(options.recording, options.opening);
   const CameraSetup setup = findCameraSetup(*openRecording(options.recording, options.opening));
   for (const std::string& warning : setup.warnings) warn(warning);
+  RobotPlaces robot(*recording, setup);
 
   PerceptionParams params;
   TrackOutputParams output_params;
   output_params.film = !options.no_film;
   output_params.bag = options.bag;
   output_params.inputs = {options.recording, options.model};
+  output_params.odometry_frame = robot.odometryFrame();
   if (!options.bounds_m.empty()) {
     const Eigen::Vector2d lowest(options.bounds_m[0], options.bounds_m[1]);
     const Eigen::Vector2d highest(options.bounds_m[2], options.bounds_m[3]);
@@ -63,7 +83,7 @@ void run(const Options& options) {
   Perception perception(setup, model, params);
   if (!options.start_m.empty()) perception.startAt({options.start_m[0], options.start_m[1]});
 
-  const auto recording = openRecording(options.recording, options.opening);
+  MotionWatch watch(robot, setup);
   TrackOutput output(options.out, recording->info(), setup, output_params);
   ProgressBar progress("tracking", recording->info().frame_count);
   TrackEnd end;
@@ -71,12 +91,18 @@ void run(const Options& options) {
   Frame frame;
   StageTimes times_ms{};
   while (!isStopRequested() && recording->next(frame)) {
+    const auto place = robot.at(frame.stamp_s);
+    if (!place) {
+      end.skipped.push_back({frame.number, frame.name + ": the odometry has a gap there"});
+      continue;
+    }
     LapClock clock;
     try {
-      const PerceptionStep& step = perception.step(frame, {}, nullptr, [&](Stage stage) {
+      const PerceptionStep& step = perception.step(frame, {*place}, nullptr, [&](Stage stage) {
         times_ms[static_cast<std::size_t>(stage)] = clock.lap_ms();
       });
-      output.add(frame, perception, step, times_ms);
+      watch.look(frame);
+      output.add(frame, *place, perception, step, times_ms);
     } catch (const std::invalid_argument& error) {
       end.skipped.push_back({frame.number, frame.name + ": " + error.what()});
     }
@@ -89,6 +115,10 @@ void run(const Options& options) {
     throw std::runtime_error(nothingReadMessage(*recording, end.skipped));
   }
   for (const SkippedFrame& frame_left_out : end.skipped) warn(frame_left_out.reason);
+  for (const std::string& warning : motionWarnings(robot, watch, *recording)) {
+    warn(warning);
+    end.warnings.push_back(warning);
+  }
   output.commit(end);
   print(output, end.skipped.size());
   if (!end.complete) {
@@ -109,7 +139,9 @@ void addTrack(CLI::App& app) {
       "Example:\n"
       "  heel track recordings/kitchen --model person.yaml --out out/kitchen\n"
       "Writes tracks.csv (who is where), frames.csv (what every stage left of each frame, and why\n"
-      "there is no target), timing.csv, summary.json, and the film tracks.mp4 with stills.");
+      "there is no target), timing.csv, summary.json, and the film tracks.mp4 with stills.\n"
+      "Places are in the base frame; if the robot moves, as the tf or odometry of a bag tells, or\n"
+      "the odometry.csv or groundtruth.txt of a folder, in the odometry's: see summary.json.");
   verb->add_option("RECORDING", options->recording, "folder of a recording, or a bag")->required();
   verb->add_option("--model", options->model, "the person, as 'heel learn' wrote it")->required();
   verb->add_option("--out", options->out, "folder for the results")->capture_default_str();
@@ -124,6 +156,7 @@ void addTrack(CLI::App& app) {
   verb->add_flag("--no-film", options->no_film, "write the tables only");
   addResultBag(*verb, options->bag);
   addCameraTopics(*verb, options->opening.topics);
+  addOdometryTopic(*verb, options->opening.topics);
   verb->callback([options] { run(*options); });
 }
 

@@ -43,11 +43,13 @@ TrackOutput::TrackOutput(const std::filesystem::path& folder, const RecordingInf
       files_(output_, stageNames()),
       drawn_(setup) {
   if (params.film) film_.emplace(output_ / "tracks.mp4", rateOf(info), pictureSize());
-  if (!params.bag.empty()) bag_.emplace(BagPlan{params.bag, params.inputs, "track"});
+  if (params.bag.empty()) return;
+  bag_.emplace(BagPlan{params.bag, params.inputs, "track"},
+               moves() ? params.odometry_frame : "map");
 }
 
-void TrackOutput::add(const Frame& frame, const Perception& perception, const PerceptionStep& step,
-                      const StageTimes& times_ms) {
+void TrackOutput::add(const Frame& frame, const FloorPose& robot, const Perception& perception,
+                      const PerceptionStep& step, const StageTimes& times_ms) {
   ++frames_;
   ++states_[toText(step.target.status)];
   if (step.target.hasPlace()) ++frames_with_target_;
@@ -55,12 +57,13 @@ void TrackOutput::add(const Frame& frame, const Perception& perception, const Pe
   addRows(frame, perception, step);
   files_.addTiming(frame.number, {times_ms.begin(), times_ms.end()});
   if (film_ || bag_) {
-    DrawnFrame& drawing = drawn_.of(frame, perception, step);
+    DrawnFrame& drawing = drawn_.of(frame, perception, step, robot);
     drawing.bounds_m = params_.bounds_m;
+    drawing.camera_turns = moves();
     annotate(drawing, {}, picture_);
   }
   if (bag_) {
-    bag_->addRobot(frame.stamp_s, {});
+    bag_->addRobot(frame.stamp_s, robot);
     bag_->addTracks(frame.stamp_s, perception.tracks(), step.target);
     bag_->addImage(frame.stamp_s, picture_);
   }
@@ -125,6 +128,7 @@ void TrackOutput::commit(const TrackEnd& end) {
   summary["frames_by_state"] = states_;
   summary["frames_by_reason"] = reasons_;
   const Mounting mounting = mountingOf(setup_.T_base_camera);
+  summary["frame"] = moves() ? params_.odometry_frame : "base";
   summary["camera"] = {{"height_m", mounting.height_m},
                        {"pitch_rad", mounting.pitch_rad},
                        {"roll_rad", mounting.roll_rad},

@@ -29,6 +29,7 @@ struct TrackOutputParams {
   std::vector<std::filesystem::path> inputs;    ///< What is read: it is not written over.
   std::size_t stills = 6;                       ///< Spread over the frames that have a target.
   std::optional<Eigen::AlignedBox2d> bounds_m;  ///< To draw.
+  std::string odometry_frame;  ///< Of all places, if the robot moves; empty: the base frame.
 };
 
 /// Milliseconds that each stage of a frame took.
@@ -49,8 +50,9 @@ class TrackOutput {
   TrackOutput(const std::filesystem::path& folder, const RecordingInfo& info,
               const CameraSetup& setup, const TrackOutputParams& params);
 
-  void add(const Frame& frame, const Perception& perception, const PerceptionStep& step,
-           const StageTimes& times_ms);
+  /// @param robot  Where it was, as it was given to the perception.
+  void add(const Frame& frame, const FloorPose& robot, const Perception& perception,
+           const PerceptionStep& step, const StageTimes& times_ms);
 
   /// Writes the summary and the stills, and gives all files their place.
   void commit(const TrackEnd& end);
@@ -64,6 +66,7 @@ class TrackOutput {
   const std::map<std::string, std::size_t>& framesByState() const { return states_; }
 
  private:
+  bool moves() const { return !params_.odometry_frame.empty(); }
   void addRows(const Frame& frame, const Perception& perception, const PerceptionStep& step);
   void keepStill();
 

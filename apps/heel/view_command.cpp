@@ -5,6 +5,7 @@
 #include "apps/heel/bag_options.hpp"
 #include "apps/heel/commands.hpp"
 #include "apps/heel/drawn_perception.hpp"
+#include "apps/heel/robot_places.hpp"
 #include "apps/heel/scene_argument.hpp"
 #include "apps/mapper/map_source.hpp"
 #include "apps/report/progress_bar.hpp"
@@ -42,29 +43,41 @@ struct Options {
 /// Turns frames into scenes; with a model, it looks for the person, too.
 class Scenes {
  public:
-  Scenes(const CameraSetup& setup, const std::optional<AppearanceModel>& model)
-      : setup_(setup), depths_(setup.sensor, setup.camera), drawn_(setup) {
+  Scenes(const CameraSetup& setup, RobotPlaces robot, const std::optional<AppearanceModel>& model)
+      : setup_(setup),
+        robot_(std::move(robot)),
+        depths_(setup.sensor, setup.camera),
+        drawn_(setup) {
     if (model) perception_.emplace(setup, *model);
     scene_.drawn.camera = setup.camera.left;
-    scene_.drawn.T_floor_camera = setup.T_base_camera;
   }
 
   OccupancyGrid& walls() { return scene_.walls; }
 
+  /// Goes to where the robot was at a frame; false if the odometry does not tell.
+  bool goTo(const Frame& frame) {
+    const auto place = robot_.at(frame.stamp_s);
+    if (place) place_ = *place;
+    return place.has_value();
+  }
+
   /// Follows the person through a frame that is not shown.
   void pass(const Frame& frame) {
-    if (perception_) drawn_.of(frame, *perception_, perception_->step(frame));
+    if (perception_) {
+      drawn_.of(frame, *perception_, perception_->step(frame, {place_}), place_);
+    }
   }
 
   const ViewScene& of(const Frame& frame) {
     scene_.marked.clear();
     if (perception_) {
-      const PerceptionStep& step = perception_->step(frame);
-      scene_.drawn = drawn_.of(frame, *perception_, step);
+      const PerceptionStep& step = perception_->step(frame, {place_});
+      scene_.drawn = drawn_.of(frame, *perception_, step, place_);
       mark(step);
     } else {
       scene_.drawn.frame = frame.number;
       scene_.drawn.stamp_s = frame.stamp_s;
+      scene_.drawn.T_floor_camera = basePose(place_) * setup_.T_base_camera;
     }
     placePoints(frame);
     return scene_;
@@ -84,16 +97,19 @@ class Scenes {
 
   void placePoints(const Frame& frame) {
     const auto cloud = pcl::make_shared<ColorCloud>();
+    const Eigen::Isometry3d& T_floor_camera = scene_.drawn.T_floor_camera;
     if (frame.cloud != nullptr) {
-      pcl::transformPointCloud(*frame.cloud, *cloud, setup_.T_base_camera.matrix().cast<float>());
+      pcl::transformPointCloud(*frame.cloud, *cloud, T_floor_camera.matrix().cast<float>());
     } else {
-      makeColorCloud(depths_.of(frame), frame.image_bgr, setup_.camera.left, setup_.T_base_camera,
+      makeColorCloud(depths_.of(frame), frame.image_bgr, setup_.camera.left, T_floor_camera,
                      *cloud);
     }
     scene_.cloud = cloud;
   }
 
   CameraSetup setup_;
+  RobotPlaces robot_;
+  FloorPose place_;
   DepthImages depths_;
   DrawnPerception drawn_;
   std::optional<Perception> perception_;
@@ -109,6 +125,10 @@ std::size_t eachScene(const Options& options, Scenes& scenes, std::size_t step,
   double last_s = std::numeric_limits<double>::quiet_NaN();
   std::size_t seen = 0;
   while (recording->next(frame)) {
+    if (!scenes.goTo(frame)) {
+      warn(frame.name + ": the odometry has a gap there");
+      continue;
+    }
     const double since_s = frame.stamp_s - last_s;
     last_s = frame.stamp_s;
     if (seen++ % step > 0) {
@@ -164,7 +184,8 @@ void run(Options& options) {
   if (!options.model.empty()) model = loadAppearance(options.model);
   const CameraSetup setup = findCameraSetup(*openRecording(options.recording, options.opening));
   for (const std::string& warning : setup.warnings) warn(warning);
-  Scenes scenes(setup, model);
+  RobotPlaces robot(*openRecording(options.recording, options.opening), setup);
+  Scenes scenes(setup, std::move(robot), model);
   if (!options.map.empty()) scenes.walls() = openMap(mapSource(options.map)).map.floorGrid();
   if (options.out.empty()) {
     std::string why;
@@ -187,8 +208,10 @@ void addView(CLI::App& app) {
       "  heel view recordings/kitchen --model person.yaml --map maps/home/walls.bt\n"
       "  heel view recordings/kitchen --model person.yaml --out pictures\n"
       "Shows the cloud of each frame; with a model, also the points of the person's colours, the\n"
-      "blobs on the floor, and the tracks as poles (the target's is orange). Opens a window; with\n"
-      "no display, or with --out, it writes pictures of the same.");
+      "blobs on the floor, and the tracks as poles (the target's is orange). If the robot moves, "
+      "all\n"
+      "of it is in the frame of its odometry. Opens a window; with no display, or with --out, it\n"
+      "writes pictures of the same.");
   verb->add_option("RECORDING", options->recording, "folder of a recording, a bag, or a PCD file")
       ->required();
   verb->add_option("--model", options->model, "the person, as 'heel learn' wrote it");
@@ -198,6 +221,7 @@ void addView(CLI::App& app) {
   verb->add_option("--pictures", options->pictures, "how many at the most; 0: one of each frame")
       ->capture_default_str();
   addCameraTopics(*verb, options->opening.topics);
+  addOdometryTopic(*verb, options->opening.topics);
   verb->callback([options] { run(*options); });
 }
 

@@ -179,20 +179,23 @@ const CameraInfoMsg& cameraInfoOf(const BagSurvey& survey, const BagTopicSummary
   failWithTopics(survey, "has no camera_info of the images on '" + images.topic.name + "'");
 }
 
-std::optional<Eigen::Isometry3d> placeOnRobot(const BagSurvey& survey, const BagTopics& topics,
-                                              const std::string& frame) {
+std::optional<std::string> baseFrameOf(const BagSurvey& survey, const BagTopics& topics,
+                                       const std::string& frame) {
   if (!topics.base_frame.empty()) {
-    const auto place = survey.transform(frameName(topics.base_frame), frame);
-    if (!place) {
-      throw std::runtime_error(survey.path.string() + ": tf does not tell where '" + frame +
-                               "' is on '" + topics.base_frame + "'");
-    }
-    return place;
+    if (survey.transform(frameName(topics.base_frame), frame)) return frameName(topics.base_frame);
+    throw std::runtime_error(survey.path.string() + ": tf does not tell where '" + frame +
+                             "' is on '" + topics.base_frame + "'");
   }
   for (const char* base : {"base_footprint", "base_link"}) {
-    if (const auto place = survey.transform(base, frame)) return place;
+    if (survey.transform(base, frame)) return base;
   }
   return std::nullopt;
+}
+
+std::optional<Eigen::Isometry3d> placeOnRobot(const BagSurvey& survey, const BagTopics& topics,
+                                              const std::string& frame) {
+  const auto base = baseFrameOf(survey, topics, frame);
+  return base ? survey.transform(*base, frame) : std::nullopt;
 }
 
 }  // namespace heel

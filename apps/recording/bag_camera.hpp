@@ -41,9 +41,13 @@ template <class Message>
 const BagTopicSummary* findBagTopic(const BagSurvey& survey, const std::string& name,
                                     const std::vector<std::string>& best = {});
 
-/// The frame of the robot that `frame` stands in firmly, and its place there. Absent if tf knows of
-/// none.
+/// The frame of the robot that `frame` stands in firmly: the one that `topics` name, else
+/// base_footprint or base_link. Absent if tf knows of none.
 /// @throws std::runtime_error  if `topics` name a base frame, and tf does not join it to `frame`.
+std::optional<std::string> baseFrameOf(const BagSurvey& survey, const BagTopics& topics,
+                                       const std::string& frame);
+
+/// Maps points of `frame` to its base frame, see baseFrameOf().
 std::optional<Eigen::Isometry3d> placeOnRobot(const BagSurvey& survey, const BagTopics& topics,
                                               const std::string& frame);
 

@@ -28,17 +28,24 @@ std::string movingBase(const BagSurvey& survey, const BagTopics& topics) {
   return {};
 }
 
+/// The topic that is named, else the first that tells the truth, or that does not.
+const BagTopicSummary* findPoses(const BagSurvey& survey, const std::string& name, bool of_truth) {
+  if (!name.empty()) return findBagTopic<OdometryMsg>(survey, name);
+  for (const BagTopicSummary& t : survey.topics) {
+    if (t.topic.holds<OdometryMsg>() && t.count > 0 && tellsTruth(t) == of_truth) return &t;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
+const BagTopicSummary* findOdometry(const BagSurvey& survey, const BagTopics& topics) {
+  return findPoses(survey, topics.odometry, false);
+}
+
 BagPoses::BagPoses(const BagSurvey& survey, const BagTopics& topics) {
-  const BagTopicSummary *odometry = nullptr, *truth = nullptr;
-  for (const BagTopicSummary& t : survey.topics) {
-    if (!t.topic.holds<OdometryMsg>() || t.count == 0) continue;
-    const BagTopicSummary*& found = tellsTruth(t) ? truth : odometry;
-    if (found == nullptr) found = &t;
-  }
-  if (!topics.odometry.empty()) odometry = findBagTopic<OdometryMsg>(survey, topics.odometry);
-  if (!topics.truth.empty()) truth = findBagTopic<OdometryMsg>(survey, topics.truth);
+  const BagTopicSummary* odometry = findOdometry(survey, topics);
+  const BagTopicSummary* truth = findPoses(survey, topics.truth, true);
   if (odometry != nullptr) odometry_topic_ = odometry->topic.name;
   if (truth != nullptr) truth_topic_ = truth->topic.name;
   if (odometry == nullptr) odometry_frame_ = movingBase(survey, topics);

@@ -57,11 +57,14 @@ std::unique_ptr<Recording> BagRecording::open(const std::filesystem::path& path,
   info.frame_count = camera.first->count;
   info.lost = survey.lost;
   info.T_base_camera = placeOnRobot(survey, params.topics, camera.first->frame_id);
-  return std::unique_ptr<Recording>(new BagRecording(survey, camera, std::move(info)));
+  BagMotion motion(survey, params.topics, camera.first->frame_id);
+  return std::unique_ptr<Recording>(
+      new BagRecording(survey, camera, std::move(motion), std::move(info)));
 }
 
-BagRecording::BagRecording(const BagSurvey& survey, const BagCamera& camera, RecordingInfo info)
-    : path_(survey.path.string()), bag_(openBag(survey.path)) {
+BagRecording::BagRecording(const BagSurvey& survey, const BagCamera& camera, BagMotion motion,
+                           RecordingInfo info)
+    : path_(survey.path.string()), bag_(openBag(survey.path)), bag_motion_(std::move(motion)) {
   info_ = std::move(info);
   const auto queueOf = [](const BagTopicSummary& topic) {
     Queue queue;
@@ -73,6 +76,7 @@ BagRecording::BagRecording(const BagSurvey& survey, const BagCamera& camera, Rec
   };
   first_ = queueOf(*camera.first);
   if (camera.second != nullptr) second_ = queueOf(*camera.second);
+  info_.first_s = first_.order.first_s();
   info_.duration_s = first_.order.duration_s();
   const double rate_hz = first_.order.rate_hz();
   limit_s_ = rate_hz > 0.0 ? 0.5 / rate_hz : 0.02;

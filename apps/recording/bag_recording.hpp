@@ -7,6 +7,7 @@
 
 #include "apps/recording/bag_camera.hpp"
 #include "apps/recording/bag_image_reader.hpp"
+#include "apps/recording/bag_motion.hpp"
 #include "apps/recording/recording.hpp"
 #include "apps/recording/stamp_order.hpp"
 #include "cloud/stereo_rig.hpp"
@@ -34,6 +35,8 @@ class BagRecording final : public Recording {
 
   bool next(Frame& frame) override;
 
+  std::optional<RobotMotion> readMotion() const override { return bag_motion_.read(); }
+
  private:
   /// A message, its number on its topic (from 1), and its place among those that have a stamp.
   struct Waiting {
@@ -53,7 +56,8 @@ class BagRecording final : public Recording {
     std::deque<Waiting> waiting;
   };
 
-  BagRecording(const BagSurvey& survey, const BagCamera& camera, RecordingInfo info);
+  BagRecording(const BagSurvey& survey, const BagCamera& camera, BagMotion motion,
+               RecordingInfo info);
 
   void setUpStereo(const BagSurvey& survey, const BagCamera& camera);
   void setUpRgbd(const BagSurvey& survey, const BagCamera& camera);
@@ -70,6 +74,7 @@ class BagRecording final : public Recording {
 
   std::string path_;
   std::unique_ptr<BagReader> bag_;
+  BagMotion bag_motion_;
   bool at_end_ = false;
   Queue first_, second_;
   double limit_s_ = 0.0;  // two images of a frame are not further apart

@@ -139,6 +139,7 @@ class Surveyor {
     } else if (topic.topic.holds<OdometryMsg>()) {
       OdometryMsg odometry;
       reader_.read(raw, odometry);
+      if (first) topic.child_frame_id = frameName(odometry.child_frame_id);
     }
   }
 

@@ -32,6 +32,7 @@ struct BagTopicSummary {
   /// Of images and clouds: all stamps that can be read, in seconds.
   std::vector<double> stamps_s;
   std::string frame_id;
+  std::string child_frame_id;           ///< Of Odometry: whose pose it is.
   std::uint32_t width = 0, height = 0;  ///< Of images and clouds.
   std::string encoding;                 ///< Of images; "x y z rgb" of clouds.
 

@@ -10,10 +10,11 @@ namespace heel {
 
 IndexedRecording::IndexedRecording(const std::filesystem::path& path, RecordingInfo info,
                                    std::vector<double> stamps_s)
-    : order_(std::move(stamps_s)) {
+    : path_(path), order_(std::move(stamps_s)) {
   info_ = std::move(info);
   info_.name = std::filesystem::canonical(path).filename().string();
   info_.frame_count = order_.size();
+  info_.first_s = order_.first_s();
   info_.duration_s = order_.duration_s();
 }
 
@@ -33,6 +34,12 @@ bool IndexedRecording::next(Frame& frame) {
     return true;
   }
   return false;
+}
+
+// Times that are made up join nothing.
+std::optional<RobotMotion> IndexedRecording::readMotion() const {
+  if (info_.nominal_stamps || !std::filesystem::is_directory(path_)) return std::nullopt;
+  return readFolderMotion(path_);
 }
 
 void IndexedRecording::checkStamp(std::size_t index) {

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ namespace heel {
 class IndexedRecording : public Recording {
  public:
   bool next(Frame& frame) final;
+
+  std::optional<RobotMotion> readMotion() const final;
 
  protected:
   /// Completes `info` with the name of `path`, the number of frames and the duration.
@@ -35,6 +38,7 @@ class IndexedRecording : public Recording {
  private:
   void checkStamp(std::size_t index);
 
+  std::filesystem::path path_;
   StampOrder order_;
   std::size_t next_index_ = 0;
 };

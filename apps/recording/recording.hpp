@@ -7,6 +7,7 @@
 
 #include "apps/recording/bag_topics.hpp"
 #include "apps/recording/frame.hpp"
+#include "apps/recording/robot_motion.hpp"
 #include "cloud/pinhole_camera.hpp"
 
 #include <Eigen/Geometry>
@@ -29,6 +30,7 @@ struct RecordingInfo {
   SensorKind sensor = SensorKind::kRgbd;
   StereoCamera camera;  ///< `left` for RGB-D too (baseline 0); zeros for clouds, unless known.
   std::size_t frame_count = 0;
+  double first_s = 0.0;         ///< The first stamp.
   double duration_s = 0.0;      ///< From the first stamp to the last.
   bool nominal_stamps = false;  ///< No times are stored: they are made from the assumed rate.
   /// Where the camera is mounted: maps its optical frame to the base frame. Absent if not known.
@@ -64,6 +66,10 @@ class Recording {
   virtual bool next(Frame& frame) = 0;
 
   const std::vector<SkippedFrame>& skipped() const { return skipped_; }
+
+  /// Reads how the robot moved, whichever frame is next; absent if the recording does not tell.
+  /// @throws std::runtime_error  with one sentence, if what tells it can't be read.
+  virtual std::optional<RobotMotion> readMotion() const { return std::nullopt; }
 
  protected:
   RecordingInfo info_;

@@ -12,15 +12,15 @@ namespace heel {
 
 StampOrder::StampOrder(std::vector<double> stamps_s)
     : stamps_s_(std::move(stamps_s)), is_ahead_(stamps_s_.size(), false) {
-  double first_s = 0.0, last_s = last_s_;
+  double last_s = last_s_;
   for (std::size_t i = 0; i < stamps_s_.size(); ++i) {
     if (!(stamps_s_[i] > last_s)) continue;
     is_ahead_[i] = wouldLoseNext(i, last_s);
     if (is_ahead_[i]) continue;
     last_s = stamps_s_[i];
-    if (count_++ == 0) first_s = last_s;
+    if (count_++ == 0) first_s_ = last_s;
   }
-  if (count_ > 0) duration_s_ = last_s - first_s;
+  if (count_ > 0) duration_s_ = last_s - first_s_;
 }
 
 double StampOrder::rate_hz() const {

@@ -21,7 +21,8 @@ class StampOrder {
   std::size_t size() const { return stamps_s_.size(); }
   double stamp_s(std::size_t index) const { return stamps_s_[index]; }
 
-  /// Of the frames that count: from the first to the last, and how many a second; 0 if unknown.
+  /// Of the frames that count: the first, from it to the last, and how many a second; 0 if unknown.
+  double first_s() const { return first_s_; }
   double duration_s() const { return duration_s_; }
   double rate_hz() const;
 
@@ -38,6 +39,7 @@ class StampOrder {
   std::vector<double> stamps_s_;
   std::vector<bool> is_ahead_;
   std::size_t count_ = 0;  ///< Frames that count.
+  double first_s_ = 0.0;
   double duration_s_ = 0.0;
   double last_s_ = -std::numeric_limits<double>::infinity();  ///< That was checked, and counts.
 };

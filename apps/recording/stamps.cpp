@@ -13,6 +13,7 @@
 #include <numeric>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 namespace heel {
 
@@ -81,6 +82,28 @@ std::vector<double> readTimes(const std::filesystem::path& list) {
     return stamp_s.has_value();
   });
   return stamps_s;
+}
+
+std::vector<std::vector<double>> readRows(const std::filesystem::path& table, std::size_t columns,
+                                          const std::string& form) {
+  std::vector<std::vector<double>> rows;
+  bool is_first = true;
+  forEachLine(table, form, [&](std::string_view text) {
+    std::vector<double> row;
+    const bool may_be_header = std::exchange(is_first, false);
+    while (!text.empty()) {
+      const auto end = std::min(text.find_first_of(" \t,"), text.size());
+      const auto number = numberOf(text.substr(0, end));
+      if (!number) return may_be_header && row.empty();
+      row.push_back(*number);
+      text = trimmed(text.substr(std::min(end + 1, text.size())));
+    }
+    if (row.size() < columns) return false;
+    rows.push_back(std::move(row));
+    return true;
+  });
+  if (rows.empty()) throw std::runtime_error(table.string() + " lists nothing");
+  return rows;
 }
 
 std::vector<std::optional<std::size_t>> nearestInTime(const std::vector<StampedFile>& files,

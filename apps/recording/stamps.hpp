@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace heel {
@@ -26,6 +27,14 @@ std::vector<StampedFile> readStampedFiles(const std::filesystem::path& list);
 /// Reads a list of times, one a line in seconds (KITTI's times.txt).
 /// @throws std::runtime_error  as above.
 std::vector<double> readTimes(const std::filesystem::path& list);
+
+/// Reads a table of numbers, separated by commas or blanks; a first line that does not begin with a
+/// number is a header.
+/// @param form  How a line is written, for messages: "stamp_s,x_m,y_m".
+/// @return rows of at least `columns` numbers.
+/// @throws std::runtime_error  as above.
+std::vector<std::vector<double>> readRows(const std::filesystem::path& table, std::size_t columns,
+                                          const std::string& form);
 
 /// For each of `files`, which of `others` is the nearest in time; absent where that is more than
 /// `limit_s` away. `others` may be in any order.

@@ -48,6 +48,7 @@ struct DrawnFrame {
   Eigen::Isometry3d T_floor_camera = Eigen::Isometry3d::Identity();
   std::vector<DrawnBlob> blobs;
   std::vector<DrawnTrack> tracks;
+  bool camera_turns = false;  ///< Then the plan view reaches as far behind it as ahead.
   std::optional<Eigen::AlignedBox2d> bounds_m;  ///< Outside of it nobody is looked for.
 
   std::size_t frame = 0;

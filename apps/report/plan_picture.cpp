@@ -15,15 +15,15 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kBehind_m = 0.6;  // what the drawing shows behind the camera
+constexpr double kBehind_m = 0.6;  // what is shown behind a camera that stands
 
 /// From the floor to the panel: x (forward) goes up, y (left) goes left.
 class PlanView {
  public:
-  PlanView(cv::Size panel, const Vector2d& camera_m, double ahead_m)
-      : scale_(panel.height / (ahead_m + kBehind_m)),
+  PlanView(cv::Size panel, const Vector2d& camera_m, double ahead_m, double behind_m)
+      : scale_(panel.height / (ahead_m + behind_m)),
         column_(panel.width / 2.0 + camera_m.y() * scale_),
-        row_(panel.height - kBehind_m * scale_ + camera_m.x() * scale_),
+        row_(panel.height - behind_m * scale_ + camera_m.x() * scale_),
         panel_(panel) {}
 
   cv::Point2d operator()(const Vector2d& floor_m) const {
@@ -156,7 +156,8 @@ std::vector<Vector2d> visibleFloor(const PinholeCamera& camera,
 
 void drawPlan(const DrawnFrame& scene, double ahead_m, cv::Mat& panel) {
   panel.setTo(palette::kPanel);
-  const PlanView plan(panel.size(), scene.T_floor_camera.translation().head<2>(), ahead_m);
+  const PlanView plan(panel.size(), scene.T_floor_camera.translation().head<2>(), ahead_m,
+                      scene.camera_turns ? ahead_m : kBehind_m);
   fillOutline(panel, plan(visibleFloor(scene.camera, scene.T_floor_camera, 2.0 * ahead_m)),
               palette::kPanelLit, 1.0);
   drawGrid(plan, panel);

@@ -48,6 +48,13 @@ SensorBag beginBag(const std::filesystem::path& path, const Simulator& simulator
   return bag;
 }
 
+/// A pose in the decimals that odometry.csv has: the bag tells the same.
+FloorPose asInTables(const FloorPose& pose) {
+  const auto rounded = [](double value, double steps) { return std::round(value * steps) / steps; };
+  return {{rounded(pose.position.x(), 1e5), rounded(pose.position.y(), 1e5)},
+          rounded(pose.yaw_rad, 1e6)};
+}
+
 void addTo(SensorBag& bag, const Readings& readings) {
   std::vector<FloorPose> people;
   for (const PersonTruth& person : readings.truth.people) {
@@ -80,13 +87,17 @@ SimulateResult simulate(const Scene& scene, const SimulateOptions& options) {
   if (!options.bag.empty()) bag.emplace(beginBag(options.bag, simulator));
   const double step_s = stepFor(scene.robot);
   const auto steps = std::lround(std::ceil(result.duration_s / step_s - 1e-6));
+  Readings readings;
+  VelocityCommand command;
   for (long i = 0; i < steps; ++i) {
     if (isStopRequested()) {
       result.complete = false;
       result.duration_s = static_cast<double>(i) * step_s;
       break;
     }
-    const Readings& readings = simulator.step(i == 0 ? 0.0 : step_s);
+    readings = simulator.step(i == 0 ? 0.0 : step_s, command);
+    if (readings.odometry) readings.odometry = asInTables(*readings.odometry);
+    if (options.drive) command = options.drive(readings.truth);
     writer.add(readings);
     if (bag) addTo(*bag, readings);
     if (options.progress) options.progress(static_cast<double>(i + 1) / static_cast<double>(steps));
