@@ -41,10 +41,7 @@ GateOutcome follow(const SimulatedFrames& recording, const AppearanceModel& mode
   double last_s = 0.0;
   for (const SimulatedFrame& now : recording.frames) {
     const PerceptionStep& step = perception.step(now.frame);
-    TargetFrame& frame = frames.emplace_back();
-    frame.stamp_s = now.frame.stamp_s;
-    frame.target_m = now.people_m[0];
-    if (step.target.hasPlace()) frame.estimate_m = step.target.motion.position_m();
+    const TargetFrame& frame = frames.emplace_back(targetFrame(now, step.target));
     const double step_s = frames.size() > 1 ? frame.stamp_s - last_s : 0.0;
     last_s = frame.stamp_s;
     const EstimateOf of = judge(frame, params.place_error_m);

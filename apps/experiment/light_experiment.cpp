@@ -27,7 +27,7 @@ void add(TargetMetrics& sum, const TargetMetrics& metrics) {
 /// One person in the second half of their exact frames.
 TargetMetrics lookFor(const std::string& person, const AppearanceModel& model,
                       const std::filesystem::path& path, const CameraSetup& setup,
-                      const TruthFrames& truth, const LightChange& change, double distance_m) {
+                      const TruthFrames& truth, const cv::Mat& levels, double distance_m) {
   const auto exact = truth.exactFrames(person);
   const std::set<std::size_t> judged(exact.begin() + static_cast<std::ptrdiff_t>(exact.size() / 2),
                                      exact.end());
@@ -37,7 +37,7 @@ TargetMetrics lookFor(const std::string& person, const AppearanceModel& model,
   Frame frame;
   while (recording->next(frame) && frame.number <= *judged.rbegin()) {
     if (frame.number < *judged.begin()) continue;
-    changeLight(frame, change);
+    changeLight(frame, levels);
     const TargetEstimate& target = perception.step(frame).target;
     if (judged.count(frame.number) == 0) continue;
     frames.push_back(truth.targetFrame(person, frame.number, frame.stamp_s));
@@ -48,23 +48,27 @@ TargetMetrics lookFor(const std::string& person, const AppearanceModel& model,
 
 }  // namespace
 
-void changeLight(Frame& frame, const LightChange& change) {
-  if (frame.image_bgr.empty()) throw std::invalid_argument("changeLight: there is no image");
+cv::Mat levelsAfter(const LightChange& change) {
   const double exposure = std::exp2(change.stops);
   const double red = std::sqrt(1.0 + change.red_against_blue);
-  cv::Mat table(1, 256, CV_8UC3);
+  cv::Mat levels(1, 256, CV_8UC3);
   for (int i = 0; i < 256; ++i) {
     const double light = exposure * toLinear(static_cast<float>(i) / 255.0F);
     const auto level = [&](double gain) {
       const double display = toDisplay(static_cast<float>(std::min(light * gain, 1.0)));
       return static_cast<std::uint8_t>(std::lround(255.0 * display));
     };
-    table.at<cv::Vec3b>(i) = {level(1.0 / red), level(1.0), level(red)};
+    levels.at<cv::Vec3b>(i) = {level(1.0 / red), level(1.0), level(red)};
   }
+  return levels;
+}
+
+void changeLight(Frame& frame, const cv::Mat& levels) {
+  if (frame.image_bgr.empty()) throw std::invalid_argument("changeLight: there is no image");
   for (cv::Mat* image : {&frame.image_bgr, &frame.right_bgr}) {
     if (image->empty()) continue;
     cv::Mat changed;  // Others may hold the image.
-    cv::LUT(*image, table, changed);
+    cv::LUT(*image, levels, changed);
     *image = changed;
   }
 }
@@ -83,17 +87,13 @@ LightRun runLightExperiment(std::uint64_t seed, const PerceptionTruthParams& par
   perception_params.gate = trial.recording.gate;
   LightRun run;
   for (const LightChange& change : changesOfLight()) {
+    const cv::Mat levels = levelsAfter(change);
     Perception perception(trial.recording.setup, trial.model, perception_params);
     std::vector<TargetFrame> frames;
     for (const SimulatedFrame& now : trial.recording.frames) {
       Frame seen = now.frame;
-      changeLight(seen, change);
-      const TargetEstimate& estimate = perception.step(seen).target;
-      TargetFrame& frame = frames.emplace_back();
-      frame.stamp_s = seen.stamp_s;
-      frame.target_m = now.people_m[0];
-      if (now.people_m[1]) frame.others_m.push_back(*now.people_m[1]);
-      if (estimate.hasPlace()) frame.estimate_m = estimate.motion.position_m();
+      changeLight(seen, levels);
+      frames.push_back(targetFrame(now, perception.step(seen).target));
     }
     run.push_back(targetMetrics(frames, params.place_error_m));
   }
@@ -104,14 +104,16 @@ LightRun runLightExperiment(const std::filesystem::path& path, const ExperimentP
   const TruthFrames truth(path);
   const CameraSetup setup = findCameraSetup(*openRecording(path));
   const auto lessons = learnEveryone(path, setup, truth, {{"", params.appearance}}, params);
-  LightRun run(changesOfLight().size());
+  std::vector<cv::Mat> levels;
+  for (const LightChange& change : changesOfLight()) levels.push_back(levelsAfter(change));
+  LightRun run(levels.size());
   for (std::size_t i = 0; i < lessons.size(); ++i) {
     const std::string& person = truth.people()[i];
     const auto model = lessons[i].learn(0);
     if (!model) throw std::runtime_error(person + ": nothing of them could be learned");
     for (std::size_t k = 0; k < run.size(); ++k) {
-      add(run[k], lookFor(person, *model, path, setup, truth, changesOfLight()[k],
-                          params.tracker_distance_m));
+      add(run[k],
+          lookFor(person, *model, path, setup, truth, levels[k], params.tracker_distance_m));
     }
   }
   return run;

@@ -9,6 +9,8 @@
 #include "apps/experiment/perception_truth_experiment.hpp"
 #include "apps/recording/frame.hpp"
 
+#include <opencv2/core/mat.hpp>
+
 #include <cstdint>
 #include <filesystem>
 #include <vector>
@@ -22,8 +24,11 @@ struct LightChange {
   double red_against_blue = 0.0;  ///< 0.3: red over blue is 1.3 times what it was; green stays.
 };
 
+/// What each grey level of blue, green and red becomes: CV_8UC3, 1 x 256, for changeLight().
+cv::Mat levelsAfter(const LightChange& change);
+
 /// @throws std::invalid_argument  if the frame has no image.
-void changeLight(Frame& frame, const LightChange& change);
+void changeLight(Frame& frame, const cv::Mat& levels);
 
 /// -1, 0 and +1 stop, each with red against blue at -30 %, 0 and +30 %.
 std::vector<LightChange> changesOfLight();

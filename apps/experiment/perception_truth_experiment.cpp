@@ -107,15 +107,10 @@ PerceptionTruthRun runPerceptionTruthExperiment(std::uint64_t seed,
     for (const pcl::index_t i : step.standing) standing.data[i] = 255;
     count(standing, now, heights, model.params().bands, run.standing);
 
-    TargetFrame& frame = target_frames.emplace_back();
+    const TargetFrame& frame = target_frames.emplace_back(targetFrame(now, step.target));
     TrackingFrame& mot = mot_frames.emplace_back();
-    frame.stamp_s = now.frame.stamp_s;
-    frame.target_m = now.people_m[0];
-    if (now.people_m[0]) mot.truth.push_back({0, *now.people_m[0]});
-    if (now.people_m[1]) frame.others_m.push_back(*now.people_m[1]);
-    if (!step.target.hasPlace()) continue;
-    frame.estimate_m = step.target.motion.position_m();
-    mot.estimates.push_back({step.target.track_id, step.target.motion.position_m()});
+    if (frame.target_m) mot.truth.push_back({0, *frame.target_m});
+    if (frame.estimate_m) mot.estimates.push_back({step.target.track_id, *frame.estimate_m});
   }
   run.target = targetMetrics(target_frames, params.place_error_m);
   ClearMotParams mot_params;

@@ -47,6 +47,17 @@ GeometricGate gateOf(const Scene& scene, const CameraSetup& setup) {
 
 }  // namespace
 
+TargetFrame targetFrame(const SimulatedFrame& now, const TargetEstimate& estimate) {
+  TargetFrame frame;
+  frame.stamp_s = now.frame.stamp_s;
+  frame.target_m = now.people_m[0];
+  for (std::size_t i = 1; i < now.people_m.size(); ++i) {
+    if (now.people_m[i]) frame.others_m.push_back(*now.people_m[i]);
+  }
+  if (estimate.hasPlace()) frame.estimate_m = estimate.motion.position_m();
+  return frame;
+}
+
 SimulatedFrames renderFrames(const Scene& scene, const SimulatedFramesParams& params) {
   SimulatorOptions options;
   options.seed = params.seed;

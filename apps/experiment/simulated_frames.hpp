@@ -10,6 +10,8 @@
 #include "apps/simulation/scene.hpp"
 #include "cloud/stereo_params.hpp"
 #include "tracking/geometric_gate.hpp"
+#include "tracking/target.hpp"
+#include "tracking/target_metrics.hpp"
 
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
@@ -28,6 +30,9 @@ struct SimulatedFrame {
   /// Where everyone of the scene is, in the robot's base frame; none: not in view.
   std::vector<std::optional<Eigen::Vector2d>> people_m;
 };
+
+/// What is true of the scene's first person as the target, and where they are said to be.
+TargetFrame targetFrame(const SimulatedFrame& now, const TargetEstimate& estimate);
 
 /// What is rendered.
 struct SimulatedFramesParams {

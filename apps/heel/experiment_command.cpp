@@ -5,6 +5,7 @@
 #include "apps/experiment/offered_models.hpp"
 #include "apps/heel/commands.hpp"
 #include "apps/heel/experiment_commands.hpp"
+#include "apps/heel/scene_argument.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -122,6 +123,15 @@ void runTargets(const Options& options) {
 }
 
 }  // namespace
+
+void addSimulatedRuns(CLI::App& experiment, SimulatedRuns& runs, std::filesystem::path& scenes) {
+  scenes = sceneFolder();
+  experiment.add_option("--recordings", runs.recordings, "how many simulated ones")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  experiment.add_option("--seed", runs.seed, "of the first")->capture_default_str();
+  experiment.add_option("--out", runs.out, "folder for tables");
+}
 
 std::optional<Output> experimentOutput(const std::string& name, const std::filesystem::path& out,
                                        const std::vector<std::filesystem::path>& inputs) {

@@ -9,12 +9,23 @@
 
 #include <CLI/App.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace heel {
+
+/// What the experiments on simulated recordings are asked for.
+struct SimulatedRuns {
+  int recordings = 0;
+  std::uint64_t seed = 1;  ///< Of the first; each other has the next.
+  std::filesystem::path out = {};
+};
+
+/// Adds --recordings, --seed and --out, and finds the folder of the scenes that come with Heel.
+void addSimulatedRuns(CLI::App& experiment, SimulatedRuns& runs, std::filesystem::path& scenes);
 
 /// Where an experiment writes; nothing, if `out` is empty.
 /// @throws std::invalid_argument, OutputError  as Output.

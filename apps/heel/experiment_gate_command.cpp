@@ -3,7 +3,6 @@
 
 #include "apps/experiment/gate_experiment.hpp"
 #include "apps/heel/experiment_commands.hpp"
-#include "apps/heel/scene_argument.hpp"
 #include "apps/report/csv_file.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "apps/report/result_files.hpp"
@@ -22,9 +21,7 @@ namespace heel {
 namespace {
 
 struct Options {
-  int recordings = 10;
-  std::uint64_t seed = 1;
-  std::filesystem::path out;
+  SimulatedRuns simulated{10};
   GateExperimentParams params;
 };
 
@@ -78,13 +75,13 @@ void writeFiles(const Output& output, const std::vector<GateRun>& runs, const Su
 }
 
 void run(Options& options) {
-  std::optional<Output> output = experimentOutput("gate", options.out);
-  const auto count = static_cast<std::size_t>(options.recordings);
+  std::optional<Output> output = experimentOutput("gate", options.simulated.out);
+  const auto count = static_cast<std::size_t>(options.simulated.recordings);
   ProgressBar progress("gate", count);
   std::vector<GateRun> runs;
   Sum with, without;
   for (std::size_t i = 0; i < count && !isStopRequested(); ++i) {
-    runs.push_back(runGateExperiment(options.seed + i, options.params));
+    runs.push_back(runGateExperiment(options.simulated.seed + i, options.params));
     with.add(runs.back().with_gate);
     without.add(runs.back().without_gate);
     progress.show(i + 1);
@@ -101,15 +98,10 @@ void run(Options& options) {
 
 void addGateExperiment(CLI::App& verb) {
   auto options = std::make_shared<Options>();
-  options->params.scenes = sceneFolder();
   CLI::App* experiment = verb.add_subcommand(
       "gate", "What the map's walls are good for: a target among posters of the same colour");
   experiment->footer("Example:\n  heel experiment gate --out out/gate");
-  experiment->add_option("--recordings", options->recordings, "how many")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  experiment->add_option("--seed", options->seed, "of the first")->capture_default_str();
-  experiment->add_option("--out", options->out, "folder for tables");
+  addSimulatedRuns(*experiment, options->simulated, options->params.scenes);
   experiment->callback([options] { run(*options); });
 }
 

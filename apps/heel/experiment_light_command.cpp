@@ -3,7 +3,6 @@
 
 #include "apps/experiment/light_experiment.hpp"
 #include "apps/heel/experiment_commands.hpp"
-#include "apps/heel/scene_argument.hpp"
 #include "apps/report/csv_file.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "apps/report/result_files.hpp"
@@ -25,9 +24,7 @@ namespace {
 
 struct Options {
   std::vector<std::filesystem::path> real;
-  int recordings = 20;
-  std::uint64_t seed = 1;
-  std::filesystem::path out;
+  SimulatedRuns simulated{20};
   PerceptionTruthParams params;
   ExperimentParams real_params;
 };
@@ -51,11 +48,12 @@ void print(const std::string& name, const LightRun& run) {
 void writeFiles(const Output& output, const std::vector<std::pair<std::string, LightRun>>& runs) {
   CsvWriter csv(output / "light.csv", {"recordings", "stops", "red_against_blue", "frames_in_view",
                                        "recall", "wrong_person_share"});
+  const std::vector<LightChange> changes = changesOfLight();
   for (const auto& [name, run] : runs) {
     for (std::size_t i = 0; i < run.size(); ++i) {
       csv.text(name)
-          .number(changesOfLight()[i].stops, 1)
-          .number(changesOfLight()[i].red_against_blue, 2)
+          .number(changes[i].stops, 1)
+          .number(changes[i].red_against_blue, 2)
           .integer(run[i].frames_in_view)
           .number(run[i].recall(), 4)
           .number(run[i].wrongPersonShare(), 4)
@@ -67,13 +65,13 @@ void writeFiles(const Output& output, const std::vector<std::pair<std::string, L
 }
 
 void run(Options& options) {
-  std::optional<Output> output = experimentOutput("light", options.out, options.real);
-  const auto count = static_cast<std::size_t>(options.recordings);
+  std::optional<Output> output = experimentOutput("light", options.simulated.out, options.real);
+  const auto count = static_cast<std::size_t>(options.simulated.recordings);
   ProgressBar progress("light", count + options.real.size());
   std::vector<std::pair<std::string, LightRun>> runs;
   LightRun sum;
   for (std::size_t i = 0; i < count && !isStopRequested(); ++i) {
-    add(sum, runLightExperiment(options.seed + i, options.params));
+    add(sum, runLightExperiment(options.simulated.seed + i, options.params));
     progress.show(i + 1);
   }
   if (!sum.empty()) {
@@ -95,7 +93,6 @@ void run(Options& options) {
 
 void addLightExperiment(CLI::App& verb) {
   auto options = std::make_shared<Options>();
-  options->params.scenes = sceneFolder();
   CLI::App* experiment = verb.add_subcommand(
       "light", "People learned in one light and looked for in another, simulated and real");
   experiment->footer("Example:\n  heel experiment light recordings/six_people --out out/light");
@@ -105,11 +102,7 @@ void addLightExperiment(CLI::App& verb) {
       ->add_option("--background", options->real_params.background_s,
                    "how long their rooms are empty at the beginning [s]")
       ->capture_default_str();
-  experiment->add_option("--recordings", options->recordings, "how many simulated ones")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  experiment->add_option("--seed", options->seed, "of the first")->capture_default_str();
-  experiment->add_option("--out", options->out, "folder for tables");
+  addSimulatedRuns(*experiment, options->simulated, options->params.scenes);
   experiment->callback([options] { run(*options); });
 }
 

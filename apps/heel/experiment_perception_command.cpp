@@ -3,7 +3,6 @@
 
 #include "apps/experiment/perception_truth_experiment.hpp"
 #include "apps/heel/experiment_commands.hpp"
-#include "apps/heel/scene_argument.hpp"
 #include "apps/report/csv_file.hpp"
 #include "apps/report/progress_bar.hpp"
 #include "apps/report/result_files.hpp"
@@ -24,9 +23,7 @@ namespace heel {
 namespace {
 
 struct Options {
-  int recordings = 50;
-  std::uint64_t seed = 1;
-  std::filesystem::path out;
+  SimulatedRuns simulated{50};
   PerceptionTruthParams params;
 };
 
@@ -93,12 +90,12 @@ void writeFiles(const Output& output, const std::vector<PerceptionTruthRun>& run
 }
 
 void run(Options& options) {
-  std::optional<Output> output = experimentOutput("perception", options.out);
-  const auto count = static_cast<std::size_t>(options.recordings);
+  std::optional<Output> output = experimentOutput("perception", options.simulated.out);
+  const auto count = static_cast<std::size_t>(options.simulated.recordings);
   ProgressBar progress("perception", count);
   std::vector<PerceptionTruthRun> runs;
   for (std::size_t i = 0; i < count && !isStopRequested(); ++i) {
-    runs.push_back(runPerceptionTruthExperiment(options.seed + i, options.params));
+    runs.push_back(runPerceptionTruthExperiment(options.simulated.seed + i, options.params));
     progress.show(i + 1);
   }
   if (runs.empty()) throw Stopped("stopped before the first run");
@@ -115,15 +112,10 @@ void run(Options& options) {
 
 void addPerceptionExperiment(CLI::App& verb) {
   auto options = std::make_shared<Options>();
-  options->params.scenes = sceneFolder();
   CLI::App* experiment = verb.add_subcommand(
       "perception", "The perception against exact truth, on simulated recordings");
   experiment->footer("Example:\n  heel experiment perception --out out/perception");
-  experiment->add_option("--recordings", options->recordings, "how many")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  experiment->add_option("--seed", options->seed, "of the first")->capture_default_str();
-  experiment->add_option("--out", options->out, "folder for tables");
+  addSimulatedRuns(*experiment, options->simulated, options->params.scenes);
   experiment->callback([options] { run(*options); });
 }
 

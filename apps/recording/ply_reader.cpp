@@ -138,26 +138,17 @@ class ValueReader {
   }
 
  private:
+  /// Does the work on an example of the type.
   template <class Work>
   static double visit(std::uint8_t type, const Work& work) {
-    switch (type) {
-      case Field::INT8:
-        return work(std::int8_t{});
-      case Field::UINT8:
-        return work(std::uint8_t{});
-      case Field::INT16:
-        return work(std::int16_t{});
-      case Field::UINT16:
-        return work(std::uint16_t{});
-      case Field::INT32:
-        return work(std::int32_t{});
-      case Field::UINT32:
-        return work(std::uint32_t{});
-      case Field::FLOAT32:
-        return work(float{});
-      default:
-        return work(double{});
-    }
+    double result = 0.0;
+    const auto ifIs = [&](auto example) {
+      if (type == pcl::traits::asEnum_v<decltype(example)>) result = work(example);
+    };
+    const auto ifIsOneOf = [&](auto... examples) { (ifIs(examples), ...); };
+    ifIsOneOf(std::int8_t{}, std::uint8_t{}, std::int16_t{}, std::uint16_t{}, std::int32_t{},
+              std::uint32_t{}, float{}, double{});
+    return result;
   }
 
   void takeText(std::uint8_t type, std::uint8_t* bytes) {

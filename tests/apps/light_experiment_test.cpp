@@ -4,12 +4,12 @@
 #include "apps/experiment/light_experiment.hpp"
 
 #include "apps/simulation/color.hpp"
+#include "tests/apps/short_trial.hpp"
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
 #include <cmath>
-#include <filesystem>
 #include <stdexcept>
 
 namespace heel {
@@ -24,7 +24,7 @@ TEST(LightChange, ChangesLightByStopsAndRedAgainstBlue) {
     Frame frame;
     frame.image_bgr = cv::Mat(2, 2, CV_8UC3, cv::Scalar(120, 130, 140));
     const cv::Mat before = frame.image_bgr;
-    changeLight(frame, change);
+    changeLight(frame, levelsAfter(change));
     const cv::Mat& after = frame.image_bgr;
     EXPECT_NEAR(lightOf(after, 1) / lightOf(before, 1), std::exp2(change.stops), 0.02);
     const double red = lightOf(after, 2) / lightOf(before, 2);
@@ -41,22 +41,18 @@ TEST(LightChange, WhiteStaysWhiteAndBlackBlack) {
   Frame frame;
   frame.image_bgr = cv::Mat(1, 1, CV_8UC3, cv::Scalar(255, 200, 0));
   frame.right_bgr = frame.image_bgr.clone();
-  changeLight(frame, {1.0, 0.0});
+  changeLight(frame, levelsAfter({1.0, 0.0}));
   EXPECT_EQ(frame.image_bgr.at<cv::Vec3b>(0, 0), cv::Vec3b(255, 255, 0));
   EXPECT_EQ(cv::norm(frame.image_bgr, frame.right_bgr), 0.0);
 }
 
 TEST(LightChange, NeedsAnImage) {
   Frame frame;
-  EXPECT_THROW(changeLight(frame, {}), std::invalid_argument);
+  EXPECT_THROW(changeLight(frame, levelsAfter({})), std::invalid_argument);
 }
 
 TEST(LightExperiment, WithoutAChangeItIsThePerceptionsOwn) {
-  PerceptionTruthParams params;
-  params.empty_s = 2.0;
-  params.person_s = 4.0;
-  params.follow_s = 5.0;
-  params.scenes = std::filesystem::path(HEEL_SOURCE_DIR) / "apps/scenes";
+  const PerceptionTruthParams params = test::shortTrial();
   const LightRun run = runLightExperiment(4, params);
   ASSERT_EQ(run.size(), 9U);
   const TargetMetrics own = runPerceptionTruthExperiment(4, params).target;

@@ -3,10 +3,11 @@
 
 #include "apps/experiment/perception_truth_experiment.hpp"
 
+#include "tests/apps/short_trial.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
 namespace heel {
 namespace {
@@ -41,12 +42,7 @@ TEST(PerceptionTruth, SumsCountsNotShares) {
 }
 
 TEST(PerceptionTruth, FollowsTheTargetNotTheOther) {
-  PerceptionTruthParams params;
-  params.empty_s = 2.0;
-  params.person_s = 4.0;
-  params.follow_s = 5.0;
-  params.scenes = std::filesystem::path(HEEL_SOURCE_DIR) / "apps/scenes";
-  const PerceptionTruthRun run = runPerceptionTruthExperiment(4, params);
+  const PerceptionTruthRun run = runPerceptionTruthExperiment(4, test::shortTrial());
   EXPECT_FALSE(run.similar);
   EXPECT_GT(run.target.frames_in_view, 10);
   EXPECT_GT(run.target.recall(), 0.7);

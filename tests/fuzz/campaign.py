@@ -3,12 +3,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the fuzzers (cmake --preset fuzz; cmake --build --preset fuzz).
 
-  campaign.py [READER...] [--seconds 600] [--inputs 1000000] [--most 7200] [--jobs 2]
+  campaign.py [READER...] [--seconds 600] [--inputs 1000000] [--most 7200] [--jobs 2] [--seed 0]
 
 Each one runs for so many seconds and so many inputs, whichever takes longer, but never for longer
-than --most. It begins with the seeds that our own writers draw, and with what was found before
-(tests/fuzz/findings). Prints a table, and says where inputs are that a reader did not bear: crashes
-and leaks, what takes over 2 GB of memory or over 5 s. If there are any, the script fails.
+than --most. What it draws follows from --seed, and with 0 from the time. It begins with the seeds
+that our own writers draw, and with what was found before (tests/fuzz/findings). Prints a table, and
+says where inputs are that a reader did not bear: crashes and leaks, what takes over 2 GB of memory
+or over 5 s. If there are any, the script fails.
 """
 
 import argparse
@@ -60,7 +61,8 @@ def run(fuzzer, work, scratch, options):
             log.truncate()
             code = subprocess.call(
                 [fuzzer, "-rss_limit_mb=2048", "-timeout=5", "-print_final_stats=1",
-                 f"-artifact_prefix={found}/", *limits, corpus, *([former] if former.is_dir() else [])],
+                 f"-seed={options.seed}", f"-artifact_prefix={found}/", *limits, corpus,
+                 *([former] if former.is_dir() else [])],
                 stdout=log, stderr=log, env=environment)
             log.seek(0)
             text = log.read()
@@ -87,6 +89,7 @@ def main():
     parser.add_argument("--inputs", type=int, default=1_000_000)
     parser.add_argument("--most", type=float, default=7200)
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args()
     built = {path.name[len("fuzz_"):]: path.resolve()
              for path in sorted((options.build / "tests/fuzz").glob("fuzz_*"))

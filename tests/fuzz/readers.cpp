@@ -39,6 +39,16 @@ fs::path put(const fs::path& folder, const std::string& name, const std::string&
   return folder / name;
 }
 
+/// Reads the bytes as a file of that name.
+template <class Read>
+auto fromFile(const char* name, const Read& read) {
+  return [=](const fs::path& folder, const std::string& bytes) { read(put(folder, name, bytes)); };
+}
+
+auto seed(const char* text) {
+  return [=](const fs::path&) { return Seeds{text}; };
+}
+
 template <class Draw>
 std::string drawn(const fs::path& folder, const std::string& name, const Draw& draw) {
   draw(folder / name);
@@ -160,12 +170,31 @@ Seeds imageSeeds(const fs::path&) {
   return seeds;
 }
 
-const char* const kStereo =
-    "%YAML:1.0\n---\nimage_width: 64\nimage_height: 48\n"
-    "P1: !!opencv-matrix\n   rows: 3\n   cols: 4\n   dt: d\n"
-    "   data: [ 90., 0., 32., 0., 0., 90., 24., 0., 0., 0., 1., 0. ]\n"
-    "P2: !!opencv-matrix\n   rows: 3\n   cols: 4\n   dt: d\n"
-    "   data: [ 90., 0., 32., -9., 0., 90., 24., 0., 0., 0., 1., 0. ]\n";
+/// As cv::FileStorage writes it: raw in YAML, rectified in XML and JSON.
+Seeds stereoSeeds(const fs::path& folder) {
+  const cv::Matx33d K(90, 0, 32, 0, 90, 24, 0, 0, 1);
+  const cv::Matx34d P1(90, 0, 32, 0, 0, 90, 24, 0, 0, 0, 1, 0);
+  cv::Matx34d P2 = P1;
+  P2(0, 3) = -9;
+  using Values = std::vector<std::pair<std::string, cv::Mat>>;
+  const auto stored = [&](const std::string& name, const Values& values) {
+    return drawn(folder, name, [&](const fs::path& file) {
+      cv::FileStorage storage(file.string(), cv::FileStorage::WRITE);
+      storage << "imageSize" << cv::Size(64, 48);
+      for (const auto& [key, value] : values) storage << key << value;
+    });
+  };
+  const Values raw = {{"M1", cv::Mat(K)},
+                      {"D1", cv::Mat::zeros(1, 4, CV_64F)},
+                      {"M2", cv::Mat(K)},
+                      {"D2", cv::Mat::zeros(1, 5, CV_32F)},
+                      {"R", cv::Mat::eye(3, 3, CV_64F)},
+                      {"T", cv::Mat(cv::Vec3d(-0.1, 0, 0))}};
+  const Values rectified = {{"P1", cv::Mat(P1)}, {"P2", cv::Mat(P2)}};
+  return {stored("raw.yaml", raw), stored("rectified.xml", rectified),
+          stored("rectified.json", rectified)};
+}
+
 const char* const kCameraInfo =
     "image_width: 64\nimage_height: 48\ndistortion_model: plumb_bob\n"
     "camera_matrix: {rows: 3, cols: 3, data: [90, 0, 32, 0, 90, 24, 0, 0, 1]}\n"
@@ -186,74 +215,58 @@ AppearanceModel smallModel() {
 
 const std::vector<FuzzReader>& fuzzReaders() {
   static const std::vector<FuzzReader> kReaders = {
-      {"pcd", [](const auto& f, const auto& b) { readCloud(put(f, "a.pcd", b)); },
-       [](const auto& f) { return cloudSeeds(f, ".pcd"); }},
-      {"ply", [](const auto& f, const auto& b) { readCloud(put(f, "a.ply", b)); },
-       [](const auto& f) { return cloudSeeds(f, ".ply"); }},
-      {"ros1_bag", [](const auto& f, const auto& b) { readBag(put(f, "a.bag", b)); },
-       [](const auto& f) { return bagSeeds(f, ".bag"); }},
-      {"ros2_bag", [](const auto& f, const auto& b) { readBag(put(f, "a.db3", b)); },
-       [](const auto& f) { return bagSeeds(f, ".db3"); }},
+      {"pcd", fromFile("a.pcd", readCloud), [](const auto& f) { return cloudSeeds(f, ".pcd"); }},
+      {"ply", fromFile("a.ply", readCloud), [](const auto& f) { return cloudSeeds(f, ".ply"); }},
+      {"ros1_bag", fromFile("a.bag", readBag), [](const auto& f) { return bagSeeds(f, ".bag"); }},
+      {"ros2_bag", fromFile("a.db3", readBag), [](const auto& f) { return bagSeeds(f, ".db3"); }},
       {"ros1_message", [](const auto&, const auto& b) { AllMessages::read(BagForm::kRos1, b); },
        [](const auto&) { return AllMessages::seeds(BagForm::kRos1); }},
       {"cdr_message", [](const auto&, const auto& b) { AllMessages::read(BagForm::kRos2, b); },
        [](const auto&) { return AllMessages::seeds(BagForm::kRos2); }},
-      {"carmen", [](const auto& f, const auto& b) { readLog(put(f, "a.log", b)); },
-       [](const auto&) {
-         return Seeds{"ODOM 5 5 0 0 0 0 1 h 1\nFLASER 4 1 2 81.9 3.5 1 0 0 1 0 0 0.2 h 0.2\n"};
-       }},
-      {"camera", [](const auto& f, const auto& b) { readCameraFile(put(f, "camera.yaml", b)); },
-       [](const auto&) {
-         return Seeds{
-             "width: 16\nheight: 12\nfx: 20\nfy: 21\ncx: 7.5\ncy: 5.5\ndepth_scale: 1000\n"
-             "T_ground_camera: [0,0,1,0, -1,0,0,0, 0,-1,0,1.5, 0,0,0,1]\n"};
-       }},
-      {"stereo", [](const auto& f, const auto& b) { readStereoRig(put(f, "stereo.yaml", b)); },
-       [](const auto&) { return Seeds{kStereo}; }},
+      {"carmen", fromFile("a.log", readLog),
+       seed("ODOM 5 5 0 0 0 0 1 h 1\nFLASER 4 1 2 81.9 3.5 1 0 0 1 0 0 0.2 h 0.2\n")},
+      {"camera", fromFile("camera.yaml", readCameraFile),
+       seed("width: 16\nheight: 12\nfx: 20\nfy: 21\ncx: 7.5\ncy: 5.5\ndepth_scale: 1000\n"
+            "T_ground_camera: [0,0,1,0, -1,0,0,0, 0,-1,0,1.5, 0,0,0,1]\n")},
+      {"stereo", fromFile("stereo.yaml", [](const auto& file) { readStereoRig(file); }),
+       [](const auto& f) { return stereoSeeds(f); }},
       {"camera_info",
        [](const auto& f, const auto& b) {
          readCameraInfo(put(f, "left.yaml", kCameraInfo), put(f, "right.yaml", b));
        },
-       [](const auto&) { return Seeds{kCameraInfo}; }},
-      {"model", [](const auto& f, const auto& b) { loadAppearance(put(f, "person.yaml", b)); },
+       seed(kCameraInfo)},
+      {"model", fromFile("person.yaml", loadAppearance),
        [](const auto& f) {
          return Seeds{
              drawn(f, "seed.yaml", [](const auto& file) { saveAppearance(smallModel(), file); })};
        }},
-      {"scene", [](const auto& f, const auto& b) { loadScene(put(f, "a.yaml", b).string()); },
-       [](const auto&) {
-         return Seeds{
-             "name: small\nwalls:\n  - {from: [0, 0], to: [4, 0]}\n"
-             "people:\n  - {name: ann, height_m: 1.7, at: [1, 1]}\n"};
-       }},
+      {"scene", fromFile("a.yaml", [](const auto& file) { loadScene(file.string()); }),
+       seed("name: small\nwalls:\n  - {from: [0, 0], to: [4, 0]}\n"
+            "people:\n  - {name: ann, height_m: 1.7, at: [1, 1]}\n")},
       {"map",
        [](const auto& f, const auto& b) {
          put(f, "seed.pgm", "P5\n3 2\n255\nabcdef");
          loadMapServer(put(f, "a.yaml", b));
        },
        [](const auto& f) { return Seeds{mapSeeds(f)[0]}; }},
-      {"map_image", [](const auto& f, const auto& b) { gridFromImage(put(f, "a.pgm", b), 0.05); },
+      {"map_image", fromFile("a.pgm", [](const auto& file) { gridFromImage(file, 0.05); }),
        [](const auto& f) { return Seeds{mapSeeds(f)[1]}; }},
-      {"wall_map", [](const auto& f, const auto& b) { loadWallMap(put(f, "a.bt", b)).floorGrid(); },
+      {"wall_map", fromFile("a.bt", [](const auto& file) { loadWallMap(file).floorGrid(); }),
        [](const auto& f) {
          WallMapBuilder builder(0.1);
          builder.addFreeFloor({0.0, 0.0}, {0.5, 0.5});
          const WallMap map = builder.build();
          return Seeds{drawn(f, "seed.bt", [&](const auto& file) { saveWallMap(map, file); })};
        }},
-      {"plan",
-       [](const auto& f, const auto& b) { loadPlan(put(f, "a.pnml", b), followingVocabulary()); },
+      {"plan", fromFile("a.pnml", [](const auto& file) { loadPlan(file, followingVocabulary()); }),
        [](const auto&) {
          return Seeds{readText(fs::path(HEEL_SOURCE_DIR) / "apps/plans/paper.pnml")};
        }},
-      {"tracks", [](const auto& f, const auto& b) { readTracks(put(f, "tracks.csv", b)); },
-       [](const auto&) {
-         return Seeds{
-             "stamp_s,track_id,is_target,x_m,y_m,vx_mps,vy_mps,score,status\n"
-             "1,1,1,0.5,0,0,0,0.9,confirmed\n"};
-       }},
-      {"stamps", [](const auto& f, const auto& b) { readStampedFiles(put(f, "rgb.txt", b)); },
-       [](const auto&) { return Seeds{"# colour\n0.5 rgb/1.png\n0.75 rgb/2.png\n"}; }},
+      {"tracks", fromFile("tracks.csv", readTracks),
+       seed("stamp_s,track_id,is_target,x_m,y_m,vx_mps,vy_mps,score,status\n"
+            "1,1,1,0.5,0,0,0,0.9,confirmed\n")},
+      {"stamps", fromFile("rgb.txt", readStampedFiles),
+       seed("# colour\n0.5 rgb/1.png\n0.75 rgb/2.png\n")},
       {"image",
        [](const auto&, const auto& b) {
          cv::Mat image;

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,9 @@ struct FuzzReader {
   std::string name;
   /// Reads a file of the folder whose only foreign bytes are these.
   /// @throws std::runtime_error  with one sentence, if they are of no use.
-  void (*read)(const std::filesystem::path& folder, const std::string& bytes);
+  std::function<void(const std::filesystem::path& folder, const std::string& bytes)> read;
   /// Draws what it should read, by our own writers.
-  std::vector<std::string> (*seeds)(const std::filesystem::path& folder);
+  std::function<std::vector<std::string>(const std::filesystem::path& folder)> seeds;
 };
 
 const std::vector<FuzzReader>& fuzzReaders();
