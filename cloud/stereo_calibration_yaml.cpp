@@ -31,7 +31,8 @@ namespace fs = std::filesystem;
 }
 
 std::string readText(const fs::path& file) {
-  constexpr std::size_t kMostBytes = std::size_t{1} << 20U;  // YAML takes some hundred times as much
+  constexpr std::size_t kMostBytes = std::size_t{1}
+                                     << 20U;  // YAML takes some hundred times as much
   if (!fs::is_regular_file(file)) fail(file.string(), "there is no such file");
   if (fs::file_size(file) > kMostBytes) {
     fail(file.string(), "it is too large for a calibration (over 1 MiB)");
