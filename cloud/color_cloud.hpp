@@ -43,10 +43,15 @@ void makeColorCloud(const cv::Mat& depth_m, const cv::Mat& image_bgr, const cv::
                     ColorCloud& cloud, pcl::Indices& indices);
 
 /// The masked cloud of each frame of a stream, at a cost that follows the number of masked pixels:
-/// of the previous frame's cloud, only the points that had a position are blanked.
+/// of the previous frame's cloud, only the points that had a position are blanked. Not to be
+/// copied: a copy would write into the same cloud.
 class MaskedCloud {
  public:
   MaskedCloud();
+  MaskedCloud(const MaskedCloud&) = delete;
+  MaskedCloud& operator=(const MaskedCloud&) = delete;
+  MaskedCloud(MaskedCloud&&) = default;
+  MaskedCloud& operator=(MaskedCloud&&) = default;
 
   /// As makeColorCloud with a mask.
   void update(const cv::Mat& depth_m, const cv::Mat& image_bgr, const cv::Mat& mask,

@@ -28,7 +28,7 @@ int refine(const sgm::Winner& w, int disparities) {
 }  // namespace
 
 MaskedSgm::MaskedSgm(const StereoMatcherParams& params)
-    : params_(params), block_column_(params.block_size, 1, CV_8UC1, cv::Scalar(1)) {}
+    : params_(checked(params)), block_column_(params.block_size, 1, CV_8UC1, cv::Scalar(1)) {}
 
 void MaskedSgm::FeatureBuffer::resize(int width) {
   const auto n = static_cast<std::size_t>(width);

@@ -24,10 +24,15 @@ constexpr int kDisparityScale = 16;
 ///
 /// With everything wanted, its answer is exactly that of cv::StereoSGBM (a test says so). As there,
 /// the first `disparities` columns have none: part of their range lies outside the right image.
-/// Holds its workspace, so one object serves one thread.
+/// Holds its workspace, so one object serves one thread. Not to be copied: its rows point into it.
 class MaskedSgm {
  public:
+  /// @throws std::invalid_argument  if a parameter is out of its range.
   explicit MaskedSgm(const StereoMatcherParams& params);
+  MaskedSgm(const MaskedSgm&) = delete;
+  MaskedSgm& operator=(const MaskedSgm&) = delete;
+  MaskedSgm(MaskedSgm&&) = default;
+  MaskedSgm& operator=(MaskedSgm&&) = default;
 
   /// @param left, right  CV_8UC1 of one size, rectified.
   /// @param wanted       CV_8UC1 of that size, not 0 where a disparity is wanted; must be 0 in the

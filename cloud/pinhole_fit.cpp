@@ -3,7 +3,9 @@
 
 #include "cloud/pinhole_fit.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace heel {
 namespace {
@@ -20,7 +22,11 @@ class LineFit {
     xx_ += x * x;
     xy_ += x * y;
     yy_ += y * y;
+    least_y_ = std::min(least_y_, y);
+    most_y_ = std::max(most_y_, y);
   }
+  /// Two points are on a line whatever they are of, and so are any of one row or column.
+  bool isDetermined() const { return n_ > 2 && least_y_ < most_y_; }
   double slope() const { return (n_ * xy_ - x_ * y_) / (n_ * xx_ - x_ * x_); }
   double offset() const { return (y_ - slope() * x_) / n_; }
   /// Root mean square of what the line leaves unexplained; NaN if there is no line.
@@ -32,6 +38,7 @@ class LineFit {
 
  private:
   double n_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0, yy_ = 0;
+  double least_y_ = std::numeric_limits<double>::infinity(), most_y_ = -least_y_;
 };
 
 }  // namespace
@@ -49,6 +56,7 @@ std::optional<PinholeCamera> fitPinhole(const ColorCloud& cloud) {
     down.add(static_cast<double>(p.y) / static_cast<double>(p.z),
              static_cast<double>(i / cloud.width));
   }
+  if (!across.isDetermined() || !down.isDetermined()) return std::nullopt;
   PinholeCamera camera;
   camera.width = static_cast<int>(cloud.width);
   camera.height = static_cast<int>(cloud.height);

@@ -14,8 +14,9 @@ namespace heel {
 /// Fits u = fx X / Z + cx and v = fy Y / Z + cy to an organized cloud in the optical frame, by
 /// least squares over all its points.
 ///
-/// @return The camera, or nothing if the cloud is not organized, has too few points, or does not
-///         come from one pinhole camera (the residual is over half a pixel, root mean square).
+/// @return The camera, or nothing if the cloud is not organized, has less than three points or all
+///         in one row or column, which determine no camera, or does not come from one pinhole
+///         camera (the residual is over half a pixel, root mean square).
 std::optional<PinholeCamera> fitPinhole(const ColorCloud& cloud);
 
 }  // namespace heel

@@ -31,4 +31,8 @@ struct StereoMatcherParams {
   double min_support = 0.1;
 };
 
+/// The parameters themselves.
+/// @throws std::invalid_argument  if one is out of its range.
+StereoMatcherParams checked(const StereoMatcherParams& params);
+
 }  // namespace heel

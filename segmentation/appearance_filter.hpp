@@ -81,6 +81,9 @@ class AppearanceFilter<pcl::PCLPointCloud2> : public pcl::FilterIndices<pcl::PCL
 
   /// @param extract_removed_indices  Set to read getRemovedIndices() afterwards.
   explicit AppearanceFilter(bool extract_removed_indices = false);
+  /// A copy has the same settings, and lists and a workspace of its own.
+  AppearanceFilter(const AppearanceFilter& other);
+  AppearanceFilter& operator=(const AppearanceFilter& other);
 
   /// Which colours to keep: those above the table's threshold.
   void setTable(const ColorTable& table) { typed_.setTable(table); }

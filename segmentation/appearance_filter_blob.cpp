@@ -93,6 +93,18 @@ AppearanceFilter<Blob>::AppearanceFilter(bool extract_removed_indices)
   filter_name_ = "AppearanceFilter";
 }
 
+AppearanceFilter<Blob>::AppearanceFilter(const AppearanceFilter& other) : AppearanceFilter() {
+  *this = other;
+}
+
+AppearanceFilter<Blob>& AppearanceFilter<Blob>::operator=(const AppearanceFilter& other) {
+  Base::operator=(other);  // with which both have the same lists
+  removed_indices_ = pcl::make_shared<pcl::Indices>(*other.removed_indices_);
+  if (fake_indices_) indices_ = pcl::make_shared<pcl::Indices>();
+  setTable(other.getTable());
+  return *this;
+}
+
 bool AppearanceFilter<Blob>::select(pcl::Indices& kept) {
   std::string problem = getTable().empty() ? "No colour table given" : "";
   const auto layout = problem.empty() ? layoutOf(*input_, problem) : std::nullopt;

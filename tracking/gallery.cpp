@@ -152,15 +152,22 @@ void Gallery::average(Person& person, const Eigen::ArrayXXf& look, double weight
   }
 }
 
-void Gallery::addLookAtTarget(const Observation& seen, double weight) {
-  if (seen.look == nullptr || anybody_.size() == 0) return;
-  average(lately_, *seen.look, weight);
+void Gallery::addLookAt(int hypothesis, const Observation& seen, double weight) {
+  if (seen.look == nullptr || !isKnown(hypothesis)) return;
+  Person& person = people_[index(hypothesis)];
+  average(hypothesis == kTarget ? lately_ : person, *seen.look, weight);
+  if (hypothesis == kTarget) mixLately();
+  refresh(person);
+}
+
+/// The target is half what phase 1 learned, from the beginning: the share of what was seen lately
+/// grows as that comes to rest on more.
+void Gallery::mixLately() {
   Person& target = people_[kTarget];
+  const auto lately = static_cast<float>(0.5 * lately_.weight / (lately_.weight + 3.0));
   for (Eigen::Index part = 0; part < target.mean.cols(); ++part) {
     const bool has_anchor = looks_.target.col(part).sum() > 0.5F;
     const bool has_lately = lately_.mean.col(part).sum() > 0.5F;
-    // Half is phase 1's from the beginning: lately's share grows as it comes to rest on more.
-    const auto lately = static_cast<float>(0.5 * lately_.weight / (lately_.weight + 3.0));
     if (has_anchor && has_lately) {
       target.mean.col(part) =
           (1.0F - lately) * looks_.target.col(part) + lately * lately_.mean.col(part);
@@ -168,13 +175,6 @@ void Gallery::addLookAtTarget(const Observation& seen, double weight) {
       target.mean.col(part) = lately_.mean.col(part);
     }
   }
-  refresh(target);
-}
-
-void Gallery::addLookAt(int hypothesis, const Observation& seen, double weight) {
-  if (seen.look == nullptr || !isKnown(hypothesis)) return;
-  average(people_[index(hypothesis)], *seen.look, weight);
-  refresh(people_[index(hypothesis)]);
 }
 
 bool Gallery::isFull() const {

@@ -68,8 +68,7 @@ class Gallery {
   /// there is nobody. What is not seen says nothing: without a look all are 0.
   Evidence logLikelihood(const Observation& seen);
 
-  /// Another sure look at the target. What phase 1 learned keeps half of the say.
-  void addLookAtTarget(const Observation& seen, double weight);
+  /// Another sure look at somebody. Of the target, what phase 1 learned keeps half of the say.
   void addLookAt(int hypothesis, const Observation& seen, double weight);
 
   /// Puts somebody new into the gallery, in the place of `replaced` or a free one (kStranger).
@@ -90,6 +89,7 @@ class Gallery {
   static void average(Person& person, const Eigen::ArrayXXf& look, double weight);
   void takeApart(const Eigen::ArrayXXf& look);
   double likeness(const Person& person) const;
+  void mixLately();
 
   TargetLooks looks_;
   GalleryParams params_;

@@ -16,11 +16,17 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTwoPi = 6.283185307179586;
 constexpr double kRest_m = 0.2;         // Whoever is no further off has not moved.
 constexpr double kPlaceSigma_m = 0.25;  // Of where a person who is tracked is observed next.
-constexpr double kDetected = 0.9;       // Of the looks at somebody in full view.
+constexpr double kMissed = 0.1;         // Of the looks at somebody in full view.
 constexpr double kCoastMemory_s = 1.0;  // Hidden somebody may have gone elsewhere in this time.
 constexpr double kRoom_m2 = 20.0;       // Where somebody who is away may be.
 constexpr double kAwayMemory_s = 10.0;  // Time in which where they were seen last is forgotten.
-constexpr double kSure = 0.98;          // Looks at somebody of whom we are so sure are learned.
+constexpr double kSure = 0.98;          // Looks at somebody of whom we are so sure are learned,
+constexpr double kLearnedLook = 0.1;    // for so many independent ones.
+constexpr double kSureStranger = 0.9;   // A stranger with this probability is met
+constexpr double kMetLooks = 1.5;       // after so many independent looks,
+constexpr double kUnlike = -5.0;        // if looks or the target elsewhere tell them apart.
+constexpr double kMet = -4.0;           // Who was met is no stranger, nor anybody else them.
+constexpr double kTold = -7.0;          // Who is told to be the target may be another.
 constexpr double kSurest = 12.0;        // Logarithm of the greatest odds of places and ways.
 constexpr double kOtherView = 0.5;      // A look with so much news begins another view;
 constexpr double kMostLooks = 10.0;     // so many of the last ones make its mean.
@@ -50,8 +56,7 @@ Identity::Identity(TargetLooks looks, const IdentityParams& params)
       clutter_(params.clutter),
       last_(kHypotheses) {
   if (!(params.still_look_s > 0.0 && params.look_way_m > 0.0 && params.look_correlation >= 0.0 &&
-        params.stands_s > 0.0 && params.newcomer_is_target > 0.0 &&
-        params.newcomer_density_per_m2 > 0.0 && params.walk_mps > 0.0)) {
+        params.stands_s > 0.0 && params.newcomer_density_per_m2 > 0.0 && params.walk_mps > 0.0)) {
     throw std::invalid_argument("IdentityParams: a parameter is not positive");
   }
 }
@@ -110,7 +115,7 @@ Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s) const
       const double too_far_m = std::max(away_m - 0.8 - 2.5 * params_.walk_mps * away_s, 0.0);
       reach = known * near + (1.0 - known) * std::exp(-too_far_m / 0.3);
     }
-    weight[h] = params_.newcomer_density_per_m2 * params_.newcomer_is_target * reach;
+    weight[h] = params_.newcomer_density_per_m2 * reach;
   }
   return weight.max(1e-12).log() + (weight > 0.0).select(Evidence::Zero(), -kInfinity);
 }
@@ -147,7 +152,7 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
   belief.log_place[kThing] += has_moved ? news * std::log(clutter * there) : stands;
   // Whether it is whoever was there before: else they were missed, and something else came. As
   // long as they are seen, that needs time; else it may have happened at any time.
-  const double missed = 1.0 - belief.present + belief.present * (1.0 - kDetected) * news;
+  const double missed = 1.0 - belief.present + belief.present * kMissed * news;
   if (missed > 0.0) {
     const double same = (1.0 - missed) * track.density_per_m2;
     const double other = missed * (clutter + params_.newcomer_density_per_m2);
@@ -203,7 +208,7 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
     const Sight sight =
         viewpoint.sight_of ? viewpoint.sight_of(track.motion.position_m()) : Sight::kUnknown;
     const bool is_gone = sight == Sight::kFree || sight == Sight::kOutside;
-    belief->present *= is_gone ? 1.0 - kDetected : std::exp(-std::max(dt_s, 0.0) / kCoastMemory_s);
+    belief->present *= is_gone ? kMissed : std::exp(-std::max(dt_s, 0.0) / kCoastMemory_s);
   }
   mixSwaps(report.swaps);
   for (const Track& track : tracks) {
@@ -271,14 +276,11 @@ void Identity::weigh(bool is_left, std::vector<Evidence>& marginals) {
     const double most = *std::max_element(row, row + sets);
     for (std::size_t s = 0; s < sets; ++s) row[s] /= std::max(most, 1e-300);
   };
-  const auto weightsOf = [&](const Belief& belief, double& nobody) {
-    const Evidence weight = relative(belief.logWeight());
-    nobody = is_left ? (1.0 - belief.present) * weight.sum() : 0.0;
-    return Evidence(is_left ? belief.present * weight : weight);
-  };
+  weights_.resize(count);
   for (std::size_t j = 0; j < count; ++j) {
-    double nobody = 0.0;
-    const Evidence weight = weightsOf(beliefs_[j], nobody);
+    const double present = is_left ? beliefs_[j].present : 1.0;
+    const Evidence all = relative(beliefs_[j].logWeight());
+    const auto& [weight, nobody] = weights_[j] = {present * all, (1.0 - present) * all.sum()};
     const double* before = &forward_[j * sets];
     double* after = &forward_[(j + 1) * sets];
     for (std::size_t s = 0; s < sets; ++s) {
@@ -291,8 +293,8 @@ void Identity::weigh(bool is_left, std::vector<Evidence>& marginals) {
     rescale(after);
   }
   for (std::size_t j = count; j-- > 0;) {
-    double nobody = 0.0, empty = 0.0;
-    const Evidence weight = weightsOf(beliefs_[j], nobody);
+    double empty = 0.0;
+    const auto& [weight, nobody] = weights_[j];
     const double* before = &forward_[j * sets];
     const double* after = &backward_[(j + 1) * sets];
     double* now = &backward_[j * sets];
@@ -388,19 +390,13 @@ void Identity::remember(const std::vector<Track>& tracks,
     }
     if (best != kStranger) last_[static_cast<std::size_t>(best)] = Absence{place_m, stamp_s};
     if (!is_alone) continue;
-    const double news = 0.1;
     if (best == kStranger) {
       const bool is_another = target_sure_m && (*target_sure_m - place_m).norm() > kAlone_m;
-      const bool is_unlike = belief.logLooks()[kTarget] < -5.0;
-      const bool is_met =
-          (is_another || is_unlike) && belief.probability[kStranger] > 0.9 && belief.looks > 1.5;
-      if (is_met) meet(belief);
+      const bool is_unlike = belief.logLooks()[kTarget] < kUnlike;
+      const bool is_stranger = belief.probability[kStranger] > kSureStranger;
+      if ((is_another || is_unlike) && is_stranger && belief.looks > kMetLooks) meet(belief);
     } else if (belief.probability[best] > kSure) {
-      if (best == kTarget) {
-        gallery_.addLookAtTarget(seen, news);
-      } else {
-        gallery_.addLookAt(best, seen, news);
-      }
+      gallery_.addLookAt(best, seen, kLearnedLook);
     }
   }
 }
@@ -429,7 +425,7 @@ void Identity::meet(Belief& belief) {
   const int h = gallery_.meet(mean, belief.looks, replaced);
   if (h == kStranger) return;
   for (Belief& other : beliefs_) {
-    other.log_place[h] = other.log_place[kStranger] - 4.0;
+    other.log_place[h] = other.log_place[kStranger] + kMet;
     other.log_views[h] = other.view.mean[h] = 0.0;
   }
   belief.log_place[h] = belief.log_place[kStranger];
@@ -441,7 +437,7 @@ void Identity::meet(Belief& belief) {
 void Identity::makeTarget(int track_id, const Eigen::Vector2d& place_m, double stamp_s) {
   Belief* belief = find(track_id);
   if (belief == nullptr) belief = &begin(track_id, place_m, stamp_s);
-  for (double& weight : belief->log_place) weight = std::isfinite(weight) ? -7.0 : weight;
+  for (double& weight : belief->log_place) weight = std::isfinite(weight) ? kTold : weight;
   belief->log_place[kTarget] = 0.0;
   belief->log_views.setZero();
   belief->log_free.setZero();

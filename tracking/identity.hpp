@@ -30,10 +30,8 @@ struct IdentityParams {
   double stands_s = 10.0;
   /// Looks of one track are alike: many together are worth no more than 1 / this of them.
   double look_correlation = 0.2;
-  /// Odds that somebody who comes into view is the target, while it is away, and not a stranger.
-  double newcomer_is_target = 1.0;
   /// Strangers who come into view per square metre and look; things are counted elsewhere
-  /// (ClutterMapParams).
+  /// (ClutterMapParams). The target, and each of the others, come as often while they are away.
   double newcomer_density_per_m2 = 0.05;
   /// Speed at which somebody out of view gets away from where they were last seen.
   double walk_mps = 1.0;
@@ -95,25 +93,23 @@ class Identity {
 
   struct Belief {
     int track_id = 0;
-    Evidence log_place = Evidence::Zero();  ///< Weights by where it came from and goes,
-    Evidence logLooks() const { return log_views + view.evidence(); }  ///< and by looks.
+    Evidence log_place = Evidence::Zero();  ///< By where it came from and goes.
+    Evidence log_views = Evidence::Zero();  ///< By looks from all views but the present one.
     /// By who was somebody else in view at the same time, and has left.
     Evidence log_free = Evidence::Zero();
-    Evidence logWeight() const {
-      return log_place + log_free + logLooks();
-    }                                                   ///< All but who is
-                                                        ///< in view now.
-    Evidence probability = Evidence::Zero();            ///< Of all together.
+    Evidence probability = Evidence::Zero();            ///< With who is in view now, too.
     Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  ///< Where it rests, or was lately,
-    double since_s = 0.0;                               ///< since then;
-    double seen_s = 0.0;                                ///< seen last,
-    double born_s = 0.0;                                ///< and first.
-    Evidence log_views = Evidence::Zero();              ///< Of the views before the present one.
+    double since_s = 0.0;                               ///< since then.
+    double born_s = 0.0;                                ///< Seen first,
+    double seen_s = 0.0;                                ///< and last.
     View view;
     double looks = 0.0;    ///< Independent ones so far.
     Eigen::ArrayXXf sum;   ///< Of all looks.
     double present = 1.0;  ///< Probability that whoever it is still is there.
     bool is_alive = true;
+
+    Evidence logLooks() const { return log_views + view.evidence(); }
+    Evidence logWeight() const { return log_place + log_free + logLooks(); }
   };
 
   Belief* find(int track_id);
@@ -140,6 +136,11 @@ class Identity {
   std::vector<Evidence> looks_;               // of the step's observations
   Evidence away_ = Evidence::Ones();          // of each person, that they are none of the tracks
   std::vector<std::optional<Absence>> last_;  // where each was seen last
+  struct Weights {
+    Evidence weight;
+    double nobody = 0.0;  // that it is empty
+  };
+  std::vector<Weights> weights_;
   std::vector<double> forward_, backward_;
   std::vector<Evidence> together_, after_;  // marginals, see weighTogether()
 };

@@ -145,10 +145,7 @@ void TargetTracker::chooseAtStart() {
   start_m_.reset();
 }
 
-/// The likeliest track, if it is likely enough.
-void TargetTracker::choose() {
-  const int former = std::exchange(estimate_.track_id, TargetEstimate::kNoTrack);
-  if (!had_target_ && !params_.start_by_appearance) return;
+const Track* TargetTracker::likeliest() const {
   const Track* best = nullptr;
   double most = 0.0;
   for (const Track& track : tracker_.tracks()) {
@@ -158,9 +155,18 @@ void TargetTracker::choose() {
       best = &track;
     }
   }
+  return best;
+}
+
+/// The likeliest track, if it is likely enough.
+void TargetTracker::choose() {
+  const int former = std::exchange(estimate_.track_id, TargetEstimate::kNoTrack);
+  if (!had_target_ && !params_.start_by_appearance) return;
+  const Track* best = likeliest();
   if (best == nullptr) return;
   const bool is_former = best->id == former;
-  if (most < (is_former ? params_.keep_above : params_.take_above)) return;
+  if (identity_.targetProbability(best->id) < (is_former ? params_.keep_above : params_.take_above))
+    return;
   tracker_.confirmTrack(best->id);
   estimate_.track_id = best->id;
   if (!is_former) estimate_.reason = TargetReason::kRecognized;

@@ -108,6 +108,8 @@ class TargetTracker {
 
   const TargetEstimate& estimate() const { return estimate_; }
   const Tracker& tracker() const { return tracker_; }
+  /// The track that is likeliest to be the target; null: none may be.
+  const Track* likeliest() const;
   const Identity& identity() const { return identity_; }
   const TargetParams& params() const { return params_; }
 

@@ -4,6 +4,7 @@
 #include "tracking/target_metrics.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -76,6 +77,35 @@ EstimateOf judge(const TargetFrame& frame, double match_distance_m) {
   return nearestOther(frame) <= match_distance_m ? EstimateOf::kWrongPerson : EstimateOf::kNobody;
 }
 
+void Reliability::add(double probability, bool is_so) {
+  if (!(probability >= 0.0 && probability <= 1.0)) {
+    throw std::invalid_argument("Reliability: a probability is not in [0, 1]");
+  }
+  const auto last = bins.size() - 1;
+  Bin& bin = bins[std::min(static_cast<std::size_t>(probability * 10.0), last)];
+  ++bin.count;
+  bin.right += is_so ? 1 : 0;
+  bin.said += probability;
+}
+
+void Reliability::add(const Reliability& other) {
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    bins[i].count += other.bins[i].count;
+    bins[i].right += other.bins[i].right;
+    bins[i].said += other.bins[i].said;
+  }
+}
+
+double Reliability::expectedError() const {
+  double off = 0.0;
+  int count = 0;
+  for (const Bin& bin : bins) {
+    off += std::abs(bin.said - bin.right);
+    count += bin.count;
+  }
+  return count == 0 ? kNothing : off / count;
+}
+
 TargetMetrics targetMetrics(const std::vector<TargetFrame>& frames, double match_distance_m) {
   TargetMetrics metrics;
   ReacquisitionClock clock(metrics);
@@ -107,6 +137,11 @@ TargetMetrics targetMetrics(const std::vector<TargetFrame>& frames, double match
         ++(in_view ? metrics.nobody : metrics.absent_nobody);
         break;
     }
+    if (frame.likeliest_m) {
+      const bool is_there =
+          in_view && (*frame.target_m - *frame.likeliest_m).norm() <= match_distance_m;
+      metrics.reliability.add(frame.probability, is_there);
+    }
     clock.see(frame.stamp_s, in_view, of == EstimateOf::kTarget);
   }
   clock.finish();
@@ -122,6 +157,17 @@ double TargetMetrics::recall() const {
 
 double TargetMetrics::wrongPersonShare() const {
   return frames_in_view == 0 ? kNothing : static_cast<double>(wrong_person) / frames_in_view;
+}
+
+double TargetMetrics::claimedShare() const {
+  const int absent = frames - frames_in_view;
+  const int claimed = absent_wrong_person + absent_nobody;
+  return absent == 0 ? kNothing : static_cast<double>(claimed) / absent;
+}
+
+double TargetMetrics::rightAnswerShare() const {
+  const int silent = frames - frames_in_view - absent_wrong_person - absent_nobody;
+  return frames == 0 ? kNothing : static_cast<double>(right + silent) / frames;
 }
 
 double TargetMetrics::meanError_m() const { return right == 0 ? kNothing : error_sum_m / right; }

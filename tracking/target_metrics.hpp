@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct TargetFrame {
   std::optional<Eigen::Vector2d> target_m;    ///< The target's true place; none: not in view.
   std::vector<Eigen::Vector2d> others_m;      ///< The true places of everyone else in view.
   std::optional<Eigen::Vector2d> estimate_m;  ///< Where the target was said to be, if anywhere.
+  /// The place that is likeliest to be the target's, and how likely it is said to be.
+  std::optional<Eigen::Vector2d> likeliest_m;
+  double probability = 0.0;
 };
 
 /// Whom a frame's estimate is of.
@@ -30,6 +34,23 @@ enum class EstimateOf {
 
 /// @throws std::invalid_argument  unless the distance is positive.
 EstimateOf judge(const TargetFrame& frame, double match_distance_m = 0.5);
+
+/// Whether what is said to be so with a probability is so as often as that.
+struct Reliability {
+  /// What was said with probabilities of one tenth of [0, 1].
+  struct Bin {
+    int count = 0;
+    int right = 0;
+    double said = 0.0;  ///< Sum of the probabilities.
+  };
+  std::array<Bin, 10> bins;
+
+  /// @throws std::invalid_argument  unless the probability is in [0, 1].
+  void add(double probability, bool is_so);
+  void add(const Reliability& other);
+  /// Expected calibration error: how far off a bin's mean probability is, weighed by count.
+  double expectedError() const;
+};
 
 /// The counts and times of a run; the figures that have nothing to divide by are NaN.
 struct TargetMetrics {
@@ -45,6 +66,8 @@ struct TargetMetrics {
   int absent_nobody = 0;        ///< Target not in view, yet an estimate on nobody.
   double error_sum_m = 0.0;     ///< Distance to the target over the `right` frames.
 
+  Reliability reliability;  ///< Of the likeliest places, whether the target is there or not.
+
   double duration_s = 0.0;  ///< Last stamp minus first.
   /// Time on a wrong person, in view or not; a frame lasts until the next one.
   double wrong_target_s = 0.0;
@@ -56,6 +79,10 @@ struct TargetMetrics {
 
   double recall() const;
   double wrongPersonShare() const;
+  /// Of the frames without the target, those with an estimate.
+  double claimedShare() const;
+  /// Of all frames: an estimate of the target where it is in view, none where it is not.
+  double rightAnswerShare() const;
   double meanError_m() const;
   double meanReacquisitionDelay_s() const;
   double longestReacquisitionDelay_s() const;

@@ -17,8 +17,7 @@ namespace {
 constexpr double kTwoPi = 6.283185307179586;
 constexpr double kStampTolerance_s = 1e-6;  // Sums of decimal stamps are not exact.
 constexpr double kLeastScoreShare = 1e-3;   // A score of 0 counts as this share of the best.
-
-constexpr double kUnlikely = 14.0;  // -2 ln of a likelihood ratio of 1 to 1000
+constexpr double kUnlikely = 14.0;          // -2 ln of a likelihood ratio of 1 to 1000.
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
@@ -59,9 +58,13 @@ const TrackerReport& Tracker::step(double stamp_s, const std::vector<Observation
   gateObservations(observations, viewpoint);
   for (Track& track : tracks_) {
     track.observation = Track::kUnseen;
+    track.shares = false;
   }
-  associate(observations, looks, false);
-  associate(observations, looks, true);
+  fillCosts(observations, looks);
+  column_of_track_.assign(tracks_.size(), Assignment::kNone);
+  associate(false);
+  associate(true);
+  noteSwaps();
   updateTracks(stamp_s, observations);
   endTracks(stamp_s);
   startTracks(stamp_s, observations);
@@ -122,9 +125,33 @@ void Tracker::gateObservations(const std::vector<Observation>& observations,
   });
 }
 
+/// A pair's cost is -2 ln of its likelihood over that of leaving both, which costs 0.
+void Tracker::fillCosts(const std::vector<Observation>& observations, const LookLikelihood& looks) {
+  costs_.reset(static_cast<int>(tracks_.size()), static_cast<int>(accepted_.size()));
+  for (int row = 0; row < costs_.rows(); ++row) {
+    const Track& track = tracks_[at(row)];
+    const double reach_m = params_.slack_m + params_.max_speed_mps * (*stamp_s_ - track.seen_s);
+    double best_score = 0.0;
+    for (int column = 0; column < costs_.columns(); ++column) {
+      const int index = accepted_[at(column)];
+      const Observation& o = observations[at(index)];
+      const Innovation seen = innovation(track.motion, o.position_m, noiseOf(o));
+      const double distance2 = squaredMahalanobis(seen);
+      if (distance2 > gate_limit_ || seen.residual_m.norm() > reach_m) continue;
+      costs_(row, column) = base_cost_ + distance2 +
+                            std::log(kTwoPi * kTwoPi * seen.covariance_m2.determinant()) -
+                            (looks ? 2.0 * looks(track.id, index) : 0.0);
+      best_score = std::max(best_score, o.score);
+    }
+    for (int column = 0; column < costs_.columns() && best_score > 0.0; ++column) {
+      const double share = observations[at(accepted_[at(column)])].score / best_score;
+      costs_(row, column) -= params_.score_weight * std::log(std::max(share, kLeastScoreShare));
+    }
+  }
+}
+
 /// Gives the observations that are still free to the tentative tracks, or to all others.
-void Tracker::associate(const std::vector<Observation>& observations, const LookLikelihood& looks,
-                        bool tentative) {
+void Tracker::associate(bool tentative) {
   rows_.clear();
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if ((tracks_[i].status == TrackStatus::kTentative) == tentative) {
@@ -132,65 +159,57 @@ void Tracker::associate(const std::vector<Observation>& observations, const Look
     }
   }
   free_.clear();
-  for (const int index : accepted_) {
-    if (report_.uses[at(index)].fate != ObservationFate::kUpdated) {
-      free_.push_back(index);
+  for (int column = 0; column < costs_.columns(); ++column) {
+    if (report_.uses[at(accepted_[at(column)])].fate != ObservationFate::kUpdated) {
+      free_.push_back(column);
     }
   }
-  costs_.reset(static_cast<int>(rows_.size()), static_cast<int>(free_.size()));
-  for (int row = 0; row < costs_.rows(); ++row) {
-    fillCosts(row, tracks_[at(rows_[at(row)])], observations, looks);
+  choice_.reset(static_cast<int>(rows_.size()), static_cast<int>(free_.size()));
+  for (int row = 0; row < choice_.rows(); ++row) {
+    for (int column = 0; column < choice_.columns(); ++column) {
+      choice_(row, column) = costs_(rows_[at(row)], free_[at(column)]);
+    }
   }
-  solver_.solve(costs_, 0.0, assignment_);
+  solver_.solve(choice_, 0.0, assignment_);
   for (std::size_t row = 0; row < rows_.size(); ++row) {
     const int column = assignment_.column_of_row[row];
-    if (column != Assignment::kNone) {
-      Track& track = tracks_[at(rows_[row])];
-      track.observation = free_[at(column)];
-      report_.uses[at(track.observation)] = {ObservationFate::kUpdated, GateVerdict::kAccepted,
-                                             track.id};
-      ++report_.updated;
-    }
+    if (column == Assignment::kNone) continue;
+    Track& track = tracks_[at(rows_[row])];
+    column_of_track_[at(rows_[row])] = free_[at(column)];
+    track.observation = accepted_[at(free_[at(column)])];
+    report_.uses[at(track.observation)] = {ObservationFate::kUpdated, GateVerdict::kAccepted,
+                                           track.id};
+    ++report_.updated;
   }
-  noteSwaps();
 }
 
-/// A pair's cost is -2 ln of its likelihood over that of leaving both, which costs 0.
+/// Notes which tracks, and which observations that nobody took, may as well be each other's.
 void Tracker::noteSwaps() {
-  const auto cost = [this](std::size_t row, int column) {
-    return column == Assignment::kNone ? 0.0 : costs_(static_cast<int>(row), column);
+  const auto cost = [this](int row, int column) {
+    return column == Assignment::kNone ? 0.0 : costs_(row, column);
   };
-  for (std::size_t a = 0; a < rows_.size(); ++a) {
-    const int seen_a = assignment_.column_of_row[a];
-    for (std::size_t b = a + 1; b < rows_.size(); ++b) {
-      const int seen_b = assignment_.column_of_row[b];
+  const auto probabilityOf = [](double more) { return 1.0 / (1.0 + std::exp(0.5 * more)); };
+  newcomers_.clear();
+  for (int a = 0; a < costs_.rows(); ++a) {
+    Track& track = tracks_[at(a)];
+    const int seen_a = column_of_track_[at(a)];
+    for (int b = a + 1; b < costs_.rows(); ++b) {
+      Track& other = tracks_[at(b)];
+      const int seen_b = column_of_track_[at(b)];
+      if (seen_a == seen_b) continue;
+      // Who is unseen where an observation is may have been observed as one with whom it is of.
+      track.shares |= seen_b == Assignment::kNone && cost(b, seen_a) < 0.0;
+      other.shares |= seen_a == Assignment::kNone && cost(a, seen_b) < 0.0;
       const double more = cost(a, seen_b) + cost(b, seen_a) - cost(a, seen_a) - cost(b, seen_b);
-      if (seen_a == seen_b || !(more < kUnlikely)) continue;
-      report_.swaps.push_back(
-          {tracks_[at(rows_[a])].id, tracks_[at(rows_[b])].id, 1.0 / (1.0 + std::exp(0.5 * more))});
+      if (more < kUnlikely) report_.swaps.push_back({track.id, other.id, probabilityOf(more)});
     }
-  }
-}
-
-void Tracker::fillCosts(int row, const Track& track, const std::vector<Observation>& observations,
-                        const LookLikelihood& looks) {
-  const double unseen_s = *stamp_s_ - track.seen_s;
-  const double reach_m = params_.slack_m + params_.max_speed_mps * unseen_s;
-  double best_score = 0.0;
-  for (int column = 0; column < costs_.columns(); ++column) {
-    const int index = free_[at(column)];
-    const Observation& o = observations[at(index)];
-    const Innovation seen = innovation(track.motion, o.position_m, noiseOf(o));
-    const double distance2 = squaredMahalanobis(seen);
-    if (distance2 > gate_limit_ || seen.residual_m.norm() > reach_m) continue;
-    costs_(row, column) = base_cost_ + distance2 +
-                          std::log(kTwoPi * kTwoPi * seen.covariance_m2.determinant()) -
-                          (looks ? 2.0 * looks(track.id, index) : 0.0);
-    best_score = std::max(best_score, o.score);
-  }
-  for (int column = 0; column < costs_.columns() && best_score > 0.0; ++column) {
-    const double share = observations[at(free_[at(column)])].score / best_score;
-    costs_(row, column) -= params_.score_weight * std::log(std::max(share, kLeastScoreShare));
+    for (int column = 0; seen_a != Assignment::kNone && column < costs_.columns(); ++column) {
+      const int index = accepted_[at(column)];
+      const double more = cost(a, column) - cost(a, seen_a);
+      if (report_.uses[at(index)].fate == ObservationFate::kUpdated || !(more < kUnlikely))
+        continue;
+      newcomers_.push_back({track.id, index, probabilityOf(more)});
+    }
   }
 }
 
@@ -200,9 +219,14 @@ void Tracker::updateTracks(double stamp_s, const std::vector<Observation>& obser
     track.history = (track.history << 1) | (seen ? 1U : 0U);
     if (seen) {
       const Observation& o = observations[at(track.observation)];
+      Eigen::Matrix2d noise_m2 = noiseOf(o);
+      if (track.shares) {  // Then its place is somewhere between them.
+        const double half_m = 0.5 * params_.birth_clearance_m;
+        noise_m2 += Eigen::Matrix2d::Identity() * (half_m * half_m);
+      }
       track.density_per_m2 =
-          std::exp(heel::logLikelihood(innovation(track.motion, o.position_m, noiseOf(o))));
-      track.motion = update(track.motion, o.position_m, noiseOf(o));
+          std::exp(heel::logLikelihood(innovation(track.motion, o.position_m, noise_m2)));
+      track.motion = update(track.motion, o.position_m, noise_m2);
       ++track.hits;
       track.score = o.score;
       track.seen_s = stamp_s;
@@ -271,6 +295,10 @@ void Tracker::startTracks(double stamp_s, const std::vector<Observation>& observ
     use.fate = ObservationFate::kBorn;
     use.track_id = track.id;
     ++report_.born;
+    for (const Swap& swap : newcomers_) {
+      if (swap.track_b == index)
+        report_.swaps.push_back({swap.track_a, track.id, swap.probability});
+    }
   }
 }
 

@@ -66,10 +66,8 @@ class Tracker {
  private:
   bool advanceTo(double stamp_s);
   void gateObservations(const std::vector<Observation>& observations, const Viewpoint& viewpoint);
-  void associate(const std::vector<Observation>& observations, const LookLikelihood& looks,
-                 bool tentative);
-  void fillCosts(int row, const Track& track, const std::vector<Observation>& observations,
-                 const LookLikelihood& looks);
+  void fillCosts(const std::vector<Observation>& observations, const LookLikelihood& looks);
+  void associate(bool tentative);
   void noteSwaps();
   void updateTracks(double stamp_s, const std::vector<Observation>& observations);
   Track& startTrack(double stamp_s, const Eigen::Vector2d& position_m,
@@ -87,10 +85,12 @@ class Tracker {
   int next_id_ = 1;
   std::vector<Track> tracks_;
   TrackerReport report_;
-  std::vector<int> accepted_;  ///< Indices of observations, ordered by value.
-  std::vector<int> free_;      ///< Those of them that no track has taken yet.
-  std::vector<int> rows_;      ///< Indices of the tracks that choose.
-  CostMatrix costs_;
+  std::vector<int> accepted_;         ///< Indices of observations, ordered by value.
+  CostMatrix costs_;                  ///< Of all tracks with these.
+  std::vector<int> column_of_track_;  ///< That it took.
+  std::vector<int> rows_, free_;      ///< Tracks that choose, and columns that they choose from.
+  CostMatrix choice_;
+  std::vector<Swap> newcomers_;  ///< Swaps with who may appear: track_b is an observation's index.
   AssignmentSolver solver_;
   Assignment assignment_;
 };

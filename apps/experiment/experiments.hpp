@@ -54,14 +54,17 @@ TargetMetrics runFollowingExperiment(const std::filesystem::path& recording,
                                      const ExperimentParams& params);
 
 /// One person as the target: learned from the first half of the frames where their place is exact,
-/// looked for in the second half.
+/// and looked for in those of the second half; by looks in all frames from there on, also in those
+/// that they are not in.
 struct TargetResult {
   std::string person;
   TargetMetrics best_blob;  ///< The likeliest blob of each frame by its looks alone; no track.
   TargetMetrics started;    ///< Tracked, started at the person's true place.
   TargetMetrics cold;       ///< Tracked, found by looks.
 };
+/// @param other  Where to look for them instead, in all frames; empty: in the same recording.
 std::vector<TargetResult> runTargetsExperiment(const std::filesystem::path& recording,
-                                               const ExperimentParams& params);
+                                               const ExperimentParams& params,
+                                               const std::filesystem::path& other = {});
 
 }  // namespace heel

@@ -12,39 +12,45 @@
 namespace heel {
 namespace {
 
-/// Looks for one person in the second half of their exact frames, in all three ways.
+/// Looks for one person from a frame on, in all three ways.
+/// @param judged  The frames that count where somebody need not be silent.
 TargetResult lookFor(const std::string& person, const AppearanceModel& model,
-                     const std::filesystem::path& path, const CameraSetup& setup,
-                     const TruthFrames& truth, const ExperimentParams& params) {
-  const auto exact = truth.exactFrames(person);
-  const std::set<std::size_t> judged(exact.begin() + static_cast<std::ptrdiff_t>(exact.size() / 2),
-                                     exact.end());
-  Perception started(setup, model), cold(setup, model);
-  started.startAt(*truth.placeOf(person, *judged.begin()));
-  std::vector<TargetFrame> best_frames, started_frames, cold_frames;
+                     const std::filesystem::path& path, const TruthFrames& truth,
+                     const std::set<std::size_t>& judged, const ExperimentParams& params) {
   const auto recording = openRecording(path);
+  const CameraSetup setup = findCameraSetup(*openRecording(path));
+  Perception started(setup, model), cold(setup, model);
+  std::vector<TargetFrame> best_frames, started_frames, cold_frames;
   Frame frame;
-  while (recording->next(frame) && frame.number <= *judged.rbegin()) {
-    if (frame.number < *judged.begin()) continue;
+  while (recording->next(frame)) {
+    if (judged.empty() || frame.number < *judged.begin()) continue;
+    if (frame.number == *judged.begin()) {
+      started.startAt(*truth.placeOf(person, frame.number));
+    }
     const PerceptionStep& seen = started.step(frame);
     const PerceptionStep& found = cold.step(frame);
-    if (judged.count(frame.number) == 0) continue;
-    const TargetFrame target = truth.targetFrame(person, frame.number, frame.stamp_s);
-    best_frames.push_back(target);
-    started_frames.push_back(target);
+    TargetFrame target = truth.targetFrame(person, frame.number, frame.stamp_s);
+    if (judged.count(frame.number) != 0) {
+      best_frames.push_back(target);
+      started_frames.push_back(target);
+      const std::vector<Evidence>& looks = started.identity().looks();
+      const auto best = std::max_element(
+          looks.begin(), looks.end(),
+          [](const Evidence& a, const Evidence& b) { return a[kTarget] < b[kTarget]; });
+      if (best != looks.end()) {
+        const auto i = static_cast<std::size_t>(best - looks.begin());
+        best_frames.back().estimate_m = seen.observations[i].position_m;
+      }
+      if (seen.target.hasPlace()) {
+        started_frames.back().estimate_m = seen.target.motion.position_m();
+      }
+    }
+    if (found.target.hasPlace()) target.estimate_m = found.target.motion.position_m();
+    if (const Track* likeliest = cold.likeliest()) {
+      target.likeliest_m = likeliest->motion.position_m();
+      target.probability = cold.identity().targetProbability(likeliest->id);
+    }
     cold_frames.push_back(target);
-    const std::vector<Evidence>& looks = started.identity().looks();
-    const auto best = std::max_element(
-        looks.begin(), looks.end(),
-        [](const Evidence& a, const Evidence& b) { return a[kTarget] < b[kTarget]; });
-    if (best != looks.end()) {
-      const auto i = static_cast<std::size_t>(best - looks.begin());
-      best_frames.back().estimate_m = seen.observations[i].position_m;
-    }
-    if (seen.target.hasPlace()) {
-      started_frames.back().estimate_m = seen.target.motion.position_m();
-    }
-    if (found.target.hasPlace()) cold_frames.back().estimate_m = found.target.motion.position_m();
   }
   TargetResult result;
   result.person = person;
@@ -57,15 +63,26 @@ TargetResult lookFor(const std::string& person, const AppearanceModel& model,
 }  // namespace
 
 std::vector<TargetResult> runTargetsExperiment(const std::filesystem::path& path,
-                                               const ExperimentParams& params) {
+                                               const ExperimentParams& params,
+                                               const std::filesystem::path& other) {
   const TruthFrames truth(path);
+  const TruthFrames other_truth(other.empty() ? path : other);
   const CameraSetup setup = findCameraSetup(*openRecording(path));
   const auto lessons = learnEveryone(path, setup, truth, {{"", params.appearance}}, params);
   std::vector<TargetResult> results;
   for (std::size_t i = 0; i < lessons.size(); ++i) {
+    const std::string& person = truth.people()[i];
     const auto model = lessons[i].learn(0);
-    if (!model) throw std::runtime_error(truth.people()[i] + ": nothing of them could be learned");
-    results.push_back(lookFor(truth.people()[i], *model, path, setup, truth, params));
+    if (!model) throw std::runtime_error(person + ": nothing of them could be learned");
+    const auto exact = other_truth.exactFrames(person);
+    if (exact.empty()) continue;
+    const auto first = other.empty() ? exact.size() / 2 : 0;
+    results.push_back(lookFor(person, *model, other.empty() ? path : other, other_truth,
+                              {exact.begin() + static_cast<std::ptrdiff_t>(first), exact.end()},
+                              params));
+  }
+  if (results.empty()) {
+    throw std::runtime_error(other.string() + ": nobody of " + path.string() + " is in its truth");
   }
   return results;
 }

@@ -166,7 +166,7 @@ void Follower::notePeople() {
   people_.clear();
   if (person_) {
     people_.push_back(*person_);
-  } else if (unseen_s_ < params_.beside_s) {  // passes where no sensor looks
+  } else if (unseen_s_ < params_.walks_on_s) {  // passes where no sensor looks
     people_.push_back(expected());
   }
   const Identity& identity = perception_->identity();

@@ -65,7 +65,9 @@ struct FollowerParams {
   double lost_after_s = 0.5;   ///< Without the target's place for longer, it is lost.
   /// While the target is lost, somebody who is it with more than this probability is looked at.
   double worth_a_look = 0.05;
-  double walks_on_s = 2.0;  ///< Somebody who was lost is expected to walk on for so long.
+  /// Somebody who walked is expected to walk on for so long: where they may be is looked at first,
+  /// and avoided.
+  double walks_on_s = 2.0;
   /// People who may be the lost target are looked at for so long before anything else.
   double first_looks_s = 5.0;
   /// People who may be the lost target are looked at for this share of the time, beyond
@@ -76,7 +78,6 @@ struct FollowerParams {
   double lost_turn_radps = 0.4;  ///< Speed of turning of a robot that does not know where it is.
   /// A robot that was blocked for so long is as near to its goal as it can get.
   double give_up_s = 4.0;
-  double beside_s = 2.0;  ///< Somebody who was lost is avoided for so long where they may be.
   /// Somebody who is a person with this probability is avoided as one.
   double surely_person = 0.8;
   double stands_mps = 0.15;  ///< Somebody slower than this stands, and paths lead around them.

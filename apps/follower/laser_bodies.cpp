@@ -18,7 +18,9 @@ constexpr int kLeastBeams = 3;  // that go through a place, for it to be free
 }  // namespace
 
 LaserBodies::LaserBodies(const LaserBodiesParams& params)
-    : params_(params), age_s_(std::numeric_limits<double>::infinity()) {
+    : params_(params),
+      T_scanner_world_(Eigen::Isometry2d::Identity()),
+      age_s_(std::numeric_limits<double>::infinity()) {
   requireNotNegative("LaserBodiesParams", {params.off_map_m, params.max_range_m, params.max_gap_m,
                                            params.max_width_m, params.pair_m, params.sigma_m,
                                            params.half_width_m, params.reach_m, params.max_age_s});
@@ -30,7 +32,9 @@ void LaserBodies::step(const LaserScan* scan, const FloorPose& T_world_scanner,
   age_s_ += elapsed_s;
   if (scan == nullptr) return;
   scan_ = *scan;
-  T_scanner_world_ = T_world_scanner.inverse();
+  const Eigen::Isometry2d T =
+      Eigen::Translation2d(T_world_scanner.position) * Eigen::Rotation2Dd(T_world_scanner.yaw_rad);
+  T_scanner_world_ = T.inverse();
   age_s_ = 0.0;
   const std::size_t count = scan_.ranges_m.size();
   ends_m_.resize(count);
@@ -40,8 +44,7 @@ void LaserBodies::step(const LaserScan* scan, const FloorPose& T_world_scanner,
   for (std::size_t i = 0; i < count; ++i) {
     const auto range_m = static_cast<double>(scan_.ranges_m[i]);
     const double angle = scan_.angle(i);
-    ends_m_[i] =
-        T_world_scanner * Eigen::Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
+    ends_m_[i] = T * Eigen::Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
     // False, too, where it is not a number, nowhere, or not known.
     const bool is_unmapped =
         range_m > 0.0 && range_m < params_.max_range_m && clearance(ends_m_[i]) > params_.off_map_m;

@@ -60,7 +60,7 @@ class LaserBodies {
 
   LaserBodiesParams params_;
   LaserScan scan_;
-  FloorPose T_scanner_world_;
+  Eigen::Isometry2d T_scanner_world_;
   double age_s_;
   std::vector<Eigen::Vector2d> ends_m_;  // in the world
   std::vector<bool> may_be_person_;      // what a beam ends at

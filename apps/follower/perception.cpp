@@ -152,10 +152,11 @@ void Perception::track(const RobotPlace& robot, const LaserBodies* legs, bool ha
   Viewpoint viewpoint;
   viewpoint.position_m = robot.pose * Eigen::Vector2d(T_base_camera_.translation().head<2>());
   viewpoint.covariance_m2 = robot.covariance_m2;
+  const Eigen::Isometry3d T_camera_world = (basePose(robot.pose) * T_base_camera_).inverse();
   const auto sight_of = [&](const Eigen::Vector2d& place_m) {
     const Sight by_legs = legs != nullptr ? legs->sightOf(place_m) : Sight::kUnknown;
     if (by_legs != Sight::kUnknown || !has_image) return by_legs;
-    const Sight sight = sightOf(place_m, robot.pose);
+    const Sight sight = sightOf(place_m, T_camera_world);
     // With a laser, who is not in the picture need not be out of sight.
     return sight == Sight::kOutside && legs != nullptr ? Sight::kUnknown : sight;
   };
@@ -296,12 +297,11 @@ Eigen::Matrix2d Perception::depthCovariance(const Eigen::Vector2d& position_m) c
 }
 
 // By three points of somebody's trunk there.
-Sight Perception::sightOf(const Eigen::Vector2d& place_m, const FloorPose& robot) const {
-  const Eigen::Vector2d place = robot.inverse() * place_m;
+Sight Perception::sightOf(const Eigen::Vector2d& place_m,
+                          const Eigen::Isometry3d& T_camera_world) const {
   int hidden = 0, free = 0, outside = 0;
   for (const double height_m : {0.9, 1.2, 1.5}) {
-    const Eigen::Vector3d p =
-        T_base_camera_.inverse() * Eigen::Vector3d(place.x(), place.y(), height_m);
+    const Eigen::Vector3d p = T_camera_world * Eigen::Vector3d(place_m.x(), place_m.y(), height_m);
     const double u = camera_.left.fx * p.x() / p.z() + camera_.left.cx;
     const double v = camera_.left.fy * p.y() / p.z() + camera_.left.cy;
     if (!(p.z() > 0.1 && u >= 0.0 && v >= 0.0 && u < depth_m_.cols && v < depth_m_.rows)) {

@@ -105,6 +105,8 @@ class Perception {
   /// Goes on by the laser alone, when no frame comes.
   const PerceptionStep& step(double stamp_s, const RobotPlace& robot, const LaserBodies& legs);
 
+  /// The track that is likeliest to be the target; null: none may be.
+  const Track* likeliest() const { return tracker_.likeliest(); }
   const Identity& identity() const { return tracker_.identity(); }
   const std::vector<Track>& tracks() const { return tracker_.tracker().tracks(); }
   const TrackerReport& report() const { return tracker_.tracker().report(); }
@@ -118,7 +120,7 @@ class Perception {
   void track(const RobotPlace& robot, const LaserBodies* legs, bool has_image);
   void describe(const WorldBlob& blob, const Frame& frame, BodyDescription& out);
   Eigen::Matrix2d depthCovariance(const Eigen::Vector2d& position_m) const;
-  Sight sightOf(const Eigen::Vector2d& place_m, const FloorPose& robot) const;
+  Sight sightOf(const Eigen::Vector2d& place_m, const Eigen::Isometry3d& T_camera_world) const;
   const char* whyNotSeen() const;
 
   SensorKind sensor_;

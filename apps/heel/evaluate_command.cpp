@@ -40,6 +40,9 @@ nlohmann::ordered_json toJson(const Evaluation& result) {
             {"recall", person.recall()},
             {"wrong_person_share", person.wrongPersonShare()},
             {"wrong_target_s", person.wrong_target_s},
+            {"frames_not_in_view", person.frames - person.frames_in_view},
+            {"claimed_share", person.claimedShare()},
+            {"right_answer_share", person.rightAnswerShare()},
             {"mean_error_m", person.meanError_m()},
             {"mean_reacquisition_delay_s", person.meanReacquisitionDelay_s()},
             {"longest_reacquisition_delay_s", person.longestReacquisitionDelay_s()}}}};
@@ -52,6 +55,11 @@ void print(const Evaluation& result) {
   std::printf("  recall                %6.3f\n", person.recall());
   std::printf("  wrong person          %6.3f   for %.1f s in all\n", person.wrongPersonShare(),
               person.wrong_target_s);
+  if (person.frames > person.frames_in_view) {
+    std::printf("  claimed when absent   %6.3f   in %d frames\n", person.claimedShare(),
+                person.frames - person.frames_in_view);
+  }
+  std::printf("  right answers         %6.3f\n", person.rightAnswerShare());
   std::printf("  mean error            %6.3f m\n", person.meanError_m());
   if (person.reacquisition_delays_s.empty()) {
     std::printf("  never lost and found again\n");

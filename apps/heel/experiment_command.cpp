@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -66,46 +67,57 @@ void runProtocol(const Options& options) {
 }
 
 /// Sums over people: each frame counts the same.
-struct Sum {
-  int frames = 0, right = 0, wrong = 0;
-  void add(const TargetMetrics& m) {
-    frames += m.frames_in_view;
-    right += m.right;
-    wrong += m.wrong_person;
+void add(TargetMetrics& sum, const TargetMetrics& m) {
+  sum.frames += m.frames;
+  sum.frames_in_view += m.frames_in_view;
+  sum.right += m.right;
+  sum.wrong_person += m.wrong_person;
+  sum.absent_wrong_person += m.absent_wrong_person;
+  sum.absent_nobody += m.absent_nobody;
+  sum.reliability.add(m.reliability);
+}
+
+void printTarget(const std::string& name, const TargetResult& result) {
+  const TargetMetrics& cold = result.cold;
+  std::printf("  %-26s %4d  %.2f %.2f   %.2f %.2f   %.2f %.2f %5d  %.2f    %.2f\n", name.c_str(),
+              result.started.frames_in_view, result.best_blob.recall(),
+              result.best_blob.wrongPersonShare(), result.started.recall(),
+              result.started.wrongPersonShare(), cold.recall(), cold.wrongPersonShare(),
+              cold.frames - cold.frames_in_view, cold.claimedShare(), cold.rightAnswerShare());
+}
+
+void print(const Reliability& reliability) {
+  std::printf("  said to be the target with      and is, of    each # is one in fifty\n");
+  for (std::size_t i = 0; i < reliability.bins.size(); ++i) {
+    const Reliability::Bin& bin = reliability.bins[i];
+    if (bin.count == 0) continue;
+    const double is = static_cast<double>(bin.right) / bin.count;
+    std::printf("  %.1f to %.1f, in the mean %.2f  %7.2f %5d    %s\n", 0.1 * static_cast<double>(i),
+                0.1 * static_cast<double>(i + 1), bin.said / bin.count, is, bin.count,
+                std::string(static_cast<std::size_t>(std::lround(50.0 * is)), '#').c_str());
   }
-  void print() const {
-    std::printf("  %.2f %.2f ", static_cast<double>(right) / frames,
-                static_cast<double>(wrong) / frames);
-  }
-};
+  std::printf("  expected calibration error %.3f\n", reliability.expectedError());
+}
 
 void runTargets(const Options& options) {
-  std::printf("each person as the target: recall and share of frames on a wrong person\n");
+  std::printf(
+      "each person as the target: recall and share of frames on a wrong person; found by\n"
+      "looks, also the frames they are not in, and the shares claimed then and right of all\n");
   for (const OfferedModel& offered : offeredModels()) {
     ExperimentParams params = options.params;
     params.appearance = offered.params;
-    std::printf("%s\n  %-26s %5s   best blob   started   found by looks\n", offered.name.c_str(),
-                "person", "n");
-    Sum best, started, cold;
-    for (const TargetResult& result : runTargetsExperiment(options.recording, params)) {
-      Sum one_best, one_started, one_cold;
-      one_best.add(result.best_blob);
-      one_started.add(result.started);
-      one_cold.add(result.cold);
-      std::printf("  %-26s %5d ", result.person.c_str(), result.started.frames_in_view);
-      one_best.print();
-      one_started.print();
-      one_cold.print();
-      std::printf("\n");
-      best.add(result.best_blob);
-      started.add(result.started);
-      cold.add(result.cold);
+    std::printf("%s\n  %-26s %4s  best blob   started   by looks  not in  claimed right\n",
+                offered.name.c_str(), "person", "n");
+    TargetResult sum;
+    for (const TargetResult& result :
+         runTargetsExperiment(options.recording, params, options.other)) {
+      printTarget(result.person, result);
+      add(sum.best_blob, result.best_blob);
+      add(sum.started, result.started);
+      add(sum.cold, result.cold);
     }
-    std::printf("  %-26s %5d ", "all", started.frames);
-    best.print();
-    started.print();
-    cold.print();
-    std::printf("\n");
+    printTarget("all", sum);
+    print(sum.cold.reliability);
   }
 }
 
@@ -149,8 +161,10 @@ void addExperiment(CLI::App& app) {
     return std::make_pair(experiment, options);
   };
   add("detector", "Phase 1 as a detector of everyone in view", runDetector);
-  add("targets", "Each person as the target, learned in one half and looked for in the other",
-      runTargets);
+  auto [targets, targets_options] =
+      add("targets", "Each person as the target, learned in one half and looked for in the other",
+          runTargets);
+  targets->add_option("OTHER", targets_options->other, "look for them in this recording instead");
   auto [protocol, options] =
       add("protocol", "The first person learned while alone, then followed", runProtocol);
   protocol->add_option("OTHER", options->other, "another recording of the same person");

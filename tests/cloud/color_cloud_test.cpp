@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
+#include <type_traits>
 
 namespace heel {
 namespace {
@@ -102,6 +103,12 @@ TEST(MaskedCloud, IsTheMaskedCloudOfEveryFrame) {
       }
     }
   }
+}
+
+TEST(MaskedCloud, IsMovedButNotCopied) {
+  EXPECT_TRUE(std::is_move_constructible_v<MaskedCloud>);
+  EXPECT_FALSE(std::is_copy_constructible_v<MaskedCloud>);
+  EXPECT_FALSE(std::is_copy_assignable_v<MaskedCloud>);
 }
 
 TEST(ColorCloud, RefusesImagesThatDoNotFit) {

@@ -5,15 +5,19 @@
 
 #include "tests/support/stereo_scene.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <cstdint>
 #include <stdexcept>
+#include <type_traits>
 
 namespace heel {
 namespace {
+
+using testing::HasSubstr;
 
 struct Setting {
   int disparities, block_size, uniqueness_percent, left_right;
@@ -76,6 +80,28 @@ TEST(MaskedSgm, RefusesWhatDoesNotFit) {
                std::invalid_argument);
   wanted(10, 63) = 1;  // disparities up to 63 need 64 columns
   EXPECT_THROW(matcher.compute(image, image, wanted, out), std::invalid_argument);
+}
+
+TEST(MaskedSgm, RefusesParametersThatItsBuffersDoNotHold) {
+  const auto expectRefused = [](int disparities, int block_size, const char* why) {
+    StereoMatcherParams params;
+    params.disparities = disparities;
+    params.block_size = block_size;
+    try {
+      MaskedSgm matcher(params);
+      ADD_FAILURE() << why;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_THAT(error.what(), HasSubstr(why));
+    }
+  };
+  expectRefused(64, 7, "block_size must be 1, 3 or 5");
+  expectRefused(272, 5, "disparities must be a multiple of 16, at most 256");
+}
+
+TEST(MaskedSgm, IsMovedButNotCopied) {
+  EXPECT_TRUE(std::is_move_constructible_v<MaskedSgm>);
+  EXPECT_FALSE(std::is_copy_constructible_v<MaskedSgm>);
+  EXPECT_FALSE(std::is_copy_assignable_v<MaskedSgm>);
 }
 
 TEST(MaskedSgm, ForgetsThePreviousPair) {

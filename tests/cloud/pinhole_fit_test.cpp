@@ -48,6 +48,22 @@ TEST(FitPinhole, RefusesPointsThatAreNotInTheirPixels) {
   EXPECT_FALSE(fitPinhole(cloud).has_value());
 }
 
+TEST(FitPinhole, RefusesWhatDeterminesNoCamera) {
+  const ColorCloud whole = cloudOf({64, 48, 52.5, 51.0, 31.5, 23.0});
+  const auto only = [&](const auto& keeps) {
+    ColorCloud cloud = whole;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      if (!keeps(i % 64, i / 64)) cloud[i].z = std::numeric_limits<float>::quiet_NaN();
+    }
+    return fitPinhole(cloud);
+  };
+  using Index = std::size_t;
+  EXPECT_FALSE(only([](Index u, Index v) { return u == v && (u == 11 || u == 32); })) << "2 points";
+  EXPECT_FALSE(only([](Index u, Index) { return u == 20; })) << "one column";
+  EXPECT_FALSE(only([](Index, Index v) { return v == 7; })) << "one row";
+  EXPECT_TRUE(only([](Index u, Index v) { return u == v && u < 12; }));
+}
+
 TEST(FitPinhole, RefusesACloudWithoutPoints) {
   ColorCloud cloud = cloudOf({8, 4, 8, 8, 4, 2});
   for (auto& point : cloud) point.z = std::numeric_limits<float>::quiet_NaN();

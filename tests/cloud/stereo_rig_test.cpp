@@ -138,6 +138,78 @@ TEST_F(StereoCalibration, KnowsTheNamesThatPeopleGive) {
   }
 }
 
+/// The rig of a file that holds everything, as cv::FileStorage itself reads it.
+StereoRig oracleRig(const fs::path& file) {
+  const cv::FileStorage storage(file.string(), cv::FileStorage::READ);
+  RawCamera cameras[2];
+  for (int i = 0; i < 2; ++i) {
+    RawCamera& camera = cameras[i];
+    for (const auto& [letter, value] :
+         {std::pair{"M", &camera.K}, std::pair{"D", &camera.distortion}, std::pair{"R", &camera.R},
+          std::pair{"P", &camera.P}}) {
+      cv::Mat stored;
+      storage[letter + std::to_string(i + 1)] >> stored;
+      stored.convertTo(*value, CV_64F);
+    }
+  }
+  cv::Size size;
+  storage["imageSize"] >> size;
+  return StereoRig(cameras[0], cameras[1], size, file.string());
+}
+
+TEST_F(StereoCalibration, ReadsTheVeryNumbersThatOpenCvReads) {
+  RawPair pair;
+  cv::RNG random(3);
+  const auto jitter = [&](cv::Mat1d values) {  // so that all digits count
+    for (double& value : values) value *= 1.0 + random.gaussian(1e-3);
+  };
+  for (const cv::Mat* values : {&pair.K1, &pair.K2, &pair.D1, &pair.D2, &pair.T}) jitter(*values);
+  cv::Mat R1, R2, P1, P2, Q;
+  cv::stereoRectify(pair.K1, pair.D1, pair.K2, pair.D2, kSize, pair.R, pair.T, R1, R2, P1, P2, Q);
+  cv::Mat left(kSize, CV_8UC3), right(kSize, CV_8UC3);
+  random.fill(left, cv::RNG::UNIFORM, 0, 256);
+  random.fill(right, cv::RNG::UNIFORM, 0, 256);
+  for (const char* name : {"stereo.yml", "stereo.yaml", "stereo.xml", "stereo.json"}) {
+    for (const int type : {CV_64F, CV_32F}) {
+      const fs::path file = folder_ / name;
+      {
+        cv::FileStorage storage(file.string(), cv::FileStorage::WRITE);
+        storage << "calibration_time"
+                << "Sun, 1 Nov: \"noon\""
+                << "imageSize" << kSize;
+        storage << "board"
+                << "{"
+                << "rows" << 7 << "corners" << std::vector<float>{1.5F} << "}";
+        const std::vector<std::pair<std::string, cv::Mat>> all = {
+            {"M1", pair.K1}, {"D1", pair.D1}, {"M2", pair.K2}, {"D2", pair.D2},
+            {"R", pair.R},   {"T", pair.T},   {"R1", R1},      {"R2", R2},
+            {"P1", P1},      {"P2", P2},      {"Q", Q}};
+        for (const auto& [key, value] : all) {
+          cv::Mat stored;
+          value.convertTo(stored, type);
+          storage << key << stored;
+        }
+      }
+      SCOPED_TRACE(name);
+      const StereoRig oracle = oracleRig(file), ours = readStereoRig(file);
+      const StereoCamera &a = oracle.camera(), &b = ours.camera();
+      EXPECT_EQ(a.left.width, b.left.width);
+      EXPECT_EQ(a.left.height, b.left.height);
+      EXPECT_EQ(a.left.fx, b.left.fx);
+      EXPECT_EQ(a.left.fy, b.left.fy);
+      EXPECT_EQ(a.left.cx, b.left.cx);
+      EXPECT_EQ(a.left.cy, b.left.cy);
+      EXPECT_EQ(a.baseline_m, b.baseline_m);
+      EXPECT_EQ(a.disparity_offset, b.disparity_offset);
+      cv::Mat left_a, right_a, left_b, right_b;
+      oracle.rectify(left, right, left_a, right_a);
+      ours.rectify(left, right, left_b, right_b);
+      EXPECT_EQ(cv::norm(left_a, left_b, cv::NORM_INF), 0.0);
+      EXPECT_EQ(cv::norm(right_a, right_b, cv::NORM_INF), 0.0);
+    }
+  }
+}
+
 TEST_F(StereoCalibration, ReadsTheTwoFilesOfOpenCvsSample) {
   const RawPair pair;
   storePair(folder_ / "intrinsics.yml", pair, {"M1", "D1", "M2", "D2", "", ""}, false);
@@ -211,24 +283,38 @@ TEST_F(StereoCalibration, NamesTheFileAndTheReason) {
   EXPECT_THAT(test::messageOf([&] { readOpenCvCalibration({folder_ / "none.yml"}); }),
               AllOf(HasSubstr("none.yml"), HasSubstr("no such file")));
   EXPECT_THAT(said(write("text.yml", "hello\n")),
-              AllOf(HasSubstr("text.yml"), HasSubstr("not an OpenCV calibration")));
+              AllOf(HasSubstr("text.yml"), HasSubstr("holds no named values")));
   EXPECT_THAT(said(write("torn.yml", "%YAML:1.0\n---\nM1: !!opencv-matrix\n   rows: [")),
-              HasSubstr("not an OpenCV calibration"));
-  EXPECT_THAT(said(write("deep.yml", "%YAML:1.0\n---\nM1: " + std::string(50000, '['))),
-              AllOf(HasSubstr("deep.yml"), HasSubstr("too deep")));
-  EXPECT_THAT(said(write("deep.yml", "%YAML:1.0\n---\nM1:\n" + std::string(50000, '-'))),
-              HasSubstr("too deep"));
-  std::string tags = "<?xml version=\"1.0\"?>\n<opencv_storage>\n";
-  for (int i = 0; i < 50000; ++i) tags += "<a>";
-  EXPECT_THAT(said(write("deep.xml", tags)), HasSubstr("too deep"));
-  EXPECT_THAT(said(write("huge.yml",
-                         "%YAML:1.0\n---\nM1: !!opencv-matrix\n   rows: 40000\n"
-                         "   cols: 40000\n   dt: d\n   data: [ 1. ]\n")),
-              AllOf(HasSubstr("huge.yml"), HasSubstr("has not the right shape")));
-  EXPECT_THAT(said(write("text.yml",
-                         "%YAML:1.0\n---\nM1: !!opencv-matrix\n   rows: 3\n   cols: three\n"
-                         "   dt: d\n   data: [ 1. ]\n")),
-              HasSubstr("M1 has not the right shape"));
+              AllOf(HasSubstr("torn.yml"), HasSubstr("not YAML (line 4)")));
+  EXPECT_THAT(said(write("torn.xml", "<?xml version=\"1.0\"?>\n<opencv_storage>\n<M1>")),
+              AllOf(HasSubstr("torn.xml"), HasSubstr("not XML")));
+  EXPECT_THAT(said(write("other.xml", "<?xml version=\"1.0\"?>\n<pnml/>")),
+              HasSubstr("holds no named values"));
+  EXPECT_THAT(said(write("long.yml", std::string(2 << 20, ' '))),
+              AllOf(HasSubstr("long.yml"), HasSubstr("too large for a calibration")));
+  const auto repeated = [](const std::string& text) {
+    std::string all;
+    for (int i = 0; i < 50000; ++i) all += text;
+    return all;
+  };
+  for (const char* text : {"[", "{", "- ", "? ", "[{"}) {
+    EXPECT_THAT(said(write("deep.yml", "%YAML:1.0\n---\nM1:\n" + repeated(text))),
+                AllOf(HasSubstr("deep.yml"), HasSubstr("not YAML")))
+        << text;
+  }
+  EXPECT_THAT(said(write("deep.xml", "<?xml version=\"1.0\"?>\n<opencv_storage>\n" +
+                                         repeated("<a>") + repeated("</a>") + "</opencv_storage>")),
+              AllOf(HasSubstr("deep.xml"), HasSubstr("(M1) is missing")));
+  for (const char* value :
+       {"\n  rows: 40000\n  cols: 40000\n  dt: d\n  data: [ 1. ]",
+        "\n  rows: -1\n  cols: -1\n  dt: d\n  data: [ 1. ]",
+        "\n  rows: 3\n  cols: three\n  dt: d\n  data: [ 1. ]",
+        "\n  rows: 3\n  cols: 3\n  dt: d\n  data: [ 1, 2, 3 ]",
+        "\n  rows: 1\n  cols: 1\n  dt: d\n  data: [ one ]", " [ 1, 2 ]", " 7"}) {
+    EXPECT_THAT(said(write("shape.yml", "%YAML:1.0\n---\nM1:" + std::string(value) + "\n")),
+                AllOf(HasSubstr("shape.yml"), HasSubstr("M1 has not the right shape")))
+        << value;
+  }
   EXPECT_THAT(stored({}, {"", "D1", "M2", "D2", "R", "T"}),
               AllOf(HasSubstr("bad.yml"), HasSubstr("(M1) is missing")));
   EXPECT_THAT(stored({}, {"M1", "D1", "M2", "", "R", "T"}), HasSubstr("(D2) is missing"));

@@ -13,8 +13,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <limits>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace heel {
@@ -237,6 +239,38 @@ TEST(AppearanceFilterOnABlob, OutputMayAliasTheIndices) {
   filter.setIndices(shared);
   filter.filter(*shared);
   EXPECT_EQ(*shared, kept);
+}
+
+TEST(AppearanceFilterOnABlob, ACopyWorksBesideTheOriginal) {
+  struct Side {
+    Blob::Ptr cloud;
+    pcl::Indices kept;
+    BlobFilter filter{true};
+    int mistakes = 0;
+  };
+  BlobFilter original(true);
+  Settings{false, false}.run(original, toBlob(*test::makeScene<pcl::PointXYZRGB>(1)));
+  Side sides[2];
+  for (const unsigned i : {0U, 1U}) {
+    Cloud many;
+    while (many.size() < 20000) many += *test::makeScene<pcl::PointXYZRGB>(10 + i);
+    sides[i].cloud = toBlob(many);
+    BlobFilter alone(true);
+    sides[i].kept = Settings{false, false}.run(alone, sides[i].cloud);
+    sides[i].filter = BlobFilter(original);
+    EXPECT_EQ(sides[i].filter.getTable().data(), original.getTable().data());
+  }
+  ASSERT_NE(sides[0].kept, sides[1].kept);
+  const auto work = [](Side& side) {
+    for (int i = 0; i < 200; ++i) {
+      side.mistakes += Settings{false, false}.run(side.filter, side.cloud) != side.kept ? 1 : 0;
+    }
+  };
+  std::thread beside(work, std::ref(sides[0]));
+  work(sides[1]);
+  beside.join();
+  EXPECT_EQ(sides[0].mistakes, 0);
+  EXPECT_EQ(sides[1].mistakes, 0);
 }
 
 TEST(AppearanceFilterOnABlob, ASmallerCloudAfterALargerOneHasNothingOfIt) {

@@ -178,7 +178,7 @@ TEST(Gallery, StatureIsEvidenceAmongPeople) {
 TEST(Gallery, WhatWasLearnedAtFirstKeepsHalfOfTheSay) {
   Gallery gallery(looksOf(clothes(0, 1)));
   const Eigen::ArrayXXf now = clothes(2, 3);
-  for (int i = 0; i < 1000; ++i) gallery.addLookAtTarget(seen(0, 0, &now), 1.0);
+  for (int i = 0; i < 1000; ++i) gallery.addLookAt(kTarget, seen(0, 0, &now), 1.0);
   const double lately = 0.5 * 30.0 / 33.0;  // It rests on 30 looks at most.
   EXPECT_NEAR(of(gallery, clothes(0, 1))[kTarget], target(0.9 * 2.0 * partLogOdds(1.0 - lately)),
               1e-4);
@@ -189,7 +189,7 @@ TEST(Gallery, WhatWasLearnedAtFirstKeepsHalfOfTheSay) {
 TEST(Gallery, AFewLooksChangeThePortraitALittle) {
   Gallery gallery(looksOf(clothes(0, 1)));
   const Eigen::ArrayXXf now = clothes(2, 3);
-  gallery.addLookAtTarget(seen(0, 0, &now), 1.0);
+  gallery.addLookAt(kTarget, seen(0, 0, &now), 1.0);
   EXPECT_NEAR(of(gallery, now)[kTarget], target(0.9 * 2.0 * partLogOdds(0.5 * 1.0 / 4.0)), 1e-5);
 }
 
@@ -199,7 +199,7 @@ TEST(Gallery, LearnsAPartThatWasNeverSeenBefore) {
   Gallery gallery(looksOf(upper));
   const double before = of(gallery, clothes(0, 1))[kTarget];
   const Eigen::ArrayXXf whole = clothes(0, 1);
-  gallery.addLookAtTarget(seen(0, 0, &whole), 0.1);
+  gallery.addLookAt(kTarget, seen(0, 0, &whole), 0.1);
   EXPECT_GT(of(gallery, clothes(0, 1))[kTarget], before + 0.3);
   EXPECT_LT(of(gallery, clothes(0, 5))[kTarget], before - 0.3);
 }
@@ -208,8 +208,8 @@ TEST(Gallery, ALookThatShowsNothingTeachesNothing) {
   Gallery gallery(looksOf(clothes(0, 1)));
   const double before = of(gallery, clothes(0, 1))[kTarget];
   const Eigen::ArrayXXf nothing = Eigen::ArrayXXf::Zero(test::kColors, 2);
-  gallery.addLookAtTarget(seen(0, 0), 1.0);
-  gallery.addLookAtTarget(seen(0, 0, &nothing), 1.0);
+  gallery.addLookAt(kTarget, seen(0, 0), 1.0);
+  gallery.addLookAt(kTarget, seen(0, 0, &nothing), 1.0);
   EXPECT_EQ(of(gallery, clothes(0, 1))[kTarget], before);
 }
 

@@ -547,7 +547,6 @@ TEST(Identity, RejectsBadParameters) {
   EXPECT_THROW(with([](IdentityParams& p) { p.still_look_s = 0.0; }), std::invalid_argument);
   EXPECT_THROW(with([](IdentityParams& p) { p.look_way_m = std::nan(""); }), std::invalid_argument);
   EXPECT_THROW(with([](IdentityParams& p) { p.look_correlation = -0.1; }), std::invalid_argument);
-  EXPECT_THROW(with([](IdentityParams& p) { p.newcomer_is_target = 0.0; }), std::invalid_argument);
   EXPECT_THROW(with([](IdentityParams& p) { p.newcomer_density_per_m2 = 0.0; }),
                std::invalid_argument);
   EXPECT_THROW(with([](IdentityParams& p) { p.walk_mps = 0.0; }), std::invalid_argument);

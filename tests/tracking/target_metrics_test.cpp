@@ -21,7 +21,7 @@ Place x(double x_m) { return Eigen::Vector2d(x_m, 0.0); }
 
 /// The target at 0, one other at 5.
 TargetFrame frame(double stamp_s, const Place& estimate, bool in_view = true) {
-  return {stamp_s, in_view ? x(0.0) : Place(), {*x(5.0)}, estimate};
+  return {stamp_s, in_view ? x(0.0) : Place(), {*x(5.0)}, estimate, {}, 0.0};
 }
 
 TEST(TargetMetrics, JudgesWhomAnEstimateIsOf) {
@@ -86,6 +86,43 @@ TEST(TargetMetrics, SaysWhenSomebodyElseIsNearer) {
   EXPECT_EQ(targetMetrics({close}).contested, 1);
   close.others_m = {*x(0.7)};
   EXPECT_EQ(targetMetrics({close}).contested, 0);
+}
+
+TEST(TargetMetrics, CountsTheFramesWithoutTheTarget) {
+  const TargetMetrics m = targetMetrics({frame(0.0, x(0.1)),         // right
+                                         frame(1.0, {}),             // silent, wrongly
+                                         frame(2.0, x(5.2), false),  // claimed of somebody else,
+                                         frame(3.0, x(0.0), false),  // of nobody,
+                                         frame(4.0, {}, false),      // or rightly not
+                                         frame(5.0, {}, false)});
+  EXPECT_DOUBLE_EQ(m.claimedShare(), 0.5);
+  EXPECT_DOUBLE_EQ(m.rightAnswerShare(), 0.5);
+}
+
+TEST(TargetMetrics, ComparesProbabilitiesWithWhatIsSo) {
+  const auto said = [](double stamp_s, double x_m, double probability, bool in_view) {
+    TargetFrame result = frame(stamp_s, {}, in_view);
+    result.likeliest_m = x(x_m);
+    result.probability = probability;
+    return result;
+  };
+  const Reliability r = targetMetrics({said(0.0, 0.1, 0.95, true),   // so
+                                       said(1.0, 0.1, 0.95, false),  // not so: it is away
+                                       said(2.0, 3.0, 0.25, true),   // not so: elsewhere
+                                       said(3.0, 0.0, 1.0, true)})
+                            .reliability;
+  EXPECT_EQ(r.bins[9].count, 3);
+  EXPECT_EQ(r.bins[9].right, 2);
+  EXPECT_DOUBLE_EQ(r.bins[9].said, 2.9);
+  EXPECT_EQ(r.bins[2].count, 1);
+  EXPECT_DOUBLE_EQ(r.expectedError(), (0.9 + 0.25) / 4.0);
+  Reliability twice = r;
+  twice.add(r);
+  EXPECT_EQ(twice.bins[9].count, 6);
+  EXPECT_DOUBLE_EQ(twice.expectedError(), r.expectedError());
+  EXPECT_TRUE(std::isnan(Reliability().expectedError()));
+  EXPECT_THROW(twice.add(1.1, true), std::invalid_argument);
+  EXPECT_THROW(twice.add(std::nan(""), true), std::invalid_argument);
 }
 
 TEST(TargetMetrics, SaysNothingAboutNothing) {

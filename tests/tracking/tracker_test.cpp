@@ -194,6 +194,34 @@ TEST(Tracker, SaysWhichTracksMayHaveSwappedTheirObservations) {
   EXPECT_NEAR(known[0].probability, 1.0 / 82.0, 1e-9) << "each look nine times likelier";
 }
 
+TEST(Tracker, SaysThatWhoAppearsBesideSomebodyMayBeThem) {
+  Tracker tracker;
+  for (int i = 0; i < 10; ++i) tracker.step(kDt_s * i, {seen(0, 0)});
+  const std::vector<Swap> even = tracker.step(kDt_s * 10, {seen(0.25, 0), seen(-0.25, 0)}).swaps;
+  ASSERT_EQ(even.size(), 1U);
+  EXPECT_EQ(even[0].track_a, 1);
+  EXPECT_EQ(even[0].track_b, 2);
+  EXPECT_NEAR(even[0].probability, 0.5, 1e-9);
+
+  Tracker surer;
+  for (int i = 0; i < 10; ++i) surer.step(kDt_s * i, {seen(0, 0)});
+  EXPECT_THAT(surer.step(kDt_s * 10, {seen(0, 0), seen(2, 0)}).swaps, IsEmpty());
+}
+
+// Two walk towards each other, are observed as one for a second, and as two again.
+TEST(Tracker, WhoWereObservedAsOneMayHaveSwapped) {
+  Tracker tracker;
+  double stamp_s = 0.0;
+  for (double x = 1.5; x > 0.3; x -= 0.2) {
+    tracker.step(stamp_s += kDt_s, {seen(x, 0), seen(-x, 0)});
+  }
+  for (int i = 0; i < 4; ++i) tracker.step(stamp_s += kDt_s, {seen(0, 0)});
+  const std::vector<Swap> swaps =
+      tracker.step(stamp_s += kDt_s, {seen(0.5, 0), seen(-0.5, 0)}).swaps;
+  ASSERT_EQ(swaps.size(), 1U);
+  EXPECT_GT(swaps[0].probability, 0.05);
+}
+
 TEST(Tracker, TentativeTracksTakeWhatTheOthersLeave) {
   TrackerParams params;
   params.motion.velocity_memory_s = 0.1;  // Nobody is expected to go anywhere.
