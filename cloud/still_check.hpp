@@ -22,7 +22,7 @@ namespace heel {
 struct StillCheckParams {
   double period_s = 1.0;    ///< Between images that are looked at.
   int confirm_images = 3;   ///< In so many, one after the other, the scene is another.
-  double min_share = 0.5;   ///< Of the points of a third, that differ.
+  double min_share = 0.65;  ///< Of the points of a third, that differ: people together change half.
   double min_known = 0.05;  ///< Share of a third that has a depth in both; with less it is no help.
   double min_step = 0.02;   ///< Smallest change of inverse depth that counts [1/m], as for people.
   double noise_sigmas = 3.0;  ///< And at least so many of its own standard deviations.
