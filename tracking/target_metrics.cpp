@@ -151,6 +151,25 @@ TargetMetrics targetMetrics(const std::vector<TargetFrame>& frames, double match
   return metrics;
 }
 
+void TargetMetrics::add(const TargetMetrics& other) {
+  frames += other.frames;
+  frames_in_view += other.frames_in_view;
+  right += other.right;
+  wrong_person += other.wrong_person;
+  nobody += other.nobody;
+  none += other.none;
+  contested += other.contested;
+  absent_wrong_person += other.absent_wrong_person;
+  absent_nobody += other.absent_nobody;
+  error_sum_m += other.error_sum_m;
+  reliability.add(other.reliability);
+  duration_s += other.duration_s;
+  wrong_target_s += other.wrong_target_s;
+  reacquisition_delays_s.insert(reacquisition_delays_s.end(), other.reacquisition_delays_s.begin(),
+                                other.reacquisition_delays_s.end());
+  not_reacquired += other.not_reacquired;
+}
+
 double TargetMetrics::recall() const {
   return frames_in_view == 0 ? kNothing : static_cast<double>(right) / frames_in_view;
 }

@@ -77,6 +77,9 @@ struct TargetMetrics {
   std::vector<double> reacquisition_delays_s;
   int not_reacquired = 0;  ///< The target left, or the recording ended, before that.
 
+  /// Adds another run's counts, times and delays: each frame counts the same.
+  void add(const TargetMetrics& other);
+
   double recall() const;
   double wrongPersonShare() const;
   /// Of the frames without the target, those with an estimate.

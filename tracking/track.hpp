@@ -65,7 +65,6 @@ struct Track {
   double born_s = 0.0;          ///< Stamp of its first observation.
   double seen_s = 0.0;          ///< Stamp of its newest observation.
   int observation = kUnseen;    ///< Index of the observation it took in the newest frame.
-  bool shares = false;          ///< That observation may be of somebody unseen there, too.
   double density_per_m2 = 0.0;  ///< Of that observation's place, as the track foretold it.
   int hits = 0;                 ///< Observations taken in all.
   double score = 0.0;           ///< Of its newest observation.

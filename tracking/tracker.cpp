@@ -58,10 +58,10 @@ const TrackerReport& Tracker::step(double stamp_s, const std::vector<Observation
   gateObservations(observations, viewpoint);
   for (Track& track : tracks_) {
     track.observation = Track::kUnseen;
-    track.shares = false;
   }
   fillCosts(observations, looks);
   column_of_track_.assign(tracks_.size(), Assignment::kNone);
+  is_shared_.assign(tracks_.size(), false);
   associate(false);
   associate(true);
   noteSwaps();
@@ -191,15 +191,15 @@ void Tracker::noteSwaps() {
   const auto probabilityOf = [](double more) { return 1.0 / (1.0 + std::exp(0.5 * more)); };
   newcomers_.clear();
   for (int a = 0; a < costs_.rows(); ++a) {
-    Track& track = tracks_[at(a)];
+    const Track& track = tracks_[at(a)];
     const int seen_a = column_of_track_[at(a)];
     for (int b = a + 1; b < costs_.rows(); ++b) {
-      Track& other = tracks_[at(b)];
+      const Track& other = tracks_[at(b)];
       const int seen_b = column_of_track_[at(b)];
       if (seen_a == seen_b) continue;
       // Who is unseen where an observation is may have been observed as one with whom it is of.
-      track.shares |= seen_b == Assignment::kNone && cost(b, seen_a) < 0.0;
-      other.shares |= seen_a == Assignment::kNone && cost(a, seen_b) < 0.0;
+      if (seen_b == Assignment::kNone && cost(b, seen_a) < 0.0) is_shared_[at(a)] = true;
+      if (seen_a == Assignment::kNone && cost(a, seen_b) < 0.0) is_shared_[at(b)] = true;
       const double more = cost(a, seen_b) + cost(b, seen_a) - cost(a, seen_a) - cost(b, seen_b);
       if (more < kUnlikely) report_.swaps.push_back({track.id, other.id, probabilityOf(more)});
     }
@@ -214,13 +214,14 @@ void Tracker::noteSwaps() {
 }
 
 void Tracker::updateTracks(double stamp_s, const std::vector<Observation>& observations) {
-  for (Track& track : tracks_) {
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    Track& track = tracks_[i];
     const bool seen = track.observation != Track::kUnseen;
     track.history = (track.history << 1) | (seen ? 1U : 0U);
     if (seen) {
       const Observation& o = observations[at(track.observation)];
       Eigen::Matrix2d noise_m2 = noiseOf(o);
-      if (track.shares) {  // Then its place is somewhere between them.
+      if (is_shared_[i]) {  // Then its place is somewhere between them.
         const double half_m = 0.5 * params_.birth_clearance_m;
         noise_m2 += Eigen::Matrix2d::Identity() * (half_m * half_m);
       }

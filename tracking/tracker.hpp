@@ -88,6 +88,7 @@ class Tracker {
   std::vector<int> accepted_;         ///< Indices of observations, ordered by value.
   CostMatrix costs_;                  ///< Of all tracks with these.
   std::vector<int> column_of_track_;  ///< That it took.
+  std::vector<bool> is_shared_;       ///< Whether that may be of somebody unseen there, too.
   std::vector<int> rows_, free_;      ///< Tracks that choose, and columns that they choose from.
   CostMatrix choice_;
   std::vector<Swap> newcomers_;  ///< Swaps with who may appear: track_b is an observation's index.

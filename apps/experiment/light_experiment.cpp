@@ -17,13 +17,6 @@
 namespace heel {
 namespace {
 
-void add(TargetMetrics& sum, const TargetMetrics& metrics) {
-  sum.frames += metrics.frames;
-  sum.frames_in_view += metrics.frames_in_view;
-  sum.right += metrics.right;
-  sum.wrong_person += metrics.wrong_person;
-}
-
 /// One person in the second half of their exact frames.
 TargetMetrics lookFor(const std::string& person, const AppearanceModel& model,
                       const std::filesystem::path& path, const CameraSetup& setup,
@@ -112,8 +105,7 @@ LightRun runLightExperiment(const std::filesystem::path& path, const ExperimentP
     const auto model = lessons[i].learn(0);
     if (!model) throw std::runtime_error(person + ": nothing of them could be learned");
     for (std::size_t k = 0; k < run.size(); ++k) {
-      add(run[k],
-          lookFor(person, *model, path, setup, truth, levels[k], params.tracker_distance_m));
+      run[k].add(lookFor(person, *model, path, setup, truth, levels[k], params.tracker_distance_m));
     }
   }
   return run;
@@ -121,7 +113,7 @@ LightRun runLightExperiment(const std::filesystem::path& path, const ExperimentP
 
 void add(LightRun& sum, const LightRun& run) {
   sum.resize(run.size());
-  for (std::size_t i = 0; i < run.size(); ++i) add(sum[i], run[i]);
+  for (std::size_t i = 0; i < run.size(); ++i) sum[i].add(run[i]);
 }
 
 }  // namespace heel

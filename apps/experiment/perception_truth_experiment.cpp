@@ -124,23 +124,7 @@ PerceptionTruthRun sumOf(const std::vector<PerceptionTruthRun>& runs) {
   for (const PerceptionTruthRun& run : runs) {
     sum.filter.add(run.filter);
     sum.standing.add(run.standing);
-    TargetMetrics& target = sum.target;
-    target.frames += run.target.frames;
-    target.frames_in_view += run.target.frames_in_view;
-    target.right += run.target.right;
-    target.wrong_person += run.target.wrong_person;
-    target.nobody += run.target.nobody;
-    target.none += run.target.none;
-    target.contested += run.target.contested;
-    target.absent_wrong_person += run.target.absent_wrong_person;
-    target.absent_nobody += run.target.absent_nobody;
-    target.error_sum_m += run.target.error_sum_m;
-    target.duration_s += run.target.duration_s;
-    target.wrong_target_s += run.target.wrong_target_s;
-    target.reacquisition_delays_s.insert(target.reacquisition_delays_s.end(),
-                                         run.target.reacquisition_delays_s.begin(),
-                                         run.target.reacquisition_delays_s.end());
-    target.not_reacquired += run.target.not_reacquired;
+    sum.target.add(run.target);
     sum.mot.frames += run.mot.frames;
     sum.mot.truths += run.mot.truths;
     sum.mot.matches += run.mot.matches;

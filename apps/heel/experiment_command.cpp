@@ -67,17 +67,6 @@ void runProtocol(const Options& options) {
   }
 }
 
-/// Sums over people: each frame counts the same.
-void add(TargetMetrics& sum, const TargetMetrics& m) {
-  sum.frames += m.frames;
-  sum.frames_in_view += m.frames_in_view;
-  sum.right += m.right;
-  sum.wrong_person += m.wrong_person;
-  sum.absent_wrong_person += m.absent_wrong_person;
-  sum.absent_nobody += m.absent_nobody;
-  sum.reliability.add(m.reliability);
-}
-
 void printTarget(const std::string& name, const TargetResult& result) {
   const TargetMetrics& cold = result.cold;
   std::printf("  %-26s %4d  %.2f %.2f   %.2f %.2f   %.2f %.2f %5d  %.2f    %.2f\n", name.c_str(),
@@ -113,9 +102,9 @@ void runTargets(const Options& options) {
     for (const TargetResult& result :
          runTargetsExperiment(options.recording, params, options.other)) {
       printTarget(result.person, result);
-      add(sum.best_blob, result.best_blob);
-      add(sum.started, result.started);
-      add(sum.cold, result.cold);
+      sum.best_blob.add(result.best_blob);
+      sum.started.add(result.started);
+      sum.cold.add(result.cold);
     }
     printTarget("all", sum);
     print(sum.cold.reliability);

@@ -208,10 +208,9 @@ void addView(CLI::App& app) {
       "  heel view recordings/kitchen --model person.yaml --map maps/home/walls.bt\n"
       "  heel view recordings/kitchen --model person.yaml --out pictures\n"
       "Shows the cloud of each frame; with a model, also the points of the person's colours, the\n"
-      "blobs on the floor, and the tracks as poles (the target's is orange). If the robot moves, "
-      "all\n"
-      "of it is in the frame of its odometry. Opens a window; with no display, or with --out, it\n"
-      "writes pictures of the same.");
+      "blobs on the floor, and the tracks as poles (the target's is orange). If the robot moves,\n"
+      "all of it is in the frame of its odometry. Opens a window; with no display, or with --out,\n"
+      "it writes pictures of the same.");
   verb->add_option("RECORDING", options->recording, "folder of a recording, a bag, or a PCD file")
       ->required();
   verb->add_option("--model", options->model, "the person, as 'heel learn' wrote it");

@@ -148,7 +148,7 @@ std::optional<RobotMotion> BagMotion::read() const {
   const auto moving = readLinks();
   std::set<double> stamps_s;
   for (const auto& [frame, poses] : moving) {
-    for (std::size_t i = 0; i < poses.size(); ++i) stamps_s.insert(poses.stamp_s(i));
+    for (const double stamp_s : poses.stamps_s()) stamps_s.insert(stamp_s);
   }
   RobotMotion motion = motion_;
   for (const double stamp_s : stamps_s) {

@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kSameTime_s = 1e-6;  // stamps are decimal fractions, their sums are not exact
+constexpr double kFurthest_m = 1e8;   // from any origin, on Earth
 
 }  // namespace
 
@@ -25,29 +26,35 @@ Eigen::Isometry3d Trajectory::transformOf(const Pose& pose) {
 }
 
 void Trajectory::add(double stamp_s, const Eigen::Isometry3d& pose) {
-  const auto at =
-      poses_.empty() || poses_.back().stamp_s < stamp_s
-          ? poses_.end()
-          : std::lower_bound(poses_.begin(), poses_.end(), stamp_s,
-                             [](const Pose& other, double s) { return other.stamp_s < s; });
-  if (at != poses_.end() && at->stamp_s == stamp_s) return;
-  poses_.insert(at, {stamp_s, pose.translation(), Eigen::Quaterniond(pose.linear())});
+  if (!std::isfinite(stamp_s) || !pose.matrix().allFinite() ||
+      pose.translation().norm() > kFurthest_m) {
+    return;
+  }
+  poses_.try_emplace(poses_.end(), stamp_s,
+                     Pose{pose.translation(), Eigen::Quaterniond(pose.linear())});
+}
+
+std::vector<double> Trajectory::stamps_s() const {
+  std::vector<double> stamps_s;
+  stamps_s.reserve(poses_.size());
+  for (const auto& [stamp_s, pose] : poses_) stamps_s.push_back(stamp_s);
+  return stamps_s;
 }
 
 std::optional<Eigen::Isometry3d> Trajectory::at(double stamp_s) const {
-  const auto after = std::lower_bound(poses_.begin(), poses_.end(), stamp_s,
-                                      [](const Pose& pose, double s) { return pose.stamp_s < s; });
-  if (after != poses_.end() && after->stamp_s == stamp_s) return transformOf(*after);
+  if (poses_.empty()) return std::nullopt;
+  const auto after = poses_.lower_bound(stamp_s);
+  if (after != poses_.end() && after->first == stamp_s) return transformOf(after->second);
   if (after == poses_.begin() || after == poses_.end()) {
-    if (poses_.empty()) return std::nullopt;
-    const Pose& end = after == poses_.end() ? poses_.back() : poses_.front();
-    if (std::abs(end.stamp_s - stamp_s) > params_.max_hold_s + kSameTime_s) return std::nullopt;
+    const auto& [end_s, end] = after == poses_.end() ? *poses_.rbegin() : *after;
+    if (std::abs(end_s - stamp_s) > params_.max_hold_s + kSameTime_s) return std::nullopt;
     return transformOf(end);
   }
-  const Pose &a = *std::prev(after), &b = *after;
-  if (b.stamp_s - a.stamp_s > params_.max_gap_s + kSameTime_s) return std::nullopt;
-  const double share = (stamp_s - a.stamp_s) / (b.stamp_s - a.stamp_s);
-  return transformOf({stamp_s, a.place + share * (b.place - a.place), a.turn.slerp(share, b.turn)});
+  const auto& [a_s, a] = *std::prev(after);
+  const auto& [b_s, b] = *after;
+  if (b_s - a_s > params_.max_gap_s + kSameTime_s) return std::nullopt;
+  const double share = (stamp_s - a_s) / (b_s - a_s);
+  return transformOf({a.place + share * (b.place - a.place), a.turn.slerp(share, b.turn)});
 }
 
 std::optional<double> Trajectory::leaves_s(double from_s, double to_s, double range_m,
@@ -58,9 +65,9 @@ std::optional<double> Trajectory::leaves_s(double from_s, double to_s, double ra
     if (!T_start_world) T_start_world = pose.inverse();
     return shiftOf_m(*T_start_world * pose, range_m) > limit_m;
   };
-  for (const Pose& pose : poses_) {
-    if (pose.stamp_s < from_s || pose.stamp_s > to_s) continue;
-    if (is_away(transformOf(pose))) return pose.stamp_s;
+  for (auto pose = poses_.lower_bound(from_s); pose != poses_.end() && pose->first <= to_s;
+       ++pose) {
+    if (is_away(transformOf(pose->second))) return pose->first;
   }
   const auto end = at(to_s);
   return end && is_away(*end) ? std::optional(to_s) : std::nullopt;

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,12 +30,13 @@ class Trajectory {
  public:
   explicit Trajectory(const TrajectoryParams& params = {}) : params_(params) {}
 
-  /// In any order of time; of two poses of one time, the first counts.
+  /// In any order of time; of two poses of one time, the first counts. One that is not finite, or
+  /// of a place where no robot is, is left out.
   void add(double stamp_s, const Eigen::Isometry3d& pose);
 
   bool empty() const { return poses_.empty(); }
   std::size_t size() const { return poses_.size(); }
-  double stamp_s(std::size_t index) const { return poses_[index].stamp_s; }
+  std::vector<double> stamps_s() const;
 
   /// On the straight way between the poses before and after; absent where there are none within
   /// the limits.
@@ -47,14 +49,13 @@ class Trajectory {
 
  private:
   struct Pose {
-    double stamp_s;
     Eigen::Vector3d place;
     Eigen::Quaterniond turn;
   };
   static Eigen::Isometry3d transformOf(const Pose& pose);
 
   TrajectoryParams params_;
-  std::vector<Pose> poses_;  // by time
+  std::map<double, Pose> poses_;  // by time
 };
 
 /// How far a motion takes a point within `range_m` of its origin at the most. [m]

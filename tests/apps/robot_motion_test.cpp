@@ -50,6 +50,14 @@ TEST(Trajectory, TakesPosesInAnyOrderAndTheFirstOfTwo) {
   }
 }
 
+TEST(Trajectory, LeavesOutWhatIsNoPlaceOfARobot) {
+  Trajectory way;
+  way.add(0.0, pose(std::nan(""), 0, 0));
+  way.add(0.1, pose(1e10, 0, 0));
+  way.add(std::nan(""), pose(0, 0, 0));
+  EXPECT_TRUE(way.empty());
+}
+
 TEST(Trajectory, IsNotKnownInGapsAndBeyondItsEnds) {
   Trajectory way;
   for (const double s : {0.0, 0.5, 2.0, 2.5}) way.add(s, pose(s, 0, 0));
@@ -75,10 +83,15 @@ TEST(Trajectory, LeavesItsPlaceByDrivingAndByTurning) {
   EXPECT_FALSE(turning.leaves_s(0.0, 1.0, 2.0, 0.025));
 }
 
-TEST(FolderMotion, IsReadFromTheWheels) {
+std::optional<RobotMotion> motionOf(const char* file, const char* text) {
   const TempFolder folder;
-  folder.write("odometry.csv", "stamp_s,x_m,y_m,yaw_rad\n0.0,0,0,0\n0.1,0.03,-0.5,0.2\n");
-  const auto motion = readFolderMotion(folder.path());
+  folder.write(file, text);
+  return readFolderMotion(folder.path());
+}
+
+TEST(FolderMotion, IsReadFromTheWheels) {
+  const auto motion =
+      motionOf("odometry.csv", "stamp_s,x_m,y_m,yaw_rad\n0.0,0,0,0\n0.1,0.03,-0.5,0.2\n");
   ASSERT_TRUE(motion);
   EXPECT_EQ(motion->frame_id, "odom");
   EXPECT_FALSE(motion->of_camera);
@@ -86,9 +99,8 @@ TEST(FolderMotion, IsReadFromTheWheels) {
 }
 
 TEST(FolderMotion, IsReadFromTheCamerasTrajectory) {
-  const TempFolder folder;
-  folder.write("groundtruth.txt", "# stamp tx ty tz qx qy qz qw\n1.5 1 2 3 0 0 0 1\n");
-  const auto motion = readFolderMotion(folder.path());
+  const auto motion =
+      motionOf("groundtruth.txt", "# stamp tx ty tz qx qy qz qw\n1.5 1 2 3 0 0 0 1\n");
   ASSERT_TRUE(motion);
   EXPECT_EQ(motion->frame_id, "");
   EXPECT_TRUE(motion->of_camera);

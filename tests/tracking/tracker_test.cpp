@@ -208,18 +208,18 @@ TEST(Tracker, SaysThatWhoAppearsBesideSomebodyMayBeThem) {
   EXPECT_THAT(surer.step(kDt_s * 10, {seen(0, 0), seen(2, 0)}).swaps, IsEmpty());
 }
 
-// Two walk towards each other, are observed as one for a second, and as two again.
+// Two walk towards each other, are observed as one for two frames, and as two again.
 TEST(Tracker, WhoWereObservedAsOneMayHaveSwapped) {
   Tracker tracker;
   double stamp_s = 0.0;
   for (double x = 1.5; x > 0.3; x -= 0.2) {
     tracker.step(stamp_s += kDt_s, {seen(x, 0), seen(-x, 0)});
   }
-  for (int i = 0; i < 4; ++i) tracker.step(stamp_s += kDt_s, {seen(0, 0)});
+  for (int i = 0; i < 2; ++i) tracker.step(stamp_s += kDt_s, {seen(0, 0)});
   const std::vector<Swap> swaps =
-      tracker.step(stamp_s += kDt_s, {seen(0.5, 0), seen(-0.5, 0)}).swaps;
+      tracker.step(stamp_s += kDt_s, {seen(0.3, 0), seen(-0.3, 0)}).swaps;
   ASSERT_EQ(swaps.size(), 1U);
-  EXPECT_GT(swaps[0].probability, 0.05);
+  EXPECT_GT(swaps[0].probability, 0.15) << "0.09 if the place of both were as sure as of one";
 }
 
 TEST(Tracker, TentativeTracksTakeWhatTheOthersLeave) {
