@@ -4,6 +4,7 @@
 #include "apps/follower/perception.hpp"
 
 #include "apps/follower/depth_images.hpp"
+#include "apps/follower/depth_sight.hpp"
 #include "apps/follower/wall_gate.hpp"
 #include "segmentation/image_filter.hpp"
 
@@ -18,7 +19,8 @@
 namespace heel {
 namespace {
 
-constexpr double kBody_m = 0.4;  // Depths, or legs, this near to a place may be of somebody there.
+constexpr double kBody_m = 0.4;       // Legs this near to a place may be of somebody there.
+constexpr double kBeside_m = 0.45;    // So far from the middle of somebody nothing is theirs.
 constexpr double kMissedLegs = 0.05;  // Of people in its view, the laser misses as many.
 
 GeometricGate gateOf(const PerceptionParams& params) {
@@ -152,11 +154,12 @@ void Perception::track(const RobotPlace& robot, const LaserBodies* legs, bool ha
   Viewpoint viewpoint;
   viewpoint.position_m = robot.pose * Eigen::Vector2d(T_base_camera_.translation().head<2>());
   viewpoint.covariance_m2 = robot.covariance_m2;
-  const Eigen::Isometry3d T_camera_world = (basePose(robot.pose) * T_base_camera_).inverse();
+  const DepthSight by_depth(depth_m_, camera_.left,
+                            (basePose(robot.pose) * T_base_camera_).inverse());
   const auto sight_of = [&](const Eigen::Vector2d& place_m) {
     const Sight by_legs = legs != nullptr ? legs->sightOf(place_m) : Sight::kUnknown;
     if (by_legs != Sight::kUnknown || !has_image) return by_legs;
-    const Sight sight = sightOf(place_m, T_camera_world);
+    const Sight sight = by_depth.at(place_m);
     // With a laser, who is not in the picture need not be out of sight.
     return sight == Sight::kOutside && legs != nullptr ? Sight::kUnknown : sight;
   };
@@ -240,11 +243,18 @@ void Perception::findCandidates(const Frame& frame, const FloorPose& robot) {
     step_.blob_of_observation.push_back(static_cast<int>(i));
   }
   if (looks_.size() < step_.observations.size()) looks_.resize(step_.observations.size());
+  const DepthSight sight(depth_m_, camera_.left, T_base_camera_.inverse());
   for (std::size_t k = 0; k < step_.observations.size(); ++k) {
-    const auto blob = static_cast<std::size_t>(step_.blob_of_observation[k]);
-    describe(step_.blobs[blob], frame, looks_[k]);
-    step_.observations[k].look = &looks_[k].colors;
-    step_.observations[k].stature_m = looks_[k].stature_m;
+    const WorldBlob& blob = step_.blobs[static_cast<std::size_t>(step_.blob_of_observation[k])];
+    Observation& seen = step_.observations[k];
+    describe(blob, frame, looks_[k]);
+    seen.look = &looks_[k].colors;
+    seen.stature_m = looks_[k].stature_m;
+    if (frame.image_bgr.empty()) continue;
+    const Eigen::Vector2d ray = blob.position_m - T_base_camera_.translation().head<2>();
+    const Eigen::Vector2d side_m = kBeside_m * Eigen::Vector2d(-ray.y(), ray.x()).normalized();
+    seen.log_person =
+        sight.logPerson(blob.position_m, side_m, std::sqrt(seen.covariance_m2.trace()));
   }
 }
 
@@ -272,7 +282,7 @@ void Perception::addLegs(const LaserBodies& legs) {
   for (std::size_t k = 0; k < has_legs_.size(); ++k) {
     Observation& seen = step_.observations[k];
     if (!has_legs_[k] && legs.sightOf(seen.position_m) == Sight::kFree) {
-      seen.log_person = std::log(kMissedLegs);
+      seen.log_person += std::log(kMissedLegs);
     }
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -294,30 +304,6 @@ Eigen::Matrix2d Perception::depthCovariance(const Eigen::Vector2d& position_m) c
   const double sigma_m = depthErrorOf(camera_) * ray.squaredNorm();
   const Eigen::Vector2d along = ray.normalized() * sigma_m;
   return along * along.transpose();
-}
-
-// By three points of somebody's trunk there.
-Sight Perception::sightOf(const Eigen::Vector2d& place_m,
-                          const Eigen::Isometry3d& T_camera_world) const {
-  int hidden = 0, free = 0, outside = 0;
-  for (const double height_m : {0.9, 1.2, 1.5}) {
-    const Eigen::Vector3d p = T_camera_world * Eigen::Vector3d(place_m.x(), place_m.y(), height_m);
-    const double u = camera_.left.fx * p.x() / p.z() + camera_.left.cx;
-    const double v = camera_.left.fy * p.y() / p.z() + camera_.left.cy;
-    if (!(p.z() > 0.1 && u >= 0.0 && v >= 0.0 && u < depth_m_.cols && v < depth_m_.rows)) {
-      ++outside;
-      continue;
-    }
-    const auto depth =
-        static_cast<double>(depth_m_.at<float>(static_cast<int>(v), static_cast<int>(u)));
-    if (!(depth > 0.0)) continue;
-    const double behind_m = depth - p.z();
-    free += behind_m > kBody_m ? 1 : 0;
-    hidden += behind_m < -kBody_m ? 1 : 0;
-  }
-  if (outside >= 2) return Sight::kOutside;
-  if (free >= 2) return Sight::kFree;
-  return hidden >= 2 ? Sight::kHidden : Sight::kUnknown;
 }
 
 // Silence is what users of trackers complain of most: name the first stage that left nothing.

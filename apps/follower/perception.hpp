@@ -120,7 +120,6 @@ class Perception {
   void track(const RobotPlace& robot, const LaserBodies* legs, bool has_image);
   void describe(const WorldBlob& blob, const Frame& frame, BodyDescription& out);
   Eigen::Matrix2d depthCovariance(const Eigen::Vector2d& position_m) const;
-  Sight sightOf(const Eigen::Vector2d& place_m, const Eigen::Isometry3d& T_camera_world) const;
   const char* whyNotSeen() const;
 
   SensorKind sensor_;

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "apps/follower/depth_sight.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace heel {
+namespace {
+
+constexpr double kBody_m = 0.4;  // Depths this near to a place may be of somebody there.
+constexpr double kClose_m = 0.3;
+// Shares of what is observed in simulated rooms, of people and of things: those that are seen
+// through, and as many whose surface goes on at both sides.
+constexpr double kOfPeople = 0.02;
+constexpr double kOfThings = 0.2;
+
+}  // namespace
+
+DepthSight::Depth DepthSight::compare(const Eigen::Vector2d& place_m, double height_m,
+                                      double tolerance_m) const {
+  const Eigen::Vector3d p = T_camera_frame_ * Eigen::Vector3d(place_m.x(), place_m.y(), height_m);
+  const double u = camera_.fx * p.x() / p.z() + camera_.cx;
+  const double v = camera_.fy * p.y() / p.z() + camera_.cy;
+  if (!(p.z() > 0.1 && u >= 0.0 && v >= 0.0 && u < depth_m_.cols && v < depth_m_.rows)) {
+    return Depth::kOutside;
+  }
+  const auto depth =
+      static_cast<double>(depth_m_.at<float>(static_cast<int>(v), static_cast<int>(u)));
+  if (!(depth > 0.0)) return Depth::kNone;
+  const double behind_m = depth - p.z();
+  if (behind_m > tolerance_m) return Depth::kFarther;
+  return behind_m < -tolerance_m ? Depth::kNearer : Depth::kSame;
+}
+
+Sight DepthSight::at(const Eigen::Vector2d& place_m) const {
+  int hidden = 0, free = 0, outside = 0;
+  for (const double height_m : {0.9, 1.2, 1.5}) {
+    const Depth depth = compare(place_m, height_m, kBody_m);
+    outside += depth == Depth::kOutside ? 1 : 0;
+    free += depth == Depth::kFarther ? 1 : 0;
+    hidden += depth == Depth::kNearer ? 1 : 0;
+  }
+  if (outside >= 2) return Sight::kOutside;
+  if (free >= 2) return Sight::kFree;
+  return hidden >= 2 ? Sight::kHidden : Sight::kUnknown;
+}
+
+double DepthSight::logPerson(const Eigen::Vector2d& place_m, const Eigen::Vector2d& side_m,
+                             double depth_sigma_m) const {
+  static const double odd = std::log(kOfPeople / kOfThings);
+  static const double usual = std::log((1.0 - 2.0 * kOfPeople) / (1.0 - 2.0 * kOfThings));
+  if (at(place_m) == Sight::kFree) return odd;
+  const double tolerance_m = std::max(kClose_m, 2.0 * depth_sigma_m);
+  int sides_seen = 0, sides_same = 0;
+  for (const double side : {-1.0, 1.0}) {
+    int same = 0, farther = 0;
+    for (const double height_m : {0.5, 0.7, 0.9, 1.1, 1.3, 1.5}) {
+      const Depth depth = compare(place_m + side * side_m, height_m, tolerance_m);
+      same += depth == Depth::kSame ? 1 : 0;
+      farther += depth == Depth::kFarther ? 1 : 0;
+    }
+    if (same + farther < 2) continue;
+    ++sides_seen;
+    sides_same += same >= farther ? 1 : 0;
+  }
+  if (sides_seen < 2) return 0.0;
+  return sides_same == 2 ? odd : usual;
+}
+
+}  // namespace heel
