@@ -24,11 +24,20 @@ if(HEEL_SANITIZE)
   target_link_options(heel_flags INTERFACE -fsanitize=${HEEL_SANITIZE})
 endif()
 
-# heel_module(NAME SOURCES ... HEADERS ... PUBLIC targets... PRIVATE targets... [COMMAND_ONLY])
-# makes the library heel::NAME from the current folder. It is installed as the component NAME of the
-# package heel, unless it is COMMAND_ONLY: then it is a part of the heel command and nothing else.
+# Headers are included as <heel/tracking/tracker.hpp>, in the tree and where Heel is installed: the
+# build has a folder "heel" with a link to each folder of sources.
+set(HEEL_INCLUDE "${PROJECT_BINARY_DIR}/include")
+file(MAKE_DIRECTORY "${HEEL_INCLUDE}/heel")
+foreach(folder cloud segmentation tracking mapping planning apps)
+  file(CREATE_LINK "${PROJECT_SOURCE_DIR}/${folder}" "${HEEL_INCLUDE}/heel/${folder}" SYMBOLIC)
+endforeach()
+
+# heel_module(NAME SOURCES ... PUBLIC targets... PRIVATE targets... [COMMAND_ONLY])
+# makes the library heel::NAME from the current folder. It is installed with its headers as the
+# component NAME of the package heel, unless it is COMMAND_ONLY: then it is a part of the heel
+# command and nothing else.
 function(heel_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 M "COMMAND_ONLY" "" "SOURCES;HEADERS;PUBLIC;PRIVATE")
+  cmake_parse_arguments(PARSE_ARGV 1 M "COMMAND_ONLY" "" "SOURCES;PUBLIC;PRIVATE")
   set(kind "")
   if(M_COMMAND_ONLY)
     set(kind STATIC)
@@ -40,8 +49,8 @@ function(heel_module name)
     # Until 1.0 a minor version may change the binary interface.
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
     DEFINE_SYMBOL "")  # the same command line, and ccache entry, for a shared and a static library
-  target_sources(heel_${name} PUBLIC
-    FILE_SET HEADERS BASE_DIRS "${PROJECT_SOURCE_DIR}" FILES ${M_HEADERS})
+  target_include_directories(heel_${name} PUBLIC
+    "$<BUILD_INTERFACE:${HEEL_INCLUDE}>" "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
   target_compile_features(heel_${name} PUBLIC cxx_std_17)
   target_link_libraries(heel_${name}
     PUBLIC ${M_PUBLIC} PRIVATE ${M_PRIVATE} $<BUILD_INTERFACE:heel_flags>)

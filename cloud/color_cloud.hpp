@@ -5,8 +5,8 @@
 /// The coloured cloud that travels between Heel's stages, and how images become one.
 #pragma once
 
-#include "cloud/pinhole_camera.hpp"
-#include "cloud/row_spans.hpp"
+#include <heel/cloud/pinhole_camera.hpp>
+#include <heel/cloud/row_spans.hpp>
 
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud/ground_plane.hpp"
+#include <heel/cloud/ground_plane.hpp>
 
 #include <pcl/memory.h>
 #include <pcl/sample_consensus/ransac.h>

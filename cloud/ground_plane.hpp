@@ -5,8 +5,8 @@
 /// Where the floor is, found from the first seconds of a recording.
 #pragma once
 
-#include "cloud/color_cloud.hpp"
-#include "cloud/mounting.hpp"
+#include <heel/cloud/color_cloud.hpp>
+#include <heel/cloud/mounting.hpp>
 
 #include <Eigen/Geometry>
 #include <pcl/point_cloud.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud/mounting.hpp"
+#include <heel/cloud/mounting.hpp>
 
 #include <algorithm>
 #include <cmath>

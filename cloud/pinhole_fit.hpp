@@ -5,7 +5,7 @@
 /// The camera that an organized cloud came from.
 #pragma once
 
-#include "cloud/color_cloud.hpp"
+#include <heel/cloud/color_cloud.hpp>
 
 #include <optional>
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud/image_extent.hpp"
-#include "cloud/stereo_calibration.hpp"
+#include <heel/cloud/image_extent.hpp>
+#include <heel/cloud/stereo_calibration.hpp>
 
 #include <algorithm>
 #include <fstream>

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/wall_map_file.hpp"
-
-#include "cloud/file_limits.hpp"
-#include "cloud/whole_file.hpp"
+#include <heel/cloud/file_limits.hpp>
+#include <heel/cloud/whole_file.hpp>
+#include <heel/mapping/wall_map_file.hpp>
 
 #include <octomap/OcTree.h>
 

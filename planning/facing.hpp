@@ -5,7 +5,7 @@
 /// Turning on the spot to face a point.
 #pragma once
 
-#include "planning/trajectory.hpp"
+#include <heel/planning/trajectory.hpp>
 
 #include <Eigen/Core>
 

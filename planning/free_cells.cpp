@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/free_cells.hpp"
+#include <heel/planning/free_cells.hpp>
 
 #include <algorithm>
 

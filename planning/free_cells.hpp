@@ -5,7 +5,7 @@
 /// The free cells around a point.
 #pragma once
 
-#include "planning/grid_wave.hpp"
+#include <heel/planning/grid_wave.hpp>
 
 #include <Eigen/Core>
 

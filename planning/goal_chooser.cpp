@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/goal_chooser.hpp"
+#include <heel/planning/goal_chooser.hpp>
 
 #include <algorithm>
 #include <cmath>

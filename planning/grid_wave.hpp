@@ -6,7 +6,7 @@
 /// when the goal moves, and mends itself where the map changes.
 #pragma once
 
-#include "planning/clearance_map.hpp"
+#include <heel/planning/clearance_map.hpp>
 
 #include <array>
 #include <cstdint>

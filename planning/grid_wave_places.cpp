@@ -4,7 +4,7 @@
 /// @file
 /// Which points the cells of a wave stand for.
 
-#include "planning/grid_wave.hpp"
+#include <heel/planning/grid_wave.hpp>
 
 #include <algorithm>
 

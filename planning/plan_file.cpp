@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/plan_file.hpp"
-
-#include "planning/plan_checks.hpp"
-#include "planning/pnml_file.hpp"
+#include <heel/planning/plan_checks.hpp>
+#include <heel/planning/plan_file.hpp>
+#include <heel/planning/pnml_file.hpp>
 
 #include <stdexcept>
 #include <utility>

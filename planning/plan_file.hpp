@@ -5,7 +5,7 @@
 /// A Petri Net Plan from its file, checked.
 #pragma once
 
-#include "planning/petri_plan.hpp"
+#include <heel/planning/petri_plan.hpp>
 
 #include <filesystem>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/pnml_file.hpp"
+#include <heel/planning/pnml_file.hpp>
 
 #include <pugixml.hpp>
 

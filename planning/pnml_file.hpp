@@ -9,7 +9,7 @@
 /// second is written, because the tools of Petri Net Plans read no other.
 #pragma once
 
-#include "planning/petri_net.hpp"
+#include <heel/planning/petri_net.hpp>
 
 #include <filesystem>
 #include <string>

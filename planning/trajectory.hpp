@@ -5,8 +5,8 @@
 /// What a differential drive can do, and where a command leads.
 #pragma once
 
-#include "mapping/floor_pose.hpp"
-#include "planning/velocity_command.hpp"
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/planning/velocity_command.hpp>
 
 #include <cstddef>
 #include <vector>

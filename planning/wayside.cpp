@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/wayside.hpp"
-
-#include "planning/goal_chooser.hpp"
+#include <heel/planning/goal_chooser.hpp>
+#include <heel/planning/wayside.hpp>
 
 #include <algorithm>
 #include <cmath>

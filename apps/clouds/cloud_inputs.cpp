@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/clouds/cloud_inputs.hpp"
-
-#include "apps/recording/cloud_file.hpp"
-#include "apps/recording/folder_files.hpp"
+#include <heel/apps/clouds/cloud_inputs.hpp>
+#include <heel/apps/recording/cloud_file.hpp>
+#include <heel/apps/recording/folder_files.hpp>
 
 #include <glob.h>
 

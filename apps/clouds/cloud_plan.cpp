@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/clouds/cloud_plan.hpp"
-
-#include "apps/recording/camera_file.hpp"
-#include "cloud/pinhole_fit.hpp"
-#include "segmentation/appearance_filter.hpp"
+#include <heel/apps/clouds/cloud_plan.hpp>
+#include <heel/apps/recording/camera_file.hpp>
+#include <heel/cloud/pinhole_fit.hpp>
+#include <heel/segmentation/appearance_filter.hpp>
 
 #include <pcl/common/transforms.h>
 

@@ -5,12 +5,12 @@
 /// One cloud, whatever its frame, from above.
 #pragma once
 
-#include "apps/recording/cloud_file.hpp"
-#include "cloud/ground_plane.hpp"
-#include "segmentation/appearance_model.hpp"
-#include "segmentation/height_crop.hpp"
-#include "segmentation/plan_view.hpp"
-#include "segmentation/world_blobs.hpp"
+#include <heel/apps/recording/cloud_file.hpp>
+#include <heel/cloud/ground_plane.hpp>
+#include <heel/segmentation/appearance_model.hpp>
+#include <heel/segmentation/height_crop.hpp>
+#include <heel/segmentation/plan_view.hpp>
+#include <heel/segmentation/world_blobs.hpp>
 
 #include <Eigen/Geometry>
 

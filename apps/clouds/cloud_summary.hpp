@@ -5,8 +5,8 @@
 /// What became of each of many clouds: summary.csv and summary.json.
 #pragma once
 
-#include "apps/recording/cloud_file.hpp"
-#include "apps/report/csv_file.hpp"
+#include <heel/apps/recording/cloud_file.hpp>
+#include <heel/apps/report/csv_file.hpp>
 
 #include <nlohmann/json.hpp>
 

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/clouds/plan_view_picture.hpp"
-
-#include "apps/report/csv_file.hpp"
-#include "apps/report/drawing.hpp"
+#include <heel/apps/clouds/plan_view_picture.hpp>
+#include <heel/apps/report/csv_file.hpp>
+#include <heel/apps/report/drawing.hpp>
 
 #include <opencv2/imgproc.hpp>
 

@@ -5,7 +5,7 @@
 /// A cloud's plan view as a picture.
 #pragma once
 
-#include "apps/clouds/cloud_plan.hpp"
+#include <heel/apps/clouds/cloud_plan.hpp>
 
 #include <opencv2/core/mat.hpp>
 

@@ -5,9 +5,9 @@
 /// Tracks against truth: what `heel evaluate` reports.
 #pragma once
 
-#include "apps/report/result_files.hpp"
-#include "tracking/clear_mot.hpp"
-#include "tracking/target_metrics.hpp"
+#include <heel/apps/report/result_files.hpp>
+#include <heel/tracking/clear_mot.hpp>
+#include <heel/tracking/target_metrics.hpp>
 
 #include <string>
 #include <vector>

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/roaming_driver.hpp"
-
-#include "apps/simulation/floor_plan.hpp"
-#include "apps/simulation/path_driver.hpp"
+#include <heel/apps/experiment/roaming_driver.hpp>
+#include <heel/apps/simulation/floor_plan.hpp>
+#include <heel/apps/simulation/path_driver.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,9 +5,9 @@
 /// What a robot's sensors bring in one control step.
 #pragma once
 
-#include "apps/recording/frame.hpp"
-#include "mapping/floor_pose.hpp"
-#include "mapping/laser_scan.hpp"
+#include <heel/apps/recording/frame.hpp>
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/laser_scan.hpp>
 
 #include <optional>
 

@@ -5,8 +5,8 @@
 /// Whether the robot's senses work: it must not move on stale or senseless readings.
 #pragma once
 
-#include "apps/follower/camera_setup.hpp"
-#include "apps/follower/robot_readings.hpp"
+#include <heel/apps/follower/camera_setup.hpp>
+#include <heel/apps/follower/robot_readings.hpp>
 
 #include <opencv2/core/types.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/heel/bag_options.hpp"
+#include <heel/apps/heel/bag_options.hpp>
 
 #include <CLI/CLI.hpp>
 

@@ -5,7 +5,7 @@
 /// Options that several verbs share, to name what is in a bag.
 #pragma once
 
-#include "apps/recording/bag_topics.hpp"
+#include <heel/apps/recording/bag_topics.hpp>
 
 #include <filesystem>
 

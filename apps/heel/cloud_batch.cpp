@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/heel/cloud_batch.hpp"
-
-#include "apps/report/terminal.hpp"
+#include <heel/apps/heel/cloud_batch.hpp>
+#include <heel/apps/report/terminal.hpp>
 
 #include <CLI/CLI.hpp>
 

@@ -5,10 +5,10 @@
 /// A verb's work on many clouds: on all cores, with a bar, in order.
 #pragma once
 
-#include "apps/clouds/cloud_summary.hpp"
-#include "apps/clouds/ordered_loop.hpp"
-#include "apps/report/progress_bar.hpp"
-#include "apps/report/run_end.hpp"
+#include <heel/apps/clouds/cloud_summary.hpp>
+#include <heel/apps/clouds/ordered_loop.hpp>
+#include <heel/apps/report/progress_bar.hpp>
+#include <heel/apps/report/run_end.hpp>
 
 #include <atomic>
 #include <filesystem>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/heel/drawn_perception.hpp"
+#include <heel/apps/heel/drawn_perception.hpp>
 
 #include <algorithm>
 #include <utility>

@@ -5,9 +5,9 @@
 /// What a perception step found, ready to be drawn.
 #pragma once
 
-#include "apps/follower/perception.hpp"
-#include "apps/report/annotate.hpp"
-#include "apps/report/trails.hpp"
+#include <heel/apps/follower/perception.hpp>
+#include <heel/apps/report/annotate.hpp>
+#include <heel/apps/report/trails.hpp>
 
 #include <map>
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/evaluation/evaluation.hpp"
-#include "apps/heel/commands.hpp"
+#include <heel/apps/evaluation/evaluation.hpp>
+#include <heel/apps/heel/commands.hpp>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/heel/commands.hpp"
-#include "cloud/file_limits.hpp"
+#include <heel/apps/heel/commands.hpp>
+#include <heel/cloud/file_limits.hpp>
 
 #include <CLI/CLI.hpp>
 

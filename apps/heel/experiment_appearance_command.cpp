@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/appearance_report.hpp"
-#include "apps/experiment/people_matrix_experiment.hpp"
-#include "apps/heel/experiment_commands.hpp"
-#include "apps/heel/scene_argument.hpp"
-#include "apps/report/progress_bar.hpp"
-#include "apps/report/run_end.hpp"
+#include <heel/apps/experiment/appearance_report.hpp>
+#include <heel/apps/experiment/people_matrix_experiment.hpp>
+#include <heel/apps/heel/experiment_commands.hpp>
+#include <heel/apps/heel/scene_argument.hpp>
+#include <heel/apps/report/progress_bar.hpp>
+#include <heel/apps/report/run_end.hpp>
 
 #include <CLI/CLI.hpp>
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/experiments.hpp"
-#include "apps/experiment/offered_models.hpp"
-#include "apps/heel/commands.hpp"
-#include "apps/heel/experiment_commands.hpp"
-#include "apps/heel/scene_argument.hpp"
+#include <heel/apps/experiment/experiments.hpp>
+#include <heel/apps/experiment/offered_models.hpp>
+#include <heel/apps/heel/commands.hpp>
+#include <heel/apps/heel/experiment_commands.hpp>
+#include <heel/apps/heel/scene_argument.hpp>
 
 #include <CLI/CLI.hpp>
 

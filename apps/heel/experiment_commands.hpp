@@ -5,7 +5,7 @@
 /// The experiments, each a subcommand of `heel experiment`.
 #pragma once
 
-#include "apps/report/output.hpp"
+#include <heel/apps/report/output.hpp>
 
 #include <CLI/App.hpp>
 

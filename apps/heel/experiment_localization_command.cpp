@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/localization_experiment.hpp"
-#include "apps/heel/experiment_commands.hpp"
-#include "apps/heel/scene_argument.hpp"
-#include "apps/report/csv_file.hpp"
-#include "apps/report/progress_bar.hpp"
-#include "apps/report/result_files.hpp"
-#include "apps/report/run_end.hpp"
+#include <heel/apps/experiment/localization_experiment.hpp>
+#include <heel/apps/heel/experiment_commands.hpp>
+#include <heel/apps/heel/scene_argument.hpp>
+#include <heel/apps/report/csv_file.hpp>
+#include <heel/apps/report/progress_bar.hpp>
+#include <heel/apps/report/result_files.hpp>
+#include <heel/apps/report/run_end.hpp>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

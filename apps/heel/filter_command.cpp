@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/clouds/cloud_inputs.hpp"
-#include "apps/heel/cloud_batch.hpp"
-#include "apps/heel/commands.hpp"
-#include "apps/report/output.hpp"
-#include "segmentation/appearance_filter.hpp"
-#include "segmentation/appearance_model_io.hpp"
+#include <heel/apps/clouds/cloud_inputs.hpp>
+#include <heel/apps/heel/cloud_batch.hpp>
+#include <heel/apps/heel/commands.hpp>
+#include <heel/apps/report/output.hpp>
+#include <heel/segmentation/appearance_filter.hpp>
+#include <heel/segmentation/appearance_model_io.hpp>
 
 #include <CLI/CLI.hpp>
 

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/random_episode.hpp"
-#include "apps/heel/bag_options.hpp"
-#include "apps/heel/commands.hpp"
-#include "apps/heel/follow_output.hpp"
-#include "apps/heel/lap_clock.hpp"
-#include "apps/heel/resident_memory.hpp"
-#include "apps/heel/scene_argument.hpp"
-#include "apps/report/progress_bar.hpp"
-#include "apps/report/run_end.hpp"
-#include "planning/plan_file.hpp"
+#include <heel/apps/experiment/random_episode.hpp>
+#include <heel/apps/heel/bag_options.hpp>
+#include <heel/apps/heel/commands.hpp>
+#include <heel/apps/heel/follow_output.hpp>
+#include <heel/apps/heel/lap_clock.hpp>
+#include <heel/apps/heel/resident_memory.hpp>
+#include <heel/apps/heel/scene_argument.hpp>
+#include <heel/apps/report/progress_bar.hpp>
+#include <heel/apps/report/run_end.hpp>
+#include <heel/planning/plan_file.hpp>
 
 #include <CLI/CLI.hpp>
 

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/heel/follow_output.hpp"
-
-#include "apps/report/result_files.hpp"
+#include <heel/apps/heel/follow_output.hpp>
+#include <heel/apps/report/result_files.hpp>
 
 #include <opencv2/imgcodecs.hpp>
 

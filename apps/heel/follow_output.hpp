@@ -5,12 +5,12 @@
 /// The result folder of `heel follow`: report, film, tables and summary.
 #pragma once
 
-#include "apps/experiment/closed_loop.hpp"
-#include "apps/heel/drawn_perception.hpp"
-#include "apps/heel/result_bag.hpp"
-#include "apps/report/follow_page.hpp"
-#include "apps/report/follow_video.hpp"
-#include "apps/report/video_writer.hpp"
+#include <heel/apps/experiment/closed_loop.hpp>
+#include <heel/apps/heel/drawn_perception.hpp>
+#include <heel/apps/heel/result_bag.hpp>
+#include <heel/apps/report/follow_page.hpp>
+#include <heel/apps/report/follow_video.hpp>
+#include <heel/apps/report/video_writer.hpp>
 
 #include <array>
 #include <filesystem>

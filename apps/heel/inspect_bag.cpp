@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/heel/inspect_bag.hpp"
-
-#include "apps/heel/commands.hpp"
-#include "apps/recording/bag_camera.hpp"
-#include "apps/recording/bag_poses.hpp"
+#include <heel/apps/heel/commands.hpp>
+#include <heel/apps/heel/inspect_bag.hpp>
+#include <heel/apps/recording/bag_camera.hpp>
+#include <heel/apps/recording/bag_poses.hpp>
 
 #include <algorithm>
 #include <cstdio>

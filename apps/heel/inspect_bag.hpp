@@ -5,7 +5,7 @@
 /// What `heel inspect` tells of a bag.
 #pragma once
 
-#include "apps/recording/bag_topics.hpp"
+#include <heel/apps/recording/bag_topics.hpp>
 
 #include <filesystem>
 

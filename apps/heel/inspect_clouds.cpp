@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/heel/inspect_clouds.hpp"
-
-#include "apps/clouds/cloud_inputs.hpp"
-#include "apps/follower/depth_images.hpp"
-#include "apps/heel/cloud_batch.hpp"
-#include "apps/recording/pcd_file.hpp"
-#include "cloud/ground_plane.hpp"
-#include "cloud/pinhole_fit.hpp"
+#include <heel/apps/clouds/cloud_inputs.hpp>
+#include <heel/apps/follower/depth_images.hpp>
+#include <heel/apps/heel/cloud_batch.hpp>
+#include <heel/apps/heel/inspect_clouds.hpp>
+#include <heel/apps/recording/pcd_file.hpp>
+#include <heel/cloud/ground_plane.hpp>
+#include <heel/cloud/pinhole_fit.hpp>
 
 #include <opencv2/imgproc.hpp>
 #include <pcl/common/common.h>

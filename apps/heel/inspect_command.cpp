@@ -1,24 +1,24 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/bag/bag.hpp"
-#include "apps/clouds/cloud_inputs.hpp"
-#include "apps/follower/camera_setup.hpp"
-#include "apps/follower/depth_images.hpp"
-#include "apps/heel/bag_options.hpp"
-#include "apps/heel/commands.hpp"
-#include "apps/heel/inspect_bag.hpp"
-#include "apps/heel/inspect_clouds.hpp"
-#include "apps/heel/inspect_plan.hpp"
-#include "apps/mapper/map_picture.hpp"
-#include "apps/recording/cloud_file.hpp"
-#include "apps/recording/folder_files.hpp"
-#include "apps/report/drawing.hpp"
-#include "apps/report/video_writer.hpp"
-#include "mapping/map_server_file.hpp"
-#include "mapping/wall_map_file.hpp"
-#include "segmentation/appearance_model_io.hpp"
-#include "segmentation/appearance_picture.hpp"
+#include <heel/apps/bag/bag.hpp>
+#include <heel/apps/clouds/cloud_inputs.hpp>
+#include <heel/apps/follower/camera_setup.hpp>
+#include <heel/apps/follower/depth_images.hpp>
+#include <heel/apps/heel/bag_options.hpp>
+#include <heel/apps/heel/commands.hpp>
+#include <heel/apps/heel/inspect_bag.hpp>
+#include <heel/apps/heel/inspect_clouds.hpp>
+#include <heel/apps/heel/inspect_plan.hpp>
+#include <heel/apps/mapper/map_picture.hpp>
+#include <heel/apps/recording/cloud_file.hpp>
+#include <heel/apps/recording/folder_files.hpp>
+#include <heel/apps/report/drawing.hpp>
+#include <heel/apps/report/video_writer.hpp>
+#include <heel/mapping/map_server_file.hpp>
+#include <heel/mapping/wall_map_file.hpp>
+#include <heel/segmentation/appearance_model_io.hpp>
+#include <heel/segmentation/appearance_picture.hpp>
 
 #include <CLI/CLI.hpp>
 #include <opencv2/imgproc.hpp>

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/heel/inspect_plan.hpp"
-
-#include "apps/report/plan_net_picture.hpp"
-#include "planning/following_plan.hpp"
-#include "planning/plan_checks.hpp"
-#include "planning/plan_file.hpp"
+#include <heel/apps/heel/inspect_plan.hpp>
+#include <heel/apps/report/plan_net_picture.hpp>
+#include <heel/planning/following_plan.hpp>
+#include <heel/planning/plan_checks.hpp>
+#include <heel/planning/plan_file.hpp>
 
 #include <cstdio>
 #include <string>

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/follower/learn_person.hpp"
-#include "apps/heel/bag_options.hpp"
-#include "apps/heel/commands.hpp"
-#include "apps/heel/robot_places.hpp"
-#include "apps/report/annotate.hpp"
-#include "apps/report/progress_bar.hpp"
-#include "apps/report/run_end.hpp"
-#include "apps/report/video_writer.hpp"
-#include "segmentation/appearance_model_io.hpp"
-#include "segmentation/appearance_picture.hpp"
+#include <heel/apps/follower/learn_person.hpp>
+#include <heel/apps/heel/bag_options.hpp>
+#include <heel/apps/heel/commands.hpp>
+#include <heel/apps/heel/robot_places.hpp>
+#include <heel/apps/report/annotate.hpp>
+#include <heel/apps/report/progress_bar.hpp>
+#include <heel/apps/report/run_end.hpp>
+#include <heel/apps/report/video_writer.hpp>
+#include <heel/segmentation/appearance_model_io.hpp>
+#include <heel/segmentation/appearance_picture.hpp>
 
 #include <CLI/CLI.hpp>
 

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/log_localization.hpp"
-#include "apps/heel/bag_options.hpp"
-#include "apps/heel/commands.hpp"
-#include "apps/heel/localize_output.hpp"
-#include "apps/heel/scene_argument.hpp"
-#include "apps/report/run_end.hpp"
-#include "apps/simulation/scene_grid.hpp"
-#include "mapping/map_server_file.hpp"
+#include <heel/apps/experiment/log_localization.hpp>
+#include <heel/apps/heel/bag_options.hpp>
+#include <heel/apps/heel/commands.hpp>
+#include <heel/apps/heel/localize_output.hpp>
+#include <heel/apps/heel/scene_argument.hpp>
+#include <heel/apps/report/run_end.hpp>
+#include <heel/apps/simulation/scene_grid.hpp>
+#include <heel/mapping/map_server_file.hpp>
 
 #include <CLI/CLI.hpp>
 

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/heel/localize_output.hpp"
-
-#include "apps/report/drawing.hpp"
-#include "apps/report/result_files.hpp"
-#include "apps/report/video_writer.hpp"
+#include <heel/apps/heel/localize_output.hpp>
+#include <heel/apps/report/drawing.hpp>
+#include <heel/apps/report/result_files.hpp>
+#include <heel/apps/report/video_writer.hpp>
 
 #include <nlohmann/json.hpp>
 

@@ -5,8 +5,8 @@
 /// What `heel localize` writes.
 #pragma once
 
-#include "apps/experiment/log_localization.hpp"
-#include "apps/report/csv_file.hpp"
+#include <heel/apps/experiment/log_localization.hpp>
+#include <heel/apps/report/csv_file.hpp>
 
 #include <filesystem>
 #include <vector>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/heel/commands.hpp"
-#include "apps/report/run_end.hpp"
-#include "apps/report/terminal.hpp"
+#include <heel/apps/heel/commands.hpp>
+#include <heel/apps/report/run_end.hpp>
+#include <heel/apps/report/terminal.hpp>
 
 #include <CLI/CLI.hpp>
 #include <opencv2/core.hpp>

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/heel/bag_options.hpp"
-#include "apps/heel/commands.hpp"
-#include "apps/heel/scene_argument.hpp"
-#include "apps/mapper/map_picture.hpp"
-#include "apps/mapper/map_source.hpp"
-#include "apps/report/progress_bar.hpp"
-#include "apps/report/run_end.hpp"
-#include "apps/report/video_writer.hpp"
-#include "mapping/map_server_file.hpp"
-#include "mapping/wall_map_file.hpp"
+#include <heel/apps/heel/bag_options.hpp>
+#include <heel/apps/heel/commands.hpp>
+#include <heel/apps/heel/scene_argument.hpp>
+#include <heel/apps/mapper/map_picture.hpp>
+#include <heel/apps/mapper/map_source.hpp>
+#include <heel/apps/report/progress_bar.hpp>
+#include <heel/apps/report/run_end.hpp>
+#include <heel/apps/report/video_writer.hpp>
+#include <heel/mapping/map_server_file.hpp>
+#include <heel/mapping/wall_map_file.hpp>
 
 #include <CLI/CLI.hpp>
 

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/heel/commands.hpp"
-#include "apps/heel/scene_argument.hpp"
-#include "apps/mapper/map_source.hpp"
-#include "apps/report/csv_file.hpp"
-#include "apps/report/drawing.hpp"
-#include "apps/report/result_files.hpp"
-#include "apps/report/run_end.hpp"
-#include "apps/report/video_writer.hpp"
-#include "planning/global_planner.hpp"
+#include <heel/apps/heel/commands.hpp>
+#include <heel/apps/heel/scene_argument.hpp>
+#include <heel/apps/mapper/map_source.hpp>
+#include <heel/apps/report/csv_file.hpp>
+#include <heel/apps/report/drawing.hpp>
+#include <heel/apps/report/result_files.hpp>
+#include <heel/apps/report/run_end.hpp>
+#include <heel/apps/report/video_writer.hpp>
+#include <heel/planning/global_planner.hpp>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

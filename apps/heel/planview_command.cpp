@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/clouds/cloud_inputs.hpp"
-#include "apps/clouds/cloud_plan.hpp"
-#include "apps/clouds/plan_view_picture.hpp"
-#include "apps/heel/cloud_batch.hpp"
-#include "apps/heel/commands.hpp"
-#include "apps/report/video_writer.hpp"
-#include "segmentation/appearance_model_io.hpp"
+#include <heel/apps/clouds/cloud_inputs.hpp>
+#include <heel/apps/clouds/cloud_plan.hpp>
+#include <heel/apps/clouds/plan_view_picture.hpp>
+#include <heel/apps/heel/cloud_batch.hpp>
+#include <heel/apps/heel/commands.hpp>
+#include <heel/apps/report/video_writer.hpp>
+#include <heel/segmentation/appearance_model_io.hpp>
 
 #include <CLI/CLI.hpp>
 

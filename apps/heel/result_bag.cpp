@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/heel/result_bag.hpp"
-
-#include "apps/recording/bag_poses.hpp"
+#include <heel/apps/heel/result_bag.hpp>
+#include <heel/apps/recording/bag_poses.hpp>
 
 #include <opencv2/imgcodecs.hpp>
 

@@ -5,12 +5,12 @@
 /// Results as a bag with standard messages.
 #pragma once
 
-#include "apps/bag/bag.hpp"
-#include "mapping/floor_pose.hpp"
-#include "mapping/occupancy_grid.hpp"
-#include "planning/path.hpp"
-#include "tracking/target.hpp"
-#include "tracking/tracker.hpp"
+#include <heel/apps/bag/bag.hpp>
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/occupancy_grid.hpp>
+#include <heel/planning/path.hpp>
+#include <heel/tracking/target.hpp>
+#include <heel/tracking/tracker.hpp>
 
 #include <opencv2/core/mat.hpp>
 

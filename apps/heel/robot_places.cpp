@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/heel/robot_places.hpp"
-
-#include "apps/follower/wall_gate.hpp"
-#include "segmentation/plan_view.hpp"
+#include <heel/apps/follower/wall_gate.hpp>
+#include <heel/apps/heel/robot_places.hpp>
+#include <heel/segmentation/plan_view.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,10 +5,10 @@
 /// Where the robot of a recording was at each of its frames.
 #pragma once
 
-#include "apps/follower/camera_setup.hpp"
-#include "apps/follower/depth_images.hpp"
-#include "cloud/still_check.hpp"
-#include "mapping/floor_pose.hpp"
+#include <heel/apps/follower/camera_setup.hpp>
+#include <heel/apps/follower/depth_images.hpp>
+#include <heel/cloud/still_check.hpp>
+#include <heel/mapping/floor_pose.hpp>
 
 #include <optional>
 #include <string>

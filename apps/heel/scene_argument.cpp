@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/heel/scene_argument.hpp"
+#include <heel/apps/heel/scene_argument.hpp>
 
 #include <CLI/CLI.hpp>
 

@@ -5,7 +5,7 @@
 /// Scenes, maps and plans, as users name them.
 #pragma once
 
-#include "apps/simulation/scene.hpp"
+#include <heel/apps/simulation/scene.hpp>
 
 #include <filesystem>
 #include <string>

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/roaming_driver.hpp"
-#include "apps/heel/commands.hpp"
-#include "apps/heel/scene_argument.hpp"
-#include "apps/recording/stamps.hpp"
-#include "apps/report/progress_bar.hpp"
-#include "apps/report/run_end.hpp"
-#include "apps/simulation/path_driver.hpp"
-#include "apps/simulation/simulate.hpp"
+#include <heel/apps/experiment/roaming_driver.hpp>
+#include <heel/apps/heel/commands.hpp>
+#include <heel/apps/heel/scene_argument.hpp>
+#include <heel/apps/recording/stamps.hpp>
+#include <heel/apps/report/progress_bar.hpp>
+#include <heel/apps/report/run_end.hpp>
+#include <heel/apps/simulation/path_driver.hpp>
+#include <heel/apps/simulation/simulate.hpp>
 
 #include <CLI/CLI.hpp>
 

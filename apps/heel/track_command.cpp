@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/follower/perception.hpp"
-#include "apps/heel/bag_options.hpp"
-#include "apps/heel/commands.hpp"
-#include "apps/heel/lap_clock.hpp"
-#include "apps/heel/robot_places.hpp"
-#include "apps/heel/track_output.hpp"
-#include "apps/report/progress_bar.hpp"
-#include "apps/report/run_end.hpp"
-#include "segmentation/appearance_model_io.hpp"
+#include <heel/apps/follower/perception.hpp>
+#include <heel/apps/heel/bag_options.hpp>
+#include <heel/apps/heel/commands.hpp>
+#include <heel/apps/heel/lap_clock.hpp>
+#include <heel/apps/heel/robot_places.hpp>
+#include <heel/apps/heel/track_output.hpp>
+#include <heel/apps/report/progress_bar.hpp>
+#include <heel/apps/report/run_end.hpp>
+#include <heel/segmentation/appearance_model_io.hpp>
 
 #include <CLI/CLI.hpp>
 

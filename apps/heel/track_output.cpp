@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/heel/track_output.hpp"
+#include <heel/apps/heel/track_output.hpp>
 
 #include <nlohmann/json.hpp>
 

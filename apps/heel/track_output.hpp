@@ -5,11 +5,11 @@
 /// The result folder of `heel track`: tables, film, stills and summary.
 #pragma once
 
-#include "apps/follower/perception.hpp"
-#include "apps/heel/drawn_perception.hpp"
-#include "apps/heel/result_bag.hpp"
-#include "apps/report/result_files.hpp"
-#include "apps/report/video_writer.hpp"
+#include <heel/apps/follower/perception.hpp>
+#include <heel/apps/heel/drawn_perception.hpp>
+#include <heel/apps/heel/result_bag.hpp>
+#include <heel/apps/report/result_files.hpp>
+#include <heel/apps/report/video_writer.hpp>
 
 #include <Eigen/Geometry>
 

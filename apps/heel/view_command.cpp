@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/follower/depth_images.hpp"
-#include "apps/heel/bag_options.hpp"
-#include "apps/heel/commands.hpp"
-#include "apps/heel/drawn_perception.hpp"
-#include "apps/heel/robot_places.hpp"
-#include "apps/heel/scene_argument.hpp"
-#include "apps/mapper/map_source.hpp"
-#include "apps/report/progress_bar.hpp"
-#include "apps/report/run_end.hpp"
-#include "apps/report/video_writer.hpp"
-#include "apps/view/scene_picture.hpp"
-#include "apps/view/scene_window.hpp"
-#include "segmentation/appearance_model_io.hpp"
+#include <heel/apps/follower/depth_images.hpp>
+#include <heel/apps/heel/bag_options.hpp>
+#include <heel/apps/heel/commands.hpp>
+#include <heel/apps/heel/drawn_perception.hpp>
+#include <heel/apps/heel/robot_places.hpp>
+#include <heel/apps/heel/scene_argument.hpp>
+#include <heel/apps/mapper/map_source.hpp>
+#include <heel/apps/report/progress_bar.hpp>
+#include <heel/apps/report/run_end.hpp>
+#include <heel/apps/report/video_writer.hpp>
+#include <heel/apps/view/scene_picture.hpp>
+#include <heel/apps/view/scene_window.hpp>
+#include <heel/segmentation/appearance_model_io.hpp>
 
 #include <CLI/CLI.hpp>
 #include <pcl/common/transforms.h>

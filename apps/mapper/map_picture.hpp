@@ -5,7 +5,7 @@
 /// Floor plans as pictures and in words.
 #pragma once
 
-#include "mapping/occupancy_grid.hpp"
+#include <heel/mapping/occupancy_grid.hpp>
 
 #include <opencv2/core/mat.hpp>
 

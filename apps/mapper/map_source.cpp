@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/mapper/map_source.hpp"
-
-#include "apps/bag/bag.hpp"
-#include "apps/mapper/recorded_map.hpp"
-#include "apps/recording/image_file.hpp"
-#include "apps/simulation/scene_map.hpp"
-#include "mapping/map_server_file.hpp"
-#include "mapping/wall_map_builder.hpp"
-#include "mapping/wall_map_file.hpp"
+#include <heel/apps/bag/bag.hpp>
+#include <heel/apps/mapper/map_source.hpp>
+#include <heel/apps/mapper/recorded_map.hpp>
+#include <heel/apps/recording/image_file.hpp>
+#include <heel/apps/simulation/scene_map.hpp>
+#include <heel/mapping/map_server_file.hpp>
+#include <heel/mapping/wall_map_builder.hpp>
+#include <heel/mapping/wall_map_file.hpp>
 
 #include <stdexcept>
 

@@ -5,8 +5,8 @@
 /// Whatever a map can be made of, as a wall map.
 #pragma once
 
-#include "apps/recording/bag_topics.hpp"
-#include "mapping/wall_map.hpp"
+#include <heel/apps/recording/bag_topics.hpp>
+#include <heel/mapping/wall_map.hpp>
 
 #include <filesystem>
 #include <functional>

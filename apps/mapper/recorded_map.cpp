@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/mapper/recorded_map.hpp"
-
-#include "apps/follower/camera_setup.hpp"
-#include "apps/follower/depth_images.hpp"
-#include "apps/recording/bag_odometry.hpp"
-#include "apps/report/csv_file.hpp"
-#include "mapping/floor_pose.hpp"
-#include "mapping/wall_map_builder.hpp"
+#include <heel/apps/follower/camera_setup.hpp>
+#include <heel/apps/follower/depth_images.hpp>
+#include <heel/apps/mapper/recorded_map.hpp>
+#include <heel/apps/recording/bag_odometry.hpp>
+#include <heel/apps/report/csv_file.hpp>
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/wall_map_builder.hpp>
 
 #include <algorithm>
 #include <cmath>

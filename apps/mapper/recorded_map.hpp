@@ -5,8 +5,8 @@
 /// A wall map from what a camera saw on its way.
 #pragma once
 
-#include "apps/recording/bag_topics.hpp"
-#include "mapping/wall_map.hpp"
+#include <heel/apps/recording/bag_topics.hpp>
+#include <heel/mapping/wall_map.hpp>
 
 #include <cstddef>
 #include <filesystem>

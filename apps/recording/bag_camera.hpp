@@ -5,9 +5,9 @@
 /// Which topics of a bag are the robot's camera, laser and odometry.
 #pragma once
 
-#include "apps/recording/bag_survey.hpp"
-#include "apps/recording/bag_topics.hpp"
-#include "apps/recording/recording.hpp"
+#include <heel/apps/recording/bag_survey.hpp>
+#include <heel/apps/recording/bag_topics.hpp>
+#include <heel/apps/recording/recording.hpp>
 
 #include <optional>
 #include <string>

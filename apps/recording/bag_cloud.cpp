@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/bag_cloud.hpp"
+#include <heel/apps/recording/bag_cloud.hpp>
 
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/common/io.h>

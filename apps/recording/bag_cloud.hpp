@@ -5,8 +5,8 @@
 /// The clouds of messages.
 #pragma once
 
-#include "apps/bag/messages.hpp"
-#include "cloud/color_cloud.hpp"
+#include <heel/apps/bag/messages.hpp>
+#include <heel/cloud/color_cloud.hpp>
 
 namespace heel {
 

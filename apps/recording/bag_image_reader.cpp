@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/bag_image_reader.hpp"
-
-#include "apps/recording/image_file.hpp"
+#include <heel/apps/recording/bag_image_reader.hpp>
+#include <heel/apps/recording/image_file.hpp>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>

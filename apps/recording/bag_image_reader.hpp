@@ -5,7 +5,7 @@
 /// The images of messages.
 #pragma once
 
-#include "apps/bag/messages.hpp"
+#include <heel/apps/bag/messages.hpp>
 
 #include <opencv2/core/mat.hpp>
 

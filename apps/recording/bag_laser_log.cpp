@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/bag_laser_log.hpp"
-
-#include "apps/recording/bag_camera.hpp"
-#include "apps/recording/bag_poses.hpp"
+#include <heel/apps/recording/bag_camera.hpp>
+#include <heel/apps/recording/bag_laser_log.hpp>
+#include <heel/apps/recording/bag_poses.hpp>
 
 #include <cmath>
 #include <limits>

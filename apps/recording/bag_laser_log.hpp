@@ -5,8 +5,8 @@
 /// The laser scans of a bag.
 #pragma once
 
-#include "apps/recording/bag_odometry.hpp"
-#include "apps/recording/laser_log.hpp"
+#include <heel/apps/recording/bag_odometry.hpp>
+#include <heel/apps/recording/laser_log.hpp>
 
 #include <memory>
 

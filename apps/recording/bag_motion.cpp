@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/bag_motion.hpp"
-
-#include "apps/recording/bag_camera.hpp"
-#include "apps/recording/bag_odometry.hpp"
-#include "apps/recording/bag_poses.hpp"
+#include <heel/apps/recording/bag_camera.hpp>
+#include <heel/apps/recording/bag_motion.hpp>
+#include <heel/apps/recording/bag_odometry.hpp>
+#include <heel/apps/recording/bag_poses.hpp>
 
 #include <algorithm>
 #include <array>

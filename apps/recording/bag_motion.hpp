@@ -5,9 +5,9 @@
 /// How a robot moved, from the odometry and the tf of its bag.
 #pragma once
 
-#include "apps/recording/bag_survey.hpp"
-#include "apps/recording/bag_topics.hpp"
-#include "apps/recording/robot_motion.hpp"
+#include <heel/apps/recording/bag_survey.hpp>
+#include <heel/apps/recording/bag_topics.hpp>
+#include <heel/apps/recording/robot_motion.hpp>
 
 #include <filesystem>
 #include <map>

@@ -5,9 +5,9 @@
 /// Where the robot was, as a bag tells.
 #pragma once
 
-#include "apps/recording/bag_survey.hpp"
-#include "apps/recording/bag_topics.hpp"
-#include "mapping/floor_pose.hpp"
+#include <heel/apps/recording/bag_survey.hpp>
+#include <heel/apps/recording/bag_topics.hpp>
+#include <heel/mapping/floor_pose.hpp>
 
 #include <deque>
 #include <filesystem>

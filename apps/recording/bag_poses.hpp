@@ -5,8 +5,8 @@
 /// Between the poses of messages and ours.
 #pragma once
 
-#include "apps/bag/messages.hpp"
-#include "mapping/floor_pose.hpp"
+#include <heel/apps/bag/messages.hpp>
+#include <heel/mapping/floor_pose.hpp>
 
 #include <Eigen/Geometry>
 

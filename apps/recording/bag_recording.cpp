@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/bag_recording.hpp"
-
-#include "apps/recording/bag_cloud.hpp"
-#include "apps/recording/bag_poses.hpp"
-#include "apps/recording/pcd_file.hpp"
-#include "cloud/image_extent.hpp"
+#include <heel/apps/recording/bag_cloud.hpp>
+#include <heel/apps/recording/bag_poses.hpp>
+#include <heel/apps/recording/bag_recording.hpp>
+#include <heel/apps/recording/pcd_file.hpp>
+#include <heel/cloud/image_extent.hpp>
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>

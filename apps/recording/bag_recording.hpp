@@ -5,12 +5,12 @@
 /// Bags as recordings.
 #pragma once
 
-#include "apps/recording/bag_camera.hpp"
-#include "apps/recording/bag_image_reader.hpp"
-#include "apps/recording/bag_motion.hpp"
-#include "apps/recording/recording.hpp"
-#include "apps/recording/stamp_order.hpp"
-#include "cloud/stereo_rig.hpp"
+#include <heel/apps/recording/bag_camera.hpp>
+#include <heel/apps/recording/bag_image_reader.hpp>
+#include <heel/apps/recording/bag_motion.hpp>
+#include <heel/apps/recording/recording.hpp>
+#include <heel/apps/recording/stamp_order.hpp>
+#include <heel/cloud/stereo_rig.hpp>
 
 #include <deque>
 #include <filesystem>

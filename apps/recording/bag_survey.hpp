@@ -5,7 +5,7 @@
 /// What is in a bag: one look at all of its messages.
 #pragma once
 
-#include "apps/bag/bag.hpp"
+#include <heel/apps/bag/bag.hpp>
 
 #include <Eigen/Geometry>
 

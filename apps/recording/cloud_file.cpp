@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/cloud_file.hpp"
-
-#include "apps/recording/pcd_header.hpp"
-#include "apps/recording/ply_reader.hpp"
-#include "apps/recording/ply_writer.hpp"
-#include "apps/recording/quiet_pcl.hpp"
+#include <heel/apps/recording/cloud_file.hpp>
+#include <heel/apps/recording/pcd_header.hpp>
+#include <heel/apps/recording/ply_reader.hpp>
+#include <heel/apps/recording/ply_writer.hpp>
+#include <heel/apps/recording/quiet_pcl.hpp>
 
 #include <pcl/common/io.h>
 #include <pcl/common/point_tests.h>

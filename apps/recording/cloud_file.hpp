@@ -5,7 +5,7 @@
 /// PCD and PLY files, whatever their fields, checked.
 #pragma once
 
-#include "cloud/color_cloud.hpp"
+#include <heel/cloud/color_cloud.hpp>
 
 #include <Eigen/Geometry>
 #include <pcl/PCLPointCloud2.h>

@@ -5,8 +5,8 @@
 /// What all recordings share whose frames are files of their own.
 #pragma once
 
-#include "apps/recording/recording.hpp"
-#include "apps/recording/stamp_order.hpp"
+#include <heel/apps/recording/recording.hpp>
+#include <heel/apps/recording/stamp_order.hpp>
 
 #include <cstddef>
 #include <filesystem>

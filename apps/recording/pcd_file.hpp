@@ -5,7 +5,7 @@
 /// PCD files with colours, checked.
 #pragma once
 
-#include "apps/recording/cloud_file.hpp"
+#include <heel/apps/recording/cloud_file.hpp>
 
 #include <opencv2/core/mat.hpp>
 

@@ -5,7 +5,7 @@
 /// What the head of a PCD file says, read before PCL sees the file.
 #pragma once
 
-#include "apps/recording/cloud_file.hpp"
+#include <heel/apps/recording/cloud_file.hpp>
 
 #include <cstddef>
 #include <filesystem>

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/pcd_recording.hpp"
-
-#include "apps/recording/camera_file.hpp"
-#include "apps/recording/folder_files.hpp"
-#include "apps/recording/pcd_file.hpp"
-#include "apps/recording/stamps.hpp"
+#include <heel/apps/recording/camera_file.hpp>
+#include <heel/apps/recording/folder_files.hpp>
+#include <heel/apps/recording/pcd_file.hpp>
+#include <heel/apps/recording/pcd_recording.hpp>
+#include <heel/apps/recording/stamps.hpp>
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 /// PCD files: a folder of them, or one.
 #pragma once
 
-#include "apps/recording/indexed_recording.hpp"
+#include <heel/apps/recording/indexed_recording.hpp>
 
 #include <filesystem>
 #include <memory>

@@ -6,8 +6,8 @@
 /// expect.
 #pragma once
 
-#include "apps/recording/cloud_file.hpp"
-#include "apps/recording/ply_header.hpp"
+#include <heel/apps/recording/cloud_file.hpp>
+#include <heel/apps/recording/ply_header.hpp>
 
 #include <filesystem>
 

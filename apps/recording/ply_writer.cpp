@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/ply_writer.hpp"
+#include <heel/apps/recording/ply_writer.hpp>
 
 #include <pcl/PCLPointField.h>
 #include <pcl/common/io.h>

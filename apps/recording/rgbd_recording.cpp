@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/rgbd_recording.hpp"
-
-#include "apps/recording/camera_file.hpp"
+#include <heel/apps/recording/camera_file.hpp>
+#include <heel/apps/recording/rgbd_recording.hpp>
 
 #include <stdexcept>
 #include <utility>

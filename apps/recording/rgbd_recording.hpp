@@ -5,9 +5,9 @@
 /// RGB-D folders in the layout of the TUM benchmark.
 #pragma once
 
-#include "apps/recording/image_file.hpp"
-#include "apps/recording/indexed_recording.hpp"
-#include "apps/recording/stamps.hpp"
+#include <heel/apps/recording/image_file.hpp>
+#include <heel/apps/recording/indexed_recording.hpp>
+#include <heel/apps/recording/stamps.hpp>
 
 #include <filesystem>
 #include <memory>

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/sensor_bag.hpp"
-
-#include "apps/recording/bag_cloud.hpp"
-#include "apps/recording/bag_poses.hpp"
+#include <heel/apps/recording/bag_cloud.hpp>
+#include <heel/apps/recording/bag_poses.hpp>
+#include <heel/apps/recording/sensor_bag.hpp>
 
 #include <opencv2/imgcodecs.hpp>
 

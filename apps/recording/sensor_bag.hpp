@@ -5,10 +5,10 @@
 /// What a robot's sensors measured, as a bag.
 #pragma once
 
-#include "apps/bag/bag.hpp"
-#include "apps/recording/recording.hpp"
-#include "mapping/floor_pose.hpp"
-#include "mapping/laser_scan.hpp"
+#include <heel/apps/bag/bag.hpp>
+#include <heel/apps/recording/recording.hpp>
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/laser_scan.hpp>
 
 #include <filesystem>
 #include <memory>

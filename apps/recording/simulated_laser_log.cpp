@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/simulated_laser_log.hpp"
-
-#include "cloud/file_limits.hpp"
+#include <heel/apps/recording/simulated_laser_log.hpp>
+#include <heel/cloud/file_limits.hpp>
 
 #include <charconv>
 #include <limits>

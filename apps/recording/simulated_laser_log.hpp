@@ -5,7 +5,7 @@
 /// The laser scans of a recording made by `heel simulate`.
 #pragma once
 
-#include "apps/recording/laser_log.hpp"
+#include <heel/apps/recording/laser_log.hpp>
 
 #include <fstream>
 #include <string>

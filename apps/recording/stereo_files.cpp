@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/stereo_files.hpp"
-
-#include "apps/recording/folder_files.hpp"
-#include "apps/recording/image_file.hpp"
-#include "apps/recording/stamps.hpp"
+#include <heel/apps/recording/folder_files.hpp>
+#include <heel/apps/recording/image_file.hpp>
+#include <heel/apps/recording/stamps.hpp>
+#include <heel/apps/recording/stereo_files.hpp>
 
 #include <algorithm>
 #include <array>

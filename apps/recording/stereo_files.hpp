@@ -5,7 +5,7 @@
 /// Which images of a folder are a stereo pair, and when they were taken.
 #pragma once
 
-#include "apps/recording/recording.hpp"
+#include <heel/apps/recording/recording.hpp>
 
 #include <filesystem>
 #include <optional>

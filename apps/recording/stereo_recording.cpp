@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/stereo_recording.hpp"
-
-#include "apps/recording/camera_file.hpp"
-#include "cloud/stereo_calibration.hpp"
+#include <heel/apps/recording/camera_file.hpp>
+#include <heel/apps/recording/stereo_recording.hpp>
+#include <heel/cloud/stereo_calibration.hpp>
 
 #include <stdexcept>
 #include <utility>

@@ -5,10 +5,10 @@
 /// Folders of stereo images.
 #pragma once
 
-#include "apps/recording/image_file.hpp"
-#include "apps/recording/indexed_recording.hpp"
-#include "apps/recording/stereo_files.hpp"
-#include "cloud/stereo_rig.hpp"
+#include <heel/apps/recording/image_file.hpp>
+#include <heel/apps/recording/indexed_recording.hpp>
+#include <heel/apps/recording/stereo_files.hpp>
+#include <heel/cloud/stereo_rig.hpp>
 
 #include <filesystem>
 #include <memory>

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/annotate.hpp"
-
-#include "apps/report/csv_file.hpp"
-#include "apps/report/image_picture.hpp"
-#include "apps/report/picture_frame.hpp"
-#include "apps/report/plan_picture.hpp"
+#include <heel/apps/report/annotate.hpp>
+#include <heel/apps/report/csv_file.hpp>
+#include <heel/apps/report/image_picture.hpp>
+#include <heel/apps/report/picture_frame.hpp>
+#include <heel/apps/report/plan_picture.hpp>
 
 #include <cmath>
 #include <stdexcept>

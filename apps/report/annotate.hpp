@@ -5,7 +5,7 @@
 /// One frame and what was made of it, as a picture.
 #pragma once
 
-#include "cloud/pinhole_camera.hpp"
+#include <heel/cloud/pinhole_camera.hpp>
 
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>

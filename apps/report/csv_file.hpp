@@ -5,7 +5,7 @@
 /// Tables as comma-separated text, the same bytes on every run.
 #pragma once
 
-#include "apps/report/output.hpp"
+#include <heel/apps/report/output.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/follow_experiment_page.hpp"
+#include <heel/apps/report/csv_file.hpp>
+#include <heel/apps/report/follow_experiment_page.hpp>
+#include <heel/apps/report/follow_page.hpp>
+#include <heel/apps/report/histogram.hpp>
+#include <heel/apps/report/html.hpp>
+#include <heel/apps/report/page_parts.hpp>
 
-#include "apps/report/csv_file.hpp"
-#include "apps/report/follow_page.hpp"
-#include "apps/report/histogram.hpp"
-#include "apps/report/html.hpp"
-#include "apps/report/page_assets.hpp"
-#include "apps/report/page_parts.hpp"
+#include "page_assets.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 /// Many runs of following as one HTML page that needs nothing else.
 #pragma once
 
-#include "apps/report/follow_summary.hpp"
-#include "apps/report/output.hpp"
+#include <heel/apps/report/follow_summary.hpp>
+#include <heel/apps/report/output.hpp>
 
 #include <filesystem>
 #include <string>

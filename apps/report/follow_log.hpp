@@ -5,9 +5,9 @@
 /// All that a run of following leaves to be told: one sample a control step, with the truth.
 #pragma once
 
-#include "mapping/floor_pose.hpp"
-#include "mapping/occupancy_grid.hpp"
-#include "planning/velocity_command.hpp"
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/occupancy_grid.hpp>
+#include <heel/planning/velocity_command.hpp>
 
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>

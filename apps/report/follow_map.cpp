@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/follow_map.hpp"
-
-#include "apps/report/csv_file.hpp"
-#include "apps/report/html.hpp"
-#include "apps/report/map_drawing.hpp"
-#include "apps/report/time_scale.hpp"
+#include <heel/apps/report/csv_file.hpp>
+#include <heel/apps/report/follow_map.hpp>
+#include <heel/apps/report/html.hpp>
+#include <heel/apps/report/map_drawing.hpp>
+#include <heel/apps/report/time_scale.hpp>
 
 #include <algorithm>
 #include <cmath>

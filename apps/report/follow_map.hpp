@@ -5,7 +5,7 @@
 /// A run of following on the map, as the paper's Figure 4 shows it.
 #pragma once
 
-#include "apps/report/follow_log.hpp"
+#include <heel/apps/report/follow_log.hpp>
 
 #include <Eigen/Geometry>
 

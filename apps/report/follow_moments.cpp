@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/follow_moments.hpp"
-
-#include "apps/report/html.hpp"
+#include <heel/apps/report/follow_moments.hpp>
+#include <heel/apps/report/html.hpp>
 
 #include <nlohmann/json.hpp>
 

@@ -5,9 +5,9 @@
 /// The moments of a run, for the script of its page.
 #pragma once
 
-#include "apps/report/follow_log.hpp"
-#include "apps/report/follow_map.hpp"
-#include "apps/report/state_tones.hpp"
+#include <heel/apps/report/follow_log.hpp>
+#include <heel/apps/report/follow_map.hpp>
+#include <heel/apps/report/state_tones.hpp>
 
 #include <cstddef>
 #include <string>

@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/follow_page.hpp"
+#include <heel/apps/report/csv_file.hpp>
+#include <heel/apps/report/follow_map.hpp>
+#include <heel/apps/report/follow_moments.hpp>
+#include <heel/apps/report/follow_page.hpp>
+#include <heel/apps/report/html.hpp>
+#include <heel/apps/report/page_parts.hpp>
+#include <heel/apps/report/state_tones.hpp>
+#include <heel/apps/report/time_scale.hpp>
 
-#include "apps/report/csv_file.hpp"
-#include "apps/report/follow_map.hpp"
-#include "apps/report/follow_moments.hpp"
-#include "apps/report/html.hpp"
-#include "apps/report/page_assets.hpp"
-#include "apps/report/page_parts.hpp"
-#include "apps/report/state_tones.hpp"
-#include "apps/report/time_scale.hpp"
-
+#include "page_assets.hpp"
 #include <nlohmann/json.hpp>
 
 #include <cmath>

@@ -5,9 +5,9 @@
 /// A run of following as one HTML page that needs nothing else.
 #pragma once
 
-#include "apps/report/annotate.hpp"
-#include "apps/report/follow_summary.hpp"
-#include "apps/report/output.hpp"
+#include <heel/apps/report/annotate.hpp>
+#include <heel/apps/report/follow_summary.hpp>
+#include <heel/apps/report/output.hpp>
 
 #include <filesystem>
 #include <string>

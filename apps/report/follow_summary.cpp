@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/follow_summary.hpp"
-
-#include "apps/report/csv_file.hpp"
-#include "apps/report/result_files.hpp"
+#include <heel/apps/report/csv_file.hpp>
+#include <heel/apps/report/follow_summary.hpp>
+#include <heel/apps/report/result_files.hpp>
 
 #include <nlohmann/json.hpp>
 

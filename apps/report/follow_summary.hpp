@@ -5,8 +5,8 @@
 /// The figures of a run of following, and its result files.
 #pragma once
 
-#include "apps/report/follow_log.hpp"
-#include "apps/report/output.hpp"
+#include <heel/apps/report/follow_log.hpp>
+#include <heel/apps/report/output.hpp>
 
 #include <nlohmann/json_fwd.hpp>
 

@@ -5,9 +5,9 @@
 /// One moment of following as a picture of a film: what the robot sees, and where everybody is.
 #pragma once
 
-#include "apps/report/annotate.hpp"
-#include "mapping/floor_pose.hpp"
-#include "mapping/occupancy_grid.hpp"
+#include <heel/apps/report/annotate.hpp>
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/occupancy_grid.hpp>
 
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>

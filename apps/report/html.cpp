@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/html.hpp"
-
-#include "apps/report/csv_file.hpp"
+#include <heel/apps/report/csv_file.hpp>
+#include <heel/apps/report/html.hpp>
 
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>

@@ -5,7 +5,7 @@
 /// The image's half of an annotated picture.
 #pragma once
 
-#include "apps/report/annotate.hpp"
+#include <heel/apps/report/annotate.hpp>
 
 namespace heel {
 

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/map_drawing.hpp"
-
-#include "apps/report/csv_file.hpp"
+#include <heel/apps/report/csv_file.hpp>
+#include <heel/apps/report/map_drawing.hpp>
 
 #include <cstdint>
 #include <vector>

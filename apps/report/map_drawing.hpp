@@ -5,7 +5,7 @@
 /// A map of cells as the outline of a drawing.
 #pragma once
 
-#include "mapping/occupancy_grid.hpp"
+#include <heel/mapping/occupancy_grid.hpp>
 
 #include <Eigen/Geometry>
 

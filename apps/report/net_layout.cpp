@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/net_layout.hpp"
+#include <heel/apps/report/net_layout.hpp>
 
 #include <algorithm>
 #include <map>

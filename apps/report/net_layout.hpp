@@ -5,7 +5,7 @@
 /// Where the places and transitions of a net are drawn.
 #pragma once
 
-#include "planning/petri_net.hpp"
+#include <heel/planning/petri_net.hpp>
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/output.hpp"
+#include <heel/apps/report/output.hpp>
 
 #include <fcntl.h>
 #include <sys/file.h>

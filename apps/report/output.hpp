@@ -5,7 +5,7 @@
 /// Where results go: the one place that creates, replaces and removes files of the user's folders.
 #pragma once
 
-#include "apps/report/run_end.hpp"
+#include <heel/apps/report/run_end.hpp>
 
 #include <cstdio>
 #include <filesystem>

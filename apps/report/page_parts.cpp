@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/page_parts.hpp"
-
-#include "apps/report/csv_file.hpp"
-#include "apps/report/html.hpp"
+#include <heel/apps/report/csv_file.hpp>
+#include <heel/apps/report/html.hpp>
+#include <heel/apps/report/page_parts.hpp>
 
 #include <algorithm>
 #include <cmath>

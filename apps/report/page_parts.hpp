@@ -5,8 +5,8 @@
 /// Parts that Heel's pages share.
 #pragma once
 
-#include "apps/report/annotate.hpp"
-#include "apps/report/follow_summary.hpp"
+#include <heel/apps/report/annotate.hpp>
+#include <heel/apps/report/follow_summary.hpp>
 
 #include <string>
 #include <vector>

@@ -5,8 +5,8 @@
 /// What frames the pictures of all films: the state above them, the meaning of the marks below.
 #pragma once
 
-#include "apps/report/annotate.hpp"
-#include "apps/report/drawing.hpp"
+#include <heel/apps/report/annotate.hpp>
+#include <heel/apps/report/drawing.hpp>
 
 #include <string>
 #include <vector>

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/plan_net_picture.hpp"
-
-#include "apps/report/drawing.hpp"
-#include "apps/report/net_layout.hpp"
+#include <heel/apps/report/drawing.hpp>
+#include <heel/apps/report/net_layout.hpp>
+#include <heel/apps/report/plan_net_picture.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 /// A Petri Net Plan as a picture.
 #pragma once
 
-#include "planning/petri_plan.hpp"
+#include <heel/planning/petri_plan.hpp>
 
 #include <opencv2/core/mat.hpp>
 

@@ -5,8 +5,8 @@
 /// The plan view's half of an annotated picture.
 #pragma once
 
-#include "apps/report/annotate.hpp"
-#include "apps/report/drawing.hpp"
+#include <heel/apps/report/annotate.hpp>
+#include <heel/apps/report/drawing.hpp>
 
 namespace heel {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/progress_bar.hpp"
+#include <heel/apps/report/progress_bar.hpp>
 
 #include <unistd.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/result_files.hpp"
+#include <heel/apps/report/result_files.hpp>
 
 #include <nlohmann/json.hpp>
 

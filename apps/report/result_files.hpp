@@ -5,7 +5,7 @@
 /// The result files of a run, and the truth that they are compared with.
 #pragma once
 
-#include "apps/report/csv_file.hpp"
+#include <heel/apps/report/csv_file.hpp>
 
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>

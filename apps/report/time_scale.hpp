@@ -5,7 +5,7 @@
 /// Curves over time, in the style of Heel's pages.
 #pragma once
 
-#include "apps/report/follow_log.hpp"
+#include <heel/apps/report/follow_log.hpp>
 
 #include <functional>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/video_writer.hpp"
+#include <heel/apps/report/video_writer.hpp>
 
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>

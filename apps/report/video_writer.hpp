@@ -5,7 +5,7 @@
 /// Annotated frames as a film and as stills.
 #pragma once
 
-#include "apps/report/output.hpp"
+#include <heel/apps/report/output.hpp>
 
 #include <opencv2/core/mat.hpp>
 

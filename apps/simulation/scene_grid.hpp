@@ -5,8 +5,8 @@
 /// The map that a robot would have made of a scene.
 #pragma once
 
-#include "apps/simulation/scene.hpp"
-#include "mapping/occupancy_grid.hpp"
+#include <heel/apps/simulation/scene.hpp>
+#include <heel/mapping/occupancy_grid.hpp>
 
 namespace heel {
 

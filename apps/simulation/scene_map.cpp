@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/scene_map.hpp"
-
-#include "apps/simulation/floor_plan.hpp"
-#include "mapping/wall_map_builder.hpp"
+#include <heel/apps/simulation/floor_plan.hpp>
+#include <heel/apps/simulation/scene_map.hpp>
+#include <heel/mapping/wall_map_builder.hpp>
 
 #include <cmath>
 

@@ -5,8 +5,8 @@
 /// The map that a scene's robot is given.
 #pragma once
 
-#include "apps/simulation/scene.hpp"
-#include "mapping/wall_map.hpp"
+#include <heel/apps/simulation/scene.hpp>
+#include <heel/mapping/wall_map.hpp>
 
 namespace heel {
 

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/simulate.hpp"
-
-#include "apps/recording/sensor_bag.hpp"
-#include "apps/report/run_end.hpp"
-#include "apps/simulation/recording_writer.hpp"
+#include <heel/apps/recording/sensor_bag.hpp>
+#include <heel/apps/report/run_end.hpp>
+#include <heel/apps/simulation/recording_writer.hpp>
+#include <heel/apps/simulation/simulate.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/drawing.hpp"
-#include "apps/view/scene_window.hpp"
+#include <heel/apps/report/drawing.hpp>
+#include <heel/apps/view/scene_window.hpp>
 
 #include <X11/Xlib.h>
 #include <pcl/common/point_tests.h>

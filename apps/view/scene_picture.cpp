@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/view/scene_picture.hpp"
-
-#include "apps/report/csv_file.hpp"
-#include "apps/report/drawing.hpp"
+#include <heel/apps/report/csv_file.hpp>
+#include <heel/apps/report/drawing.hpp>
+#include <heel/apps/view/scene_picture.hpp>
 
 #include <opencv2/imgproc.hpp>
 #include <pcl/common/point_tests.h>

@@ -5,7 +5,7 @@
 /// A scene as a picture, drawn without a display and without OpenGL.
 #pragma once
 
-#include "apps/view/view_scene.hpp"
+#include <heel/apps/view/view_scene.hpp>
 
 namespace heel {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/view/scene_window.hpp"
+#include <heel/apps/view/scene_window.hpp>
 
 #include <dlfcn.h>
 

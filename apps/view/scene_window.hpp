@@ -5,7 +5,7 @@
 /// A window that shows scenes, where there is a display.
 #pragma once
 
-#include "apps/view/view_scene.hpp"
+#include <heel/apps/view/view_scene.hpp>
 
 #include <memory>
 #include <string>

@@ -5,9 +5,9 @@
 /// One moment of a recording in three dimensions.
 #pragma once
 
-#include "apps/report/annotate.hpp"
-#include "cloud/color_cloud.hpp"
-#include "mapping/occupancy_grid.hpp"
+#include <heel/apps/report/annotate.hpp>
+#include <heel/cloud/color_cloud.hpp>
+#include <heel/mapping/occupancy_grid.hpp>
 
 #include <pcl/types.h>
 

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/follower/acquisition.hpp"
-
 #include "tests/apps/acted_scene.hpp"
+#include <heel/apps/follower/acquisition.hpp>
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 /// A small RGB-D stage: a grey wall, and people as upright boards before it.
 #pragma once
 
-#include "cloud/pinhole_camera.hpp"
+#include <heel/cloud/pinhole_camera.hpp>
 
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>

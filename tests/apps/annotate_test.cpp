@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/annotate.hpp"
-
-#include "apps/report/drawing.hpp"
-#include "apps/report/image_picture.hpp"
-#include "apps/report/plan_picture.hpp"
+#include <heel/apps/report/annotate.hpp>
+#include <heel/apps/report/drawing.hpp>
+#include <heel/apps/report/image_picture.hpp>
+#include <heel/apps/report/plan_picture.hpp>
 
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/appearance_experiment.hpp"
-
-#include "apps/experiment/appearance_report.hpp"
-#include "apps/experiment/simulated_frames.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/experiment/appearance_experiment.hpp>
+#include <heel/apps/experiment/appearance_report.hpp>
+#include <heel/apps/experiment/simulated_frames.hpp>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>

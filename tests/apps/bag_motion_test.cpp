@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/bag_motion.hpp"
-
-#include "apps/bag/bag.hpp"
-#include "apps/recording/bag_poses.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/bag/bag.hpp>
+#include <heel/apps/recording/bag_motion.hpp>
+#include <heel/apps/recording/bag_poses.hpp>
 
 #include <gmock/gmock.h>
 

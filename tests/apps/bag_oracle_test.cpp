@@ -4,9 +4,9 @@
 /// @file
 /// Our bags against Debian's own ROS libraries, where these are installed.
 
-#include "apps/bag/bag.hpp"
 #include "tests/support/filled_message.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/bag/bag.hpp>
 
 #include <geometry_msgs/PoseArray.h>
 #include <geometry_msgs/PoseStamped.h>

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/bag_image_reader.hpp"
-#include "apps/recording/bag_odometry.hpp"
-#include "apps/recording/laser_log.hpp"
-#include "apps/recording/recording.hpp"
-#include "apps/recording/sensor_bag.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/recording/bag_image_reader.hpp>
+#include <heel/apps/recording/bag_odometry.hpp>
+#include <heel/apps/recording/laser_log.hpp>
+#include <heel/apps/recording/recording.hpp>
+#include <heel/apps/recording/sensor_bag.hpp>
 
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/bag/bag.hpp"
-
-#include "apps/bag/ros1_records.hpp"
-#include "apps/bag/sqlite_file.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/bag/bag.hpp>
+#include <heel/apps/bag/ros1_records.hpp>
+#include <heel/apps/bag/sqlite_file.hpp>
 
 #include <gmock/gmock.h>
 

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/closed_loop.hpp"
-
-#include "planning/plan_file.hpp"
 #include "tests/planning/small_net.hpp"
 #include "tests/support/small_home.hpp"
+#include <heel/apps/experiment/closed_loop.hpp>
+#include <heel/planning/plan_file.hpp>
 
 #include <gmock/gmock.h>
 #include <malloc.h>

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/cloud_file.hpp"
-
 #include "tests/support/cloud_files.hpp"
+#include <heel/apps/recording/cloud_file.hpp>
 
 #include <gmock/gmock.h>
 #include <pcl/common/io.h>

@@ -4,9 +4,8 @@
 /// @file
 /// What docs/results.md says of real people, as bounds that a change must not break.
 
-#include "apps/experiment/experiments.hpp"
-
 #include "tests/support/data.hpp"
+#include <heel/apps/experiment/experiments.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/follow_page.hpp"
-
-#include "apps/report/follow_experiment_page.hpp"
 #include "tests/support/follow_run.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/report/follow_experiment_page.hpp>
+#include <heel/apps/report/follow_page.hpp>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

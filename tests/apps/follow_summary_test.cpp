@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/follow_summary.hpp"
-
-#include "apps/report/csv_file.hpp"
 #include "tests/apps/full_disk.hpp"
 #include "tests/support/follow_run.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/report/csv_file.hpp>
+#include <heel/apps/report/follow_summary.hpp>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/follow_video.hpp"
-
-#include "apps/report/drawing.hpp"
 #include "tests/support/follow_run.hpp"
+#include <heel/apps/report/drawing.hpp>
+#include <heel/apps/report/follow_video.hpp>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>

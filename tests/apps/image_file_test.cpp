@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/image_file.hpp"
-
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/recording/image_file.hpp>
 
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/follower/laser_bodies.hpp"
-
 #include "tests/support/allocation_count.hpp"
+#include <heel/apps/follower/laser_bodies.hpp>
 
 #include <gtest/gtest.h>
 

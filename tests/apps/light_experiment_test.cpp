@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/light_experiment.hpp"
-
-#include "apps/simulation/color.hpp"
 #include "tests/apps/short_trial.hpp"
+#include <heel/apps/experiment/light_experiment.hpp>
+#include <heel/apps/simulation/color.hpp>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>

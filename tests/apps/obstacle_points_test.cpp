@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/follower/obstacle_points.hpp"
-
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/stereo_scene.hpp"
+#include <heel/apps/follower/obstacle_points.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/clouds/ordered_loop.hpp"
+#include <heel/apps/clouds/ordered_loop.hpp>
 
 #include <gmock/gmock.h>
 

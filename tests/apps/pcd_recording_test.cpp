@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/pcd_recording.hpp"
-
-#include "apps/recording/pcd_file.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/recording/pcd_file.hpp>
+#include <heel/apps/recording/pcd_recording.hpp>
 
 #include <gmock/gmock.h>
 #include <pcl/common/point_tests.h>

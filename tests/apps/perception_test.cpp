@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/follower/perception.hpp"
-
-#include "apps/follower/depth_images.hpp"
-#include "segmentation/height_crop.hpp"
 #include "tests/apps/acted_scene.hpp"
 #include "tests/segmentation/painted_person.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/target_scene.hpp"
+#include <heel/apps/follower/depth_images.hpp>
+#include <heel/apps/follower/perception.hpp>
+#include <heel/segmentation/height_crop.hpp>
 
 #include <gtest/gtest.h>
 

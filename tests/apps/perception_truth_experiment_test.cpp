@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/perception_truth_experiment.hpp"
-
 #include "tests/apps/short_trial.hpp"
+#include <heel/apps/experiment/perception_truth_experiment.hpp>
 
 #include <gtest/gtest.h>
 

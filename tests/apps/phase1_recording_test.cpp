@@ -4,11 +4,11 @@
 /// @file
 /// Phase 1 on real recordings, with the parameters that users get.
 
-#include "apps/follower/acquisition.hpp"
-#include "apps/recording/recording.hpp"
-#include "cloud/ground_plane.hpp"
 #include "tests/support/data.hpp"
-#include "tracking/clear_mot.hpp"
+#include <heel/apps/follower/acquisition.hpp>
+#include <heel/apps/recording/recording.hpp>
+#include <heel/cloud/ground_plane.hpp>
+#include <heel/tracking/clear_mot.hpp>
 
 #include <gtest/gtest.h>
 

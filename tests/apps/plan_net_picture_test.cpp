@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/plan_net_picture.hpp"
-
-#include "apps/report/drawing.hpp"
-#include "apps/report/net_layout.hpp"
-#include "planning/following_plan.hpp"
-#include "planning/plan_file.hpp"
+#include <heel/apps/report/drawing.hpp>
+#include <heel/apps/report/net_layout.hpp>
+#include <heel/apps/report/plan_net_picture.hpp>
+#include <heel/planning/following_plan.hpp>
+#include <heel/planning/plan_file.hpp>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>

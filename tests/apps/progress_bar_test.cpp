@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/progress_bar.hpp"
-
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/report/progress_bar.hpp>
 
 #include <gmock/gmock.h>
 #include <pty.h>

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/result_files.hpp"
-
 #include "tests/apps/full_disk.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/report/result_files.hpp>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

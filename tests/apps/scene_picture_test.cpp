@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/view/scene_picture.hpp"
-
-#include "apps/report/drawing.hpp"
+#include <heel/apps/report/drawing.hpp>
+#include <heel/apps/view/scene_picture.hpp>
 
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>

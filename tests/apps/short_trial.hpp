@@ -5,7 +5,7 @@
 /// What the experiments on simulated recordings are tested with.
 #pragma once
 
-#include "apps/experiment/perception_truth_experiment.hpp"
+#include <heel/apps/experiment/perception_truth_experiment.hpp>
 
 namespace heel::test {
 

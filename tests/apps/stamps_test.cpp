@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/stamps.hpp"
-
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/recording/stamps.hpp>
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/trails.hpp"
+#include <heel/apps/report/trails.hpp>
 
 #include <gmock/gmock.h>
 

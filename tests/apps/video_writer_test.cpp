@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/report/video_writer.hpp"
-
 #include "tests/apps/full_disk.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/report/video_writer.hpp>
 
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>

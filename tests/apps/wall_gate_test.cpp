@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/follower/wall_gate.hpp"
-
-#include "mapping/wall_map_builder.hpp"
 #include "tests/support/allocation_count.hpp"
+#include <heel/apps/follower/wall_gate.hpp>
+#include <heel/mapping/wall_map_builder.hpp>
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 /// @file
 /// The floor of real rooms against the one that their sources give.
 
-#include "cloud/ground_plane.hpp"
 #include "tests/support/data.hpp"
+#include <heel/cloud/ground_plane.hpp>
 
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>

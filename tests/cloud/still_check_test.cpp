@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud/still_check.hpp"
-
-#include "cloud/mounting.hpp"
+#include <heel/cloud/mounting.hpp>
+#include <heel/cloud/still_check.hpp>
 
 #include <gtest/gtest.h>
 

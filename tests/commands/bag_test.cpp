@@ -4,14 +4,13 @@
 /// @file
 /// Bags, from one verb to the next.
 
-#include "apps/bag/bag.hpp"
-
-#include "apps/recording/sensor_bag.hpp"
 #include "tests/commands/hall_scene.hpp"
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_model.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/bag/bag.hpp>
+#include <heel/apps/recording/sensor_bag.hpp>
 
 #include <gmock/gmock.h>
 

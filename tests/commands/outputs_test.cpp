@@ -4,13 +4,13 @@
 /// @file
 /// What the command may not do to its user's files, and how its runs end.
 
-#include "apps/report/output.hpp"
-#include "apps/report/result_files.hpp"
 #include "tests/commands/hall_scene.hpp"
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_model.hpp"
 #include "tests/commands/small_recording.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/report/output.hpp>
+#include <heel/apps/report/result_files.hpp>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/localization.hpp"
-
 #include "tests/mapping/drawn_rooms.hpp"
 #include "tests/support/allocation_count.hpp"
+#include <heel/mapping/localization.hpp>
 
 #include <gtest/gtest.h>
 

@@ -4,10 +4,10 @@
 /// @file
 /// Planned paths before another judge: FCL's check of the body against the map as an octree.
 
-#include "mapping/body_check.hpp"
-#include "mapping/wall_map_builder.hpp"
-#include "planning/global_planner.hpp"
 #include "tests/planning/drawn_map.hpp"
+#include <heel/mapping/body_check.hpp>
+#include <heel/mapping/wall_map_builder.hpp>
+#include <heel/planning/global_planner.hpp>
 
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/plan_file.hpp"
-
-#include "planning/pnml_file.hpp"
 #include "tests/planning/small_net.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/planning/plan_file.hpp>
+#include <heel/planning/pnml_file.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/plan_runner.hpp"
-
 #include "tests/planning/small_net.hpp"
 #include "tests/support/allocation_count.hpp"
+#include <heel/planning/plan_runner.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/plan_view.hpp"
-
 #include "tests/segmentation/drawn_floor.hpp"
+#include <heel/segmentation/plan_view.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/camera_light.hpp"
-
-#include "apps/simulation/camera_model.hpp"
-#include "apps/simulation/simulator.hpp"
 #include "tests/simulation/scenes.hpp"
+#include <heel/apps/simulation/camera_light.hpp>
+#include <heel/apps/simulation/camera_model.hpp>
+#include <heel/apps/simulation/simulator.hpp>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>

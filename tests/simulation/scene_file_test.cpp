@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/scene.hpp"
 #include "tests/simulation/scenes.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/simulation/scene.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

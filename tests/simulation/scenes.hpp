@@ -5,7 +5,7 @@
 /// Small scenes for the tests of the simulation.
 #pragma once
 
-#include "apps/simulation/scene.hpp"
+#include <heel/apps/simulation/scene.hpp>
 
 #include <string>
 

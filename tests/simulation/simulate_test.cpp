@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/simulate.hpp"
-
-#include "apps/recording/recording.hpp"
 #include "tests/simulation/scenes.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/recording/recording.hpp>
+#include <heel/apps/simulation/simulate.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

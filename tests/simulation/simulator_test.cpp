@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/simulator.hpp"
-
 #include "tests/simulation/scenes.hpp"
+#include <heel/apps/simulation/simulator.hpp>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
