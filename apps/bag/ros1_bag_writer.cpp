@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/bag/ros1_bag_writer.hpp>
-#include <heel/apps/report/output.hpp>
+#include <heel/apps/output/output.hpp>
 
 #include <algorithm>
 #include <cerrno>

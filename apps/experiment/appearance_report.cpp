@@ -3,9 +3,9 @@
 
 #include <heel/apps/experiment/appearance_report.hpp>
 #include <heel/apps/experiment/confusion_picture.hpp>
-#include <heel/apps/report/csv_file.hpp>
-#include <heel/apps/report/result_files.hpp>
-#include <heel/apps/report/video_writer.hpp>
+#include <heel/apps/film/video_writer.hpp>
+#include <heel/apps/output/csv_file.hpp>
+#include <heel/apps/results/result_files.hpp>
 
 #include <nlohmann/json.hpp>
 

@@ -6,7 +6,7 @@
 #pragma once
 
 #include <heel/apps/experiment/appearance_experiment.hpp>
-#include <heel/apps/report/output.hpp>
+#include <heel/apps/output/output.hpp>
 
 #include <string>
 #include <vector>

@@ -7,7 +7,7 @@
 
 #include <heel/apps/experiment/faults.hpp>
 #include <heel/apps/follower/follower.hpp>
-#include <heel/apps/report/follow_log.hpp>
+#include <heel/apps/results/follow_log.hpp>
 #include <heel/apps/simulation/simulator.hpp>
 
 #include <cstdint>

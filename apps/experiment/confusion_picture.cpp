@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/experiment/confusion_picture.hpp>
-#include <heel/apps/report/drawing.hpp>
+#include <heel/apps/pictures/drawing.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <heel/apps/experiment/follow_experiment.hpp>
 #include <heel/apps/experiment/random_episode.hpp>
-#include <heel/apps/report/run_end.hpp>
+#include <heel/apps/output/run_end.hpp>
 #include <heel/planning/plan_file.hpp>
 
 #include <algorithm>

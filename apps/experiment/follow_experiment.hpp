@@ -6,7 +6,7 @@
 #pragma once
 
 #include <heel/apps/experiment/closed_loop.hpp>
-#include <heel/apps/report/follow_experiment_page.hpp>
+#include <heel/apps/pages/follow_experiment_page.hpp>
 
 #include <cstdint>
 #include <filesystem>

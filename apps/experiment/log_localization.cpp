@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/experiment/log_localization.hpp>
-#include <heel/apps/report/run_end.hpp>
+#include <heel/apps/output/run_end.hpp>
 #include <heel/mapping/scan_map.hpp>
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 /// True places by frame and by person.
 #pragma once
 
-#include <heel/apps/report/result_files.hpp>
+#include <heel/apps/results/result_files.hpp>
 #include <heel/tracking/target_metrics.hpp>
 
 #include <cstddef>

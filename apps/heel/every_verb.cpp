@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/heel/commands.hpp>
+#include <heel/apps/heel/terminal/terminal.hpp>
 #include <heel/cloud/file_limits.hpp>
 
 #include <CLI/CLI.hpp>
 
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <functional>
 #include <string>
 
@@ -21,6 +23,10 @@ std::string whyNotFinite(const std::string& text) {
 }
 
 }  // namespace
+
+void warn(const std::string& warning) {
+  std::fprintf(stderr, "heel: warning: %s\n", sentenceForTerminal(warning).c_str());
+}
 
 void completeVerbs(CLI::App& app) {
   const auto verbs = app.get_subcommands([](const CLI::App*) { return true; });

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/heel/commands.hpp>
-#include <heel/apps/report/run_end.hpp>
-#include <heel/apps/report/terminal.hpp>
+#include <heel/apps/heel/terminal/terminal.hpp>
+#include <heel/apps/output/run_end.hpp>
 
 #include <CLI/CLI.hpp>
 #include <opencv2/core.hpp>
@@ -90,10 +90,6 @@ void silenceLibraries() {
 }
 
 }  // namespace
-
-void heel::warn(const std::string& warning) {
-  std::fprintf(stderr, "heel: warning: %s\n", sentenceForTerminal(warning).c_str());
-}
 
 int main(int argc, char** argv) {
   silenceLibraries();

@@ -5,7 +5,7 @@
 /// Scans and odometry of a robot that has driven, one after the other.
 #pragma once
 
-#include <heel/apps/recording/bag_topics.hpp>
+#include <heel/apps/recording/bags/bag_topics.hpp>
 #include <heel/mapping/floor_pose.hpp>
 #include <heel/mapping/laser_scan.hpp>
 

@@ -5,7 +5,7 @@
 /// Recordings of a robot's camera, read as a stream.
 #pragma once
 
-#include <heel/apps/recording/bag_topics.hpp>
+#include <heel/apps/recording/bags/bag_topics.hpp>
 #include <heel/apps/recording/frame.hpp>
 #include <heel/apps/recording/robot_motion.hpp>
 #include <heel/cloud/pinhole_camera.hpp>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/recording/bag_poses.hpp>
+#include <heel/apps/recording/bags/bag_poses.hpp>
 #include <heel/apps/recording/robot_motion.hpp>
 #include <heel/apps/recording/stamps.hpp>
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/recording/sensor_bag.hpp>
-#include <heel/apps/report/csv_file.hpp>
-#include <heel/apps/report/result_files.hpp>
-#include <heel/apps/report/video_writer.hpp>
+#include <heel/apps/film/video_writer.hpp>
+#include <heel/apps/output/csv_file.hpp>
+#include <heel/apps/recording/bags/sensor_bag.hpp>
+#include <heel/apps/results/result_files.hpp>
 #include <heel/apps/simulation/recording_writer.hpp>
 
 #include <nlohmann/json.hpp>

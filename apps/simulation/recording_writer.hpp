@@ -5,7 +5,7 @@
 /// The files of a recording, as `simulate` describes them.
 #pragma once
 
-#include <heel/apps/report/output.hpp>
+#include <heel/apps/output/output.hpp>
 #include <heel/apps/simulation/simulator.hpp>
 
 #include <tbb/task_group.h>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/recording/sensor_bag.hpp>
-#include <heel/apps/report/run_end.hpp>
+#include <heel/apps/output/run_end.hpp>
+#include <heel/apps/recording/bags/sensor_bag.hpp>
 #include <heel/apps/simulation/recording_writer.hpp>
 #include <heel/apps/simulation/simulate.hpp>
 

@@ -10,7 +10,7 @@
 #include "tests/support/data.hpp"
 #include "tests/support/temp_folder.hpp"
 #include <heel/apps/bag/bag.hpp>
-#include <heel/apps/recording/sensor_bag.hpp>
+#include <heel/apps/recording/bags/sensor_bag.hpp>
 
 #include <gmock/gmock.h>
 

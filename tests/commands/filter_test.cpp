@@ -8,7 +8,7 @@
 #include "tests/commands/small_model.hpp"
 #include "tests/commands/small_recording.hpp"
 #include "tests/support/temp_folder.hpp"
-#include <heel/apps/recording/pcd_file.hpp>
+#include <heel/apps/recording/clouds/pcd_file.hpp>
 
 #include <gmock/gmock.h>
 #include <pcl/common/io.h>

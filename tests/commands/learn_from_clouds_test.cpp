@@ -7,7 +7,7 @@
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_recording.hpp"
 #include "tests/support/temp_folder.hpp"
-#include <heel/apps/recording/cloud_file.hpp>
+#include <heel/apps/recording/clouds/cloud_file.hpp>
 #include <heel/apps/recording/recording.hpp>
 
 #include <gmock/gmock.h>

@@ -9,7 +9,7 @@
 #include "tests/commands/small_recording.hpp"
 #include "tests/support/cloud_files.hpp"
 #include "tests/support/data.hpp"
-#include <heel/apps/recording/cloud_file.hpp>
+#include <heel/apps/recording/clouds/cloud_file.hpp>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

@@ -8,9 +8,9 @@
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_model.hpp"
 #include "tests/support/temp_folder.hpp"
-#include <heel/apps/recording/bag_poses.hpp>
+#include <heel/apps/recording/bags/bag_poses.hpp>
+#include <heel/apps/recording/bags/sensor_bag.hpp>
 #include <heel/apps/recording/recording.hpp>
-#include <heel/apps/recording/sensor_bag.hpp>
 #include <heel/apps/recording/stamps.hpp>
 
 #include <gmock/gmock.h>

@@ -9,8 +9,8 @@
 #include "tests/commands/small_model.hpp"
 #include "tests/commands/small_recording.hpp"
 #include "tests/support/temp_folder.hpp"
-#include <heel/apps/report/output.hpp>
-#include <heel/apps/report/result_files.hpp>
+#include <heel/apps/output/output.hpp>
+#include <heel/apps/results/result_files.hpp>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

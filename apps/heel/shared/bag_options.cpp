@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <heel/apps/heel/shared/bag_options.hpp>
+
+#include <CLI/CLI.hpp>
+
+namespace heel {
+namespace {
+
+constexpr const char* kGroup = "Topics of a bag (found by type and name if not given)";
+
+void add(CLI::App& verb, const char* option, std::string& topic, const char* what) {
+  verb.add_option(option, topic, what)->group(kGroup)->type_name("TOPIC");
+}
+
+void addBaseFrame(CLI::App& verb, BagTopics& topics) {
+  verb.add_option("--base-frame", topics.base_frame,
+                  "the robot's frame in tf; else base_footprint or base_link")
+      ->group(kGroup)
+      ->type_name("FRAME");
+}
+
+}  // namespace
+
+void addCameraTopics(CLI::App& verb, BagTopics& topics) {
+  add(verb, "--left-topic", topics.left, "stereo: the left images");
+  add(verb, "--right-topic", topics.right, "stereo: the right images");
+  add(verb, "--color-topic", topics.color, "RGB-D: the colour images");
+  add(verb, "--depth-topic", topics.depth, "RGB-D: the depth images, registered to colour");
+  add(verb, "--cloud-topic", topics.cloud, "coloured clouds");
+  addBaseFrame(verb, topics);
+}
+
+void addOdometryTopic(CLI::App& verb, BagTopics& topics) {
+  add(verb, "--odometry-topic", topics.odometry, "odometry");
+}
+
+void addPoseTopics(CLI::App& verb, BagTopics& topics) {
+  addOdometryTopic(verb, topics);
+  add(verb, "--truth-topic", topics.truth, "odometry that tells the truth");
+}
+
+void addLaserTopics(CLI::App& verb, BagTopics& topics) {
+  add(verb, "--scan-topic", topics.scan, "laser scans");
+  addPoseTopics(verb, topics);
+  addBaseFrame(verb, topics);
+}
+
+void addResultBag(CLI::App& verb, std::filesystem::path& bag) {
+  verb.add_option("--bag", bag,
+                  "also write a bag of the results, for RViz and the like: NAME.bag for ROS 1; "
+                  "NAME.db3, or a folder, for ROS 2");
+}
+
+}  // namespace heel
