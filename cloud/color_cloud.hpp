@@ -14,6 +14,8 @@
 #include <pcl/point_types.h>
 #include <pcl/types.h>
 
+#include <optional>
+
 namespace heel {
 
 using ColorCloud = pcl::PointCloud<pcl::PointXYZRGB>;
@@ -68,5 +70,13 @@ class MaskedCloud {
   pcl::Indices indices_;
   RowSpans spans_;
 };
+
+/// Fits u = fx X / Z + cx and v = fy Y / Z + cy to an organized cloud in the optical frame, by
+/// least squares over all its points.
+///
+/// @return The camera, or nothing if the cloud is not organized, has less than three points or all
+///         in one row or column, which determine no camera, or does not come from one pinhole
+///         camera (the residual is over half a pixel, root mean square).
+std::optional<PinholeCamera> fitPinhole(const ColorCloud& cloud);
 
 }  // namespace heel

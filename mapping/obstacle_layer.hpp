@@ -6,7 +6,6 @@
 #pragma once
 
 #include <heel/mapping/distance_transform.hpp>
-#include <heel/mapping/floor_disc.hpp>
 #include <heel/mapping/floor_pose.hpp>
 #include <heel/mapping/laser_scan.hpp>
 #include <heel/mapping/occupancy_grid.hpp>

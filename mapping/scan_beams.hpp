@@ -5,7 +5,7 @@
 /// The beams of a scan that localization looks at, and how well the map explains them.
 #pragma once
 
-#include <heel/mapping/floor_disc.hpp>
+#include <heel/mapping/floor_pose.hpp>
 #include <heel/mapping/laser_scan.hpp>
 #include <heel/mapping/likelihood_field.hpp>
 

@@ -6,7 +6,7 @@
 #pragma once
 
 #include <heel/planning/drive_terms.hpp>
-#include <heel/planning/facing.hpp>
+#include <heel/planning/trajectory.hpp>
 
 #include <optional>
 #include <vector>

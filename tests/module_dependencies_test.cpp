@@ -19,11 +19,11 @@ namespace fs = std::filesystem;
 using Folders = std::set<std::string>;
 
 /// What a verb may include: everything but the other verbs.
-const Folders kVerb = {
-    "cloud",         "segmentation",     "tracking",          "mapping",         "planning",
-    "apps/output",   "apps/bag",         "apps/recording",    "apps/follower",   "apps/results",
-    "apps/pictures", "apps/film",        "apps/pages",        "apps/simulation", "apps/experiment",
-    "apps/heel",     "apps/heel/shared", "apps/heel/terminal"};
+const Folders kVerb = {"cloud",           "segmentation",    "tracking",        "mapping",
+                       "planning",        "apps/output",     "apps/bag",        "apps/recording",
+                       "apps/follower",   "apps/results",    "apps/pictures",   "apps/film",
+                       "apps/pages",      "apps/simulation", "apps/experiment", "apps/heel",
+                       "apps/heel/shared"};
 
 /// Which of the others each folder may include. A folder without a row belongs to the one above it.
 const std::map<std::string, Folders> kKnows = {
@@ -51,15 +51,13 @@ const std::map<std::string, Folders> kKnows = {
       "apps/output", "apps/pages", "apps/pictures", "apps/recording", "apps/results",
       "apps/simulation"}},
 
-    {"apps/heel/terminal", {}},
     {"apps/heel/shared",
      {"cloud", "segmentation", "tracking", "mapping", "planning", "apps/bag", "apps/follower",
-      "apps/output", "apps/pictures", "apps/recording", "apps/results", "apps/simulation",
-      "apps/heel/terminal"}},
+      "apps/output", "apps/pictures", "apps/recording", "apps/results", "apps/simulation"}},
     {"apps/heel",
      {"cloud", "segmentation", "mapping", "planning", "apps/experiment", "apps/film",
       "apps/follower", "apps/output", "apps/pictures", "apps/recording", "apps/results",
-      "apps/simulation", "apps/heel/shared", "apps/heel/terminal"}},
+      "apps/simulation", "apps/heel/shared"}},
     {"apps/heel/evaluate", kVerb},
     {"apps/heel/experiment", kVerb},
     {"apps/heel/follow", kVerb},

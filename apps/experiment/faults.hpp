@@ -5,7 +5,7 @@
 /// What can go wrong with a robot's sensors, done to a simulated one.
 #pragma once
 
-#include <heel/apps/follower/robot_readings.hpp>
+#include <heel/apps/follower/sensor_watch.hpp>
 #include <heel/apps/simulation/simulator.hpp>
 
 #include <cstdint>

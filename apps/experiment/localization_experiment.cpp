@@ -3,7 +3,7 @@
 
 #include <heel/apps/experiment/localization_experiment.hpp>
 #include <heel/apps/experiment/roaming_driver.hpp>
-#include <heel/apps/simulation/scene_grid.hpp>
+#include <heel/apps/simulation/scene_map.hpp>
 #include <heel/apps/simulation/simulator.hpp>
 
 #include <Eigen/LU>

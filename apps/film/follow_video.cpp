@@ -3,9 +3,8 @@
 
 #include <heel/apps/film/follow_video.hpp>
 #include <heel/apps/output/csv_file.hpp>
-#include <heel/apps/pictures/image_picture.hpp>
-#include <heel/apps/pictures/map_drawing.hpp>
-#include <heel/apps/pictures/picture_frame.hpp>
+#include <heel/apps/pictures/map_picture.hpp>
+#include <heel/apps/pictures/picture_parts.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <heel/apps/follower/camera_setup.hpp>
 #include <heel/apps/follower/depth_images.hpp>
-#include <heel/cloud/pinhole_fit.hpp>
+#include <heel/cloud/color_cloud.hpp>
 
 #include <stdexcept>
 

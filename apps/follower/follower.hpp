@@ -6,7 +6,7 @@
 #pragma once
 
 #include <heel/apps/follower/follower_params.hpp>
-#include <heel/apps/follower/robot_readings.hpp>
+#include <heel/apps/follower/sensor_watch.hpp>
 #include <heel/mapping/wall_distance.hpp>
 #include <heel/mapping/wall_map.hpp>
 #include <heel/planning/clearance_map.hpp>

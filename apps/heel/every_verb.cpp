@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/heel/commands.hpp>
-#include <heel/apps/heel/terminal/terminal.hpp>
+#include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/cloud/file_limits.hpp>
 
 #include <CLI/CLI.hpp>

@@ -4,9 +4,9 @@
 #include <heel/apps/film/video_writer.hpp>
 #include <heel/apps/follower/learn_person.hpp>
 #include <heel/apps/heel/commands.hpp>
-#include <heel/apps/heel/shared/bag_options.hpp>
+#include <heel/apps/heel/shared/arguments.hpp>
 #include <heel/apps/heel/shared/robot_places.hpp>
-#include <heel/apps/heel/terminal/progress_bar.hpp>
+#include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/run_end.hpp>
 #include <heel/apps/pictures/annotate.hpp>
 #include <heel/segmentation/appearance_model_io.hpp>

@@ -3,10 +3,9 @@
 
 #include <heel/apps/film/video_writer.hpp>
 #include <heel/apps/heel/commands.hpp>
-#include <heel/apps/heel/shared/bag_options.hpp>
+#include <heel/apps/heel/shared/arguments.hpp>
 #include <heel/apps/heel/shared/map_source.hpp>
-#include <heel/apps/heel/shared/scene_argument.hpp>
-#include <heel/apps/heel/terminal/progress_bar.hpp>
+#include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/run_end.hpp>
 #include <heel/apps/pictures/map_picture.hpp>
 #include <heel/mapping/map_server_file.hpp>

@@ -3,8 +3,8 @@
 
 #include <heel/apps/film/video_writer.hpp>
 #include <heel/apps/heel/commands.hpp>
+#include <heel/apps/heel/shared/arguments.hpp>
 #include <heel/apps/heel/shared/map_source.hpp>
-#include <heel/apps/heel/shared/scene_argument.hpp>
 #include <heel/apps/output/csv_file.hpp>
 #include <heel/apps/output/run_end.hpp>
 #include <heel/apps/pictures/drawing.hpp>

@@ -3,8 +3,8 @@
 
 #include <heel/apps/experiment/roaming_driver.hpp>
 #include <heel/apps/heel/commands.hpp>
-#include <heel/apps/heel/shared/scene_argument.hpp>
-#include <heel/apps/heel/terminal/progress_bar.hpp>
+#include <heel/apps/heel/shared/arguments.hpp>
+#include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/run_end.hpp>
 #include <heel/apps/recording/stamps.hpp>
 #include <heel/apps/simulation/path_driver.hpp>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/output/csv_file.hpp>
+#include <heel/apps/pages/charts.hpp>
 #include <heel/apps/pages/follow_experiment_page.hpp>
 #include <heel/apps/pages/follow_page.hpp>
-#include <heel/apps/pages/histogram.hpp>
 #include <heel/apps/pages/html.hpp>
 #include <heel/apps/pages/page_parts.hpp>
 

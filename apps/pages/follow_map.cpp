@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/output/csv_file.hpp>
+#include <heel/apps/pages/charts.hpp>
 #include <heel/apps/pages/follow_map.hpp>
 #include <heel/apps/pages/html.hpp>
-#include <heel/apps/pages/time_scale.hpp>
-#include <heel/apps/pictures/map_drawing.hpp>
+#include <heel/apps/pictures/map_picture.hpp>
 
 #include <algorithm>
 #include <cmath>

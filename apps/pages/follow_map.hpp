@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// A run of following on the map, as the paper's Figure 4 shows it.
+/// A run of following on the map, as the paper's Figure 4 shows it, and its moments to point at.
 #pragma once
 
+#include <heel/apps/pages/page_parts.hpp>
 #include <heel/apps/results/follow_log.hpp>
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 
 namespace heel {
@@ -38,5 +40,14 @@ std::string followMap(const FollowLog& log, const MapFrame& frame);
 
 /// What the marks of followMap() mean: list items.
 std::string followMapLegend(const FollowLog& log);
+
+struct FollowMoments {
+  std::size_t count = 0;
+  std::string json;  ///< May stand in a script element; follow.js says what is in it.
+};
+
+/// @param most  Longer runs are thinned out evenly to about as many.
+FollowMoments followMoments(const FollowLog& log, const MapFrame& frame, StateTones& tones,
+                            std::size_t most);
 
 }  // namespace heel

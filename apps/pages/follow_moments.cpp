@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/pages/follow_moments.hpp>
+#include <heel/apps/pages/follow_map.hpp>
 #include <heel/apps/pages/html.hpp>
 
 #include <nlohmann/json.hpp>

@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/output/csv_file.hpp>
+#include <heel/apps/pages/charts.hpp>
 #include <heel/apps/pages/follow_map.hpp>
-#include <heel/apps/pages/follow_moments.hpp>
 #include <heel/apps/pages/follow_page.hpp>
 #include <heel/apps/pages/html.hpp>
 #include <heel/apps/pages/page_parts.hpp>
-#include <heel/apps/pages/state_tones.hpp>
-#include <heel/apps/pages/time_scale.hpp>
 
 #include "page_assets.hpp"
 #include <nlohmann/json.hpp>

@@ -6,9 +6,13 @@
 #include <heel/apps/pages/page_parts.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
+#include <map>
 
 namespace heel {
+
 const char* classOf(Tone tone) {
   switch (tone) {
     case Tone::kGood:
@@ -78,6 +82,39 @@ std::string timingTable(const std::vector<StageTime>& stages, const StageTime& s
 std::string howToRepeat(const std::string& command) {
   if (command.empty()) return {};
   return "<p>Repeat it: <code>" + escapedHtml(command) + "</code></p>";
+}
+
+namespace {
+
+const std::map<std::string, std::string> kTones = {
+    {"learn", "learn"},         {"follow", "follow"},
+    {"face", "face"},           {"goToLastSeen", "return"},
+    {"turnToLastSeen", "seek"}, {"seek", "seek"},
+    {"search", "search"},       {"look", "search"},
+    {"stop", "stop"},           {"wait", "stop"}};
+constexpr std::array<const char*, 4> kFurtherTones = {"a", "b", "c", "d"};
+
+}  // namespace
+
+std::string wordsOf(const std::string& state) {
+  std::string words;
+  for (const char c : state) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isupper(byte) != 0 && !words.empty()) words += ' ';
+    words += c == '_' ? ' ' : static_cast<char>(std::tolower(byte));
+  }
+  return words.empty() ? "no state" : words;
+}
+
+std::string StateTones::of(const std::string& state) {
+  const auto known = std::find(states_.begin(), states_.end(), state);
+  if (known != states_.end()) return tones_[static_cast<std::size_t>(known - states_.begin())];
+  const auto own = kTones.find(state);
+  const std::string tone =
+      own != kTones.end() ? own->second : kFurtherTones[others_++ % kFurtherTones.size()];
+  states_.push_back(state);
+  tones_.push_back("--s-" + tone);
+  return tones_.back();
 }
 
 }  // namespace heel

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// Parts that Heel's pages share.
+/// Parts that Heel's pages share, and the tones of a plan's states.
 #pragma once
 
 #include <heel/apps/pictures/annotate.hpp>
 #include <heel/apps/results/follow_summary.hpp>
+
+#include <opencv2/core/types.hpp>
 
 #include <string>
 #include <vector>
@@ -34,5 +36,24 @@ std::string timingTable(const std::vector<StageTime>& stages, const StageTime& s
 
 /// The command line as a sentence; empty for none.
 std::string howToRepeat(const std::string& command);
+
+/// A state's name as words: "goToLastSeen" is "go to last seen".
+std::string wordsOf(const std::string& state);
+
+/// The tones of states on one page: those of the shipped plans have their own, others get the next
+/// of a few more.
+class StateTones {
+ public:
+  /// Name of the tone's variable in page.css, for instance "--s-follow".
+  std::string of(const std::string& state);
+
+  /// All states that were asked for, in that order.
+  const std::vector<std::string>& states() const { return states_; }
+
+ private:
+  std::vector<std::string> states_;
+  std::vector<std::string> tones_;
+  std::size_t others_ = 0;
+};
 
 }  // namespace heel

@@ -3,9 +3,7 @@
 
 #include <heel/apps/output/csv_file.hpp>
 #include <heel/apps/pictures/annotate.hpp>
-#include <heel/apps/pictures/image_picture.hpp>
-#include <heel/apps/pictures/picture_frame.hpp>
-#include <heel/apps/pictures/plan_picture.hpp>
+#include <heel/apps/pictures/picture_parts.hpp>
 
 #include <cmath>
 #include <stdexcept>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/pictures/drawing.hpp>
-#include <heel/apps/pictures/image_picture.hpp>
+#include <heel/apps/pictures/picture_parts.hpp>
 
 #include <opencv2/imgproc.hpp>
 

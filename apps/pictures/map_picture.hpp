@@ -7,6 +7,7 @@
 
 #include <heel/mapping/occupancy_grid.hpp>
 
+#include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>
 
 #include <string>
@@ -20,5 +21,15 @@ cv::Mat drawMap(const OccupancyGrid& grid, const std::string& title, int size_px
 
 /// "8.0 x 6.0 m in cells of 0.05 m: 30.2 m2 free, 4.1 m2 walls, 13.7 m2 unknown".
 std::string toText(const OccupancyGrid& grid);
+
+/// The part of the grid in which something is known that is not free all around: all occupied
+/// cells. Empty if there are none.
+Eigen::AlignedBox2d occupiedBounds(const OccupancyGrid& grid);
+
+/// The edges between the cells that are `what` and all others, as a closed path of SVG in metres,
+/// with y down from `top_left`; to be filled by the even-odd rule. Straight runs are one step, so
+/// the path's size follows the number of corners and not of cells.
+std::string outlinePath(const OccupancyGrid& grid, Occupancy what,
+                        const Eigen::Vector2d& top_left_m);
 
 }  // namespace heel

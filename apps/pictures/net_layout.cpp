@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/pictures/net_layout.hpp>
+#include <heel/apps/pictures/plan_net_picture.hpp>
 
 #include <algorithm>
 #include <map>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/pictures/drawing.hpp>
-#include <heel/apps/pictures/net_layout.hpp>
 #include <heel/apps/pictures/plan_net_picture.hpp>
 
 #include <algorithm>

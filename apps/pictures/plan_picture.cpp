@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/pictures/plan_picture.hpp>
+#include <heel/apps/pictures/picture_parts.hpp>
 
 #include <opencv2/imgproc.hpp>
 

@@ -7,7 +7,7 @@
 
 #include <heel/mapping/floor_pose.hpp>
 #include <heel/mapping/occupancy_grid.hpp>
-#include <heel/planning/velocity_command.hpp>
+#include <heel/planning/trajectory.hpp>
 
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>

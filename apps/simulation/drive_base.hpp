@@ -8,7 +8,7 @@
 #include <heel/apps/simulation/random.hpp>
 #include <heel/apps/simulation/scene.hpp>
 #include <heel/mapping/floor_pose.hpp>
-#include <heel/planning/velocity_command.hpp>
+#include <heel/planning/trajectory.hpp>
 
 namespace heel {
 

@@ -6,7 +6,7 @@
 #pragma once
 
 #include <heel/apps/simulation/scene.hpp>
-#include <heel/mapping/floor_disc.hpp>
+#include <heel/mapping/floor_pose.hpp>
 
 #include <vector>
 

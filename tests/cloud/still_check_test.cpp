@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/cloud/mounting.hpp>
+#include <heel/cloud/ground_plane.hpp>
 #include <heel/cloud/still_check.hpp>
 
 #include <gtest/gtest.h>

@@ -4,7 +4,6 @@
 #include "tests/planning/small_net.hpp"
 #include "tests/support/temp_folder.hpp"
 #include <heel/planning/plan_file.hpp>
-#include <heel/planning/pnml_file.hpp>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "tests/support/temp_folder.hpp"
-#include <heel/planning/pnml_file.hpp>
+#include <heel/planning/plan_file.hpp>
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include <heel/apps/experiment/appearance_report.hpp>
 #include <heel/apps/experiment/people_matrix_experiment.hpp>
 #include <heel/apps/heel/experiment/experiment_commands.hpp>
-#include <heel/apps/heel/shared/scene_argument.hpp>
-#include <heel/apps/heel/terminal/progress_bar.hpp>
+#include <heel/apps/heel/shared/arguments.hpp>
+#include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/run_end.hpp>
 
 #include <CLI/CLI.hpp>

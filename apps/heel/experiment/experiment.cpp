@@ -5,7 +5,7 @@
 #include <heel/apps/experiment/offered_models.hpp>
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/experiment/experiment_commands.hpp>
-#include <heel/apps/heel/shared/scene_argument.hpp>
+#include <heel/apps/heel/shared/arguments.hpp>
 
 #include <CLI/CLI.hpp>
 

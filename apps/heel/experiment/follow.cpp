@@ -3,8 +3,8 @@
 
 #include <heel/apps/experiment/follow_experiment.hpp>
 #include <heel/apps/heel/experiment/experiment_commands.hpp>
-#include <heel/apps/heel/shared/scene_argument.hpp>
-#include <heel/apps/heel/terminal/progress_bar.hpp>
+#include <heel/apps/heel/shared/arguments.hpp>
+#include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/run_end.hpp>
 #include <heel/apps/results/result_files.hpp>
 

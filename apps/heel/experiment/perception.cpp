@@ -3,7 +3,7 @@
 
 #include <heel/apps/experiment/perception_truth_experiment.hpp>
 #include <heel/apps/heel/experiment/experiment_commands.hpp>
-#include <heel/apps/heel/terminal/progress_bar.hpp>
+#include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/csv_file.hpp>
 #include <heel/apps/output/run_end.hpp>
 #include <heel/apps/results/result_files.hpp>

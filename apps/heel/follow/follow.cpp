@@ -4,20 +4,20 @@
 #include <heel/apps/experiment/random_episode.hpp>
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/follow/follow_output.hpp>
-#include <heel/apps/heel/follow/resident_memory.hpp>
-#include <heel/apps/heel/shared/bag_options.hpp>
+#include <heel/apps/heel/shared/arguments.hpp>
 #include <heel/apps/heel/shared/lap_clock.hpp>
-#include <heel/apps/heel/shared/scene_argument.hpp>
-#include <heel/apps/heel/terminal/progress_bar.hpp>
+#include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/run_end.hpp>
 #include <heel/planning/plan_file.hpp>
 
 #include <CLI/CLI.hpp>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <sstream>
 #include <stdexcept>
@@ -26,6 +26,14 @@
 
 namespace heel {
 namespace {
+
+/// Resident memory of this process [MiB]; 0 where the system does not tell.
+double residentMemory_MiB() {
+  std::ifstream statm("/proc/self/statm");
+  double all = 0.0, resident = 0.0;  // in pages
+  if (!(statm >> all >> resident)) return 0.0;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
 
 struct Options {
   std::string scene = "home";

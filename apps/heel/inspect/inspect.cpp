@@ -6,10 +6,8 @@
 #include <heel/apps/follower/camera_setup.hpp>
 #include <heel/apps/follower/depth_images.hpp>
 #include <heel/apps/heel/commands.hpp>
-#include <heel/apps/heel/inspect/inspect_bag.hpp>
-#include <heel/apps/heel/inspect/inspect_clouds.hpp>
-#include <heel/apps/heel/inspect/inspect_plan.hpp>
-#include <heel/apps/heel/shared/bag_options.hpp>
+#include <heel/apps/heel/inspect/inspect.hpp>
+#include <heel/apps/heel/shared/arguments.hpp>
 #include <heel/apps/pictures/drawing.hpp>
 #include <heel/apps/pictures/map_picture.hpp>
 #include <heel/apps/recording/clouds/cloud_file.hpp>

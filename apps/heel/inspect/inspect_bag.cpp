@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/heel/commands.hpp>
-#include <heel/apps/heel/inspect/inspect_bag.hpp>
+#include <heel/apps/heel/inspect/inspect.hpp>
 #include <heel/apps/recording/bags/bag_camera.hpp>
 #include <heel/apps/recording/bags/bag_poses.hpp>
 

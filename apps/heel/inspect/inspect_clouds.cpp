@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/follower/depth_images.hpp>
-#include <heel/apps/heel/inspect/inspect_clouds.hpp>
+#include <heel/apps/heel/inspect/inspect.hpp>
 #include <heel/apps/heel/shared/cloud_batch.hpp>
 #include <heel/apps/recording/clouds/cloud_inputs.hpp>
 #include <heel/apps/recording/clouds/pcd_file.hpp>
+#include <heel/cloud/color_cloud.hpp>
 #include <heel/cloud/ground_plane.hpp>
-#include <heel/cloud/pinhole_fit.hpp>
 
 #include <opencv2/imgproc.hpp>
 #include <pcl/common/common.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/heel/inspect/inspect_plan.hpp>
+#include <heel/apps/heel/inspect/inspect.hpp>
 #include <heel/apps/pictures/plan_net_picture.hpp>
 #include <heel/planning/following_plan.hpp>
 #include <heel/planning/plan_checks.hpp>

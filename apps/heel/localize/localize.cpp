@@ -4,10 +4,9 @@
 #include <heel/apps/experiment/log_localization.hpp>
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/localize/localize_output.hpp>
-#include <heel/apps/heel/shared/bag_options.hpp>
-#include <heel/apps/heel/shared/scene_argument.hpp>
+#include <heel/apps/heel/shared/arguments.hpp>
 #include <heel/apps/output/run_end.hpp>
-#include <heel/apps/simulation/scene_grid.hpp>
+#include <heel/apps/simulation/scene_map.hpp>
 #include <heel/mapping/map_server_file.hpp>
 
 #include <CLI/CLI.hpp>

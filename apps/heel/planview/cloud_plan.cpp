@@ -3,7 +3,7 @@
 
 #include <heel/apps/heel/planview/cloud_plan.hpp>
 #include <heel/apps/recording/camera_file.hpp>
-#include <heel/cloud/pinhole_fit.hpp>
+#include <heel/cloud/color_cloud.hpp>
 #include <heel/segmentation/appearance_filter.hpp>
 
 #include <pcl/common/transforms.h>

@@ -13,6 +13,7 @@
 #include <heel/segmentation/world_blobs.hpp>
 
 #include <Eigen/Geometry>
+#include <opencv2/core/mat.hpp>
 
 #include <optional>
 #include <string>
@@ -63,5 +64,11 @@ struct CloudPlan {
 ///         model needs colours and there are none.
 CloudPlan planCloud(const std::filesystem::path& file, const CloudFile& cloud,
                     const AppearanceModel* model, const CloudPlanParams& params);
+
+/// The occupied cells, brighter where they are higher and tinted where they belong to a blob; the
+/// blobs with their numbers and heights, those of a person's shape with a thick ring; the cloud's
+/// origin as a wedge. X goes up, y to the left; a grid of metres. CV_8UC3, 720 x 640 or so.
+/// @param title  Over the picture; cut where it has no room.
+cv::Mat drawPlanView(const CloudPlan& plan, const std::string& title);
 
 }  // namespace heel

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/heel/planview/plan_view_picture.hpp>
+#include <heel/apps/heel/planview/cloud_plan.hpp>
 #include <heel/apps/output/csv_file.hpp>
 #include <heel/apps/pictures/drawing.hpp>
 

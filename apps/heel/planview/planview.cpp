@@ -4,7 +4,6 @@
 #include <heel/apps/film/video_writer.hpp>
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/planview/cloud_plan.hpp>
-#include <heel/apps/heel/planview/plan_view_picture.hpp>
 #include <heel/apps/heel/shared/cloud_batch.hpp>
 #include <heel/apps/recording/clouds/cloud_inputs.hpp>
 #include <heel/segmentation/appearance_model_io.hpp>

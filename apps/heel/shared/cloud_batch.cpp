@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/heel/shared/cloud_batch.hpp>
-#include <heel/apps/heel/terminal/terminal.hpp>
+#include <heel/apps/heel/shared/terminal.hpp>
 
 #include <CLI/CLI.hpp>
 

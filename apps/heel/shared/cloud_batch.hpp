@@ -7,7 +7,7 @@
 
 #include <heel/apps/heel/shared/cloud_summary.hpp>
 #include <heel/apps/heel/shared/ordered_loop.hpp>
-#include <heel/apps/heel/terminal/progress_bar.hpp>
+#include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/run_end.hpp>
 
 #include <atomic>

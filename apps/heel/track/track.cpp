@@ -3,10 +3,10 @@
 
 #include <heel/apps/follower/perception.hpp>
 #include <heel/apps/heel/commands.hpp>
-#include <heel/apps/heel/shared/bag_options.hpp>
+#include <heel/apps/heel/shared/arguments.hpp>
 #include <heel/apps/heel/shared/lap_clock.hpp>
 #include <heel/apps/heel/shared/robot_places.hpp>
-#include <heel/apps/heel/terminal/progress_bar.hpp>
+#include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/heel/track/track_output.hpp>
 #include <heel/apps/output/run_end.hpp>
 #include <heel/segmentation/appearance_model_io.hpp>

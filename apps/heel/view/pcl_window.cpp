@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/heel/view/scene_window.hpp>
+#include <heel/apps/heel/view/view_scene.hpp>
 #include <heel/apps/pictures/drawing.hpp>
 
 #include <X11/Xlib.h>

@@ -4,14 +4,13 @@
 #include <heel/apps/film/video_writer.hpp>
 #include <heel/apps/follower/depth_images.hpp>
 #include <heel/apps/heel/commands.hpp>
-#include <heel/apps/heel/shared/bag_options.hpp>
+#include <heel/apps/heel/shared/arguments.hpp>
 #include <heel/apps/heel/shared/drawn_perception.hpp>
 #include <heel/apps/heel/shared/map_source.hpp>
 #include <heel/apps/heel/shared/robot_places.hpp>
-#include <heel/apps/heel/shared/scene_argument.hpp>
-#include <heel/apps/heel/terminal/progress_bar.hpp>
+#include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/heel/view/scene_picture.hpp>
-#include <heel/apps/heel/view/scene_window.hpp>
+#include <heel/apps/heel/view/view_scene.hpp>
 #include <heel/apps/output/run_end.hpp>
 #include <heel/segmentation/appearance_model_io.hpp>
 

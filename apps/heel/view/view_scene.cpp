@@ -4,10 +4,10 @@
 #include <heel/apps/heel/view/view_scene.hpp>
 #include <heel/apps/pictures/drawing.hpp>
 
+#include <dlfcn.h>
 #include <opencv2/core.hpp>
 
 namespace heel {
-
 namespace {
 
 void paint(const cv::Scalar& bgr, pcl::PointXYZRGB& point) {
@@ -55,6 +55,20 @@ ColorCloud::Ptr wallPoints(const OccupancyGrid& walls) {
     }
   }
   return points;
+}
+
+std::unique_ptr<SceneWindow> openSceneWindow(std::string& why) {
+  // Never closed: VTK does not take it well.
+  void* library = dlopen("libheel_window.so", RTLD_NOW | RTLD_LOCAL);
+  using Open = SceneWindow* (*)();
+  void* symbol = library == nullptr ? nullptr : dlsym(library, "heelOpenSceneWindow");
+  if (symbol == nullptr) {
+    why = "Heel's window is not installed";
+    return nullptr;
+  }
+  std::unique_ptr<SceneWindow> window(reinterpret_cast<Open>(symbol)());
+  if (window == nullptr) why = "there is no display";
+  return window;
 }
 
 }  // namespace heel

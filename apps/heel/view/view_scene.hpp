@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// One moment of a recording in three dimensions.
+/// What `heel view` shows, and the window that shows it.
 #pragma once
 
 #include <heel/apps/pictures/annotate.hpp>
@@ -10,6 +10,9 @@
 #include <heel/mapping/occupancy_grid.hpp>
 
 #include <pcl/types.h>
+
+#include <memory>
+#include <string>
 
 namespace heel {
 
@@ -35,5 +38,21 @@ ColorCloud::Ptr tintedCloud(const ViewScene& scene);
 
 /// The walls as low columns of points.
 ColorCloud::Ptr wallPoints(const OccupancyGrid& walls);
+
+class SceneWindow {
+ public:
+  virtual ~SceneWindow() = default;
+
+  /// Shows a scene instead of the last one, for so long; then returns. The view stays as the user
+  /// has turned it.
+  /// @return false once the user has closed the window.
+  virtual bool show(const ViewScene& scene, double seconds) = 0;
+};
+
+/// Opens PCL's window. It lies in a library of its own, which is loaded here: nothing else of Heel
+/// needs PCL's visualization, or waits for it to load.
+/// @param why  Out: why there is none, in a few words.
+/// @return Nothing without a display, or where Heel was built without the window.
+std::unique_ptr<SceneWindow> openSceneWindow(std::string& why);
 
 }  // namespace heel

@@ -3,12 +3,11 @@
 
 #include <heel/apps/recording/clouds/cloud_file.hpp>
 #include <heel/apps/recording/clouds/pcd_header.hpp>
-#include <heel/apps/recording/clouds/ply_reader.hpp>
-#include <heel/apps/recording/clouds/ply_writer.hpp>
-#include <heel/apps/recording/clouds/quiet_pcl.hpp>
+#include <heel/apps/recording/clouds/ply_file.hpp>
 
 #include <pcl/common/io.h>
 #include <pcl/common/point_tests.h>
+#include <pcl/console/print.h>
 #include <pcl/conversions.h>
 #include <pcl/io/pcd_io.h>
 
@@ -23,6 +22,23 @@ namespace heel {
 namespace fs = std::filesystem;
 
 namespace {
+
+/// PCL's readers tell their reasons to the console; ours go to the caller instead. Where PCL is
+/// silent already, nothing is changed, so that threads can share the silence.
+class QuietPcl {
+ public:
+  QuietPcl() : before_(pcl::console::getVerbosityLevel()) { set(pcl::console::L_ALWAYS); }
+  ~QuietPcl() { set(before_); }
+  QuietPcl(const QuietPcl&) = delete;
+  QuietPcl& operator=(const QuietPcl&) = delete;
+
+ private:
+  void set(pcl::console::VERBOSITY_LEVEL level) const {
+    if (before_ != pcl::console::L_ALWAYS) pcl::console::setVerbosityLevel(level);
+  }
+
+  pcl::console::VERBOSITY_LEVEL before_;
+};
 
 [[noreturn]] void fail(const fs::path& file, const std::string& why) {
   throw std::runtime_error(file.string() + ": " + why);

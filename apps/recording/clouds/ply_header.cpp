@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/recording/clouds/ply_header.hpp>
+#include <heel/apps/recording/clouds/ply_file.hpp>
 #include <heel/cloud/file_limits.hpp>
 
 #include <pcl/PCLPointField.h>

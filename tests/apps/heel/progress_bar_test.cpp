@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "tests/support/temp_folder.hpp"
-#include <heel/apps/heel/terminal/progress_bar.hpp>
+#include <heel/apps/heel/shared/terminal.hpp>
 
 #include <gmock/gmock.h>
 #include <pty.h>

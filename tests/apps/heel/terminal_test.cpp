@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/heel/terminal/terminal.hpp>
+#include <heel/apps/heel/shared/terminal.hpp>
 
 #include <gtest/gtest.h>
 

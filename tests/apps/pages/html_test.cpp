@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/pages/histogram.hpp>
+#include <heel/apps/pages/charts.hpp>
 #include <heel/apps/pages/html.hpp>
-#include <heel/apps/pages/state_tones.hpp>
-#include <heel/apps/pages/time_scale.hpp>
+#include <heel/apps/pages/page_parts.hpp>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

@@ -3,8 +3,7 @@
 
 #include <heel/apps/pictures/annotate.hpp>
 #include <heel/apps/pictures/drawing.hpp>
-#include <heel/apps/pictures/image_picture.hpp>
-#include <heel/apps/pictures/plan_picture.hpp>
+#include <heel/apps/pictures/picture_parts.hpp>
 
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>

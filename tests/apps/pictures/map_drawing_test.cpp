@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "tests/support/follow_run.hpp"
-#include <heel/apps/pictures/map_drawing.hpp>
+#include <heel/apps/pictures/map_picture.hpp>
 
 #include <gtest/gtest.h>
 

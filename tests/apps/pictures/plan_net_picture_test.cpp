@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/pictures/drawing.hpp>
-#include <heel/apps/pictures/net_layout.hpp>
 #include <heel/apps/pictures/plan_net_picture.hpp>
 #include <heel/planning/following_plan.hpp>
 #include <heel/planning/plan_file.hpp>

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// Scenes, maps and plans, as users name them.
+/// What several verbs are called with: scenes, maps and plans, and the topics of a bag.
 #pragma once
 
+#include <heel/apps/recording/bags/bag_topics.hpp>
 #include <heel/apps/simulation/scene.hpp>
 
 #include <filesystem>
@@ -39,5 +40,20 @@ std::filesystem::path planFolder();
 /// A plan's PNML file: the path itself, or the name of a plan that comes with Heel.
 /// @throws std::runtime_error  if there is neither.
 std::filesystem::path planFile(const std::string& plan);
+
+/// Topics of images and clouds, and the base frame.
+void addCameraTopics(CLI::App& verb, BagTopics& topics);
+
+/// The topic of odometry.
+void addOdometryTopic(CLI::App& verb, BagTopics& topics);
+
+/// Topics of odometry and truth.
+void addPoseTopics(CLI::App& verb, BagTopics& topics);
+
+/// Topics of scans, odometry and truth, and the base frame.
+void addLaserTopics(CLI::App& verb, BagTopics& topics);
+
+/// The bag to write the results to.
+void addResultBag(CLI::App& verb, std::filesystem::path& bag);
 
 }  // namespace heel

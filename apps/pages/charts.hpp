@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// Curves over time, in the style of Heel's pages.
+/// Curves over time and histograms, in the style of Heel's pages.
 #pragma once
 
 #include <heel/apps/results/follow_log.hpp>
@@ -48,5 +48,13 @@ std::string timeChart(const std::vector<FollowSample>& samples, const TimeScale&
 
 /// Marks of time under the charts.
 std::string timeTicks(const TimeScale& scale);
+
+/// How many values fall in each of `bins` ranges of width `step` from `first` on; values that are
+/// not finite are left out, those at the upper end belong to the last range.
+std::vector<int> binned(const std::vector<double>& values, double first, double step, int bins);
+
+/// A figure with bars, the middle value and the extremes: HTML around SVG.
+std::string histogram(const std::string& title, const std::string& unit,
+                      const std::vector<double>& values);
 
 }  // namespace heel
