@@ -11,7 +11,7 @@
 namespace heel {
 namespace {
 
-constexpr float kRoot2 = 1.41421356F;
+constexpr float kDiagonal = 1.41421356F;
 
 /// A wide cell stands for its middle if there is so much more room than it takes, in cells.
 constexpr float kAmple = 0.5F;
@@ -59,7 +59,7 @@ void GridWave::choosePlace(int cell) {
       chosen.place = {2 * x + 1, 2 * y + 1};
     }
   }
-  if (chosen.room >= ample || chosen.room <= radius_ - 0.5F * kRoot2) return;
+  if (chosen.room >= ample || chosen.room <= radius_ - 0.5F * kDiagonal) return;
   for (int y = std::max(1, y0); y < std::min(y1, map_->height() - 1); ++y) {
     for (int x = std::max(1, x0); x < std::min(x1, map_->width() - 1); ++x) chooseRim(cell, x, y);
   }
@@ -71,7 +71,7 @@ void GridWave::choosePlace(int cell) {
 void GridWave::chooseRim(int cell, int x, int y) {
   const int across_y = map_->width(), map_cell = y * across_y + x;
   const float here = map_->clearanceInCells(map_cell);
-  if (here <= radius_ - 0.5F * kRoot2) return;
+  if (here <= radius_ - 0.5F * kDiagonal) return;
   const auto is_ridge = [&](int across) {
     const float a = map_->clearanceInCells(map_cell - across),
                 b = map_->clearanceInCells(map_cell + across);

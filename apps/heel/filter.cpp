@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct FilterOptions {
   fs::path model;
   fs::path out;
   CloudBatch batch;
@@ -31,7 +31,7 @@ struct Options {
 /// Filters one cloud into `out`.
 /// @return how many points passed.
 std::size_t filterCloud(const fs::path& in, const OutputPath& out, const ColorTable& table,
-                        const Options& options, CloudFate& fate) {
+                        const FilterOptions& options, CloudFate& fate) {
   CloudFile cloud = readCloud(in);
   fate.facts = cloud.facts;
   needColors(in, cloud.facts);
@@ -55,7 +55,7 @@ std::size_t filterCloud(const fs::path& in, const OutputPath& out, const ColorTa
   return kept.size();
 }
 
-void filterOne(const fs::path& in, const fs::path& out, const Options& options) {
+void filterOne(const fs::path& in, const fs::path& out, const FilterOptions& options) {
   Output output({"filter", OutputKind::kFile, out, {in, options.model}});
   CloudFate fate;
   const ColorTable table = loadAppearance(options.model).filterTable();
@@ -65,7 +65,7 @@ void filterOne(const fs::path& in, const fs::path& out, const Options& options) 
   std::printf("kept %zu of %zu points; wrote %s\n", kept, fate.facts.points(), out.c_str());
 }
 
-void filterMany(const Options& options) {
+void filterMany(const FilterOptions& options) {
   const ColorTable table = loadAppearance(options.model).filterTable();
   const auto clouds = findClouds(options.batch.names);
   const auto results = resultNames(clouds);
@@ -107,7 +107,7 @@ void filterMany(const Options& options) {
 }
 
 /// Whether one cloud goes to one file, and to which; else results go to the folder --out.
-std::optional<fs::path> singleResult(Options& options) {
+std::optional<fs::path> singleResult(FilterOptions& options) {
   auto& names = options.batch.names;
   if (options.out.empty()) {
     if (names.size() != 2 || !isCloudName(names[1]) || isPattern(names[0]) ||
@@ -126,7 +126,7 @@ std::optional<fs::path> singleResult(Options& options) {
   return options.out;
 }
 
-void run(Options& options) {
+void run(FilterOptions& options) {
   if (const auto out = singleResult(options)) {
     filterOne(options.batch.names.front(), *out, options);
   } else {
@@ -137,7 +137,7 @@ void run(Options& options) {
 }  // namespace
 
 void addFilter(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FilterOptions>();
   CLI::App* verb =
       app.add_subcommand("filter", "Keep the points of clouds that have a person's colours");
   verb->footer(

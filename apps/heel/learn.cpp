@@ -23,7 +23,7 @@
 namespace heel {
 namespace {
 
-struct Options {
+struct LearnOptions {
   std::filesystem::path recording;
   std::filesystem::path out = "person.yaml";
   RecordingParams opening;
@@ -102,7 +102,7 @@ std::string whenItMoved(const WhileItStands& standing, const MotionWatch& watch)
   return text;
 }
 
-void run(const Options& options) {
+void run(const LearnOptions& options) {
   const std::string ending = options.out.extension().string();
   if (ending != ".yaml" && ending != ".yml") {
     throw std::invalid_argument(options.out.string() + ": the name of a model ends in .yaml");
@@ -161,7 +161,7 @@ void run(const Options& options) {
 }  // namespace
 
 void addLearn(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<LearnOptions>();
   CLI::App* verb = app.add_subcommand("learn", "Learn who to follow, from a recording");
   verb->footer(
       "Example:\n"

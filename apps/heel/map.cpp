@@ -25,14 +25,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct MapOptions {
   std::string source;
   fs::path out;
   HeightBand band = kBodyBand;
   MapSourceParams params;
 };
 
-void run(Options& options) {
+void run(MapOptions& options) {
   if (!(options.band.low_m < options.band.high_m)) {
     throw std::invalid_argument("--low must be under --high");
   }
@@ -63,7 +63,7 @@ void run(Options& options) {
 }  // namespace
 
 void addMap(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MapOptions>();
   CLI::App* verb =
       app.add_subcommand("map", "Make a wall map of a scene, a floor plan or a recording");
   verb->footer(

@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct PlanOptions {
   std::string map;
   std::vector<double> from, to;
   fs::path out = "plan";
@@ -39,7 +39,7 @@ struct Options {
 
 constexpr double kStep_m = 0.1;  ///< Of path.csv.
 
-cv::Mat drawPlan(const OccupancyGrid& map, const GlobalPlan& plan, const Options& options) {
+cv::Mat drawPlan(const OccupancyGrid& map, const GlobalPlan& plan, const PlanOptions& options) {
   const int longest = std::max(map.width(), map.height());
   const int scale = std::clamp(1000 / longest, 1, 8);
   cv::Mat picture(map.height() * scale, map.width() * scale, CV_8UC3, palette::kPanelLit);
@@ -69,7 +69,7 @@ cv::Mat drawPlan(const OccupancyGrid& map, const GlobalPlan& plan, const Options
   return picture;
 }
 
-void run(const Options& options) {
+void run(const PlanOptions& options) {
   const fs::path source = mapSource(options.map);
   Output output({"plan",
                  OutputKind::kFolder,
@@ -116,7 +116,7 @@ void run(const Options& options) {
 }  // namespace
 
 void addPlan(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PlanOptions>();
   CLI::App* verb = app.add_subcommand("plan", "Plan a path on a map");
   verb->footer("Example:\n  heel plan home --from 1,1 --to 6,4 --out out/plan");
   verb->add_option("MAP", options->map,

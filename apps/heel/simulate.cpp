@@ -21,7 +21,7 @@
 namespace heel {
 namespace {
 
-struct Options {
+struct SimulateArguments {
   std::string scene;
   std::string light;  // empty: the scene's
   std::string drive;  // empty: the robot stands still
@@ -29,7 +29,7 @@ struct Options {
 };
 
 std::function<VelocityCommand(const WorldTruth&)> driverOf(const Scene& scene,
-                                                           const Options& options) {
+                                                           const SimulateArguments& options) {
   if (options.drive.empty()) return {};
   if (options.drive == "roam") {
     auto driver = std::make_shared<RoamingDriver>(scene, options.simulate.seed);
@@ -41,7 +41,7 @@ std::function<VelocityCommand(const WorldTruth&)> driverOf(const Scene& scene,
   return [driver](const WorldTruth& truth) { return driver->drive(truth); };
 }
 
-void run(Options& options) {
+void run(SimulateArguments& options) {
   Scene scene = loadScene(sceneFile(options.scene).string());
   setLight(scene, options.light);
   options.simulate.drive = driverOf(scene, options);
@@ -63,7 +63,7 @@ void run(Options& options) {
 }  // namespace
 
 void addSimulate(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SimulateArguments>();
   CLI::App* verb = app.add_subcommand("simulate", "Make a recording of a scene, with its truth");
   verb->footer(
       "Example:\n"

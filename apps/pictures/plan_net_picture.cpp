@@ -14,12 +14,12 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kScale = 1.35;      // pixels for a unit of the layout
-constexpr double kRadius = 25.0;     // of a place
-constexpr double kBarLength = 36.0;  // of a transition
-constexpr double kBarGap = 5.0;      // from the middle of a bar to the end of an arrow
-constexpr int kLine = 18;            // from one line of text to the next
-constexpr double kMargin = 150.0;    // around the outermost node: room for its label
+constexpr double kScale = 1.35;       // pixels for a unit of the layout
+constexpr double kRadius = 25.0;      // of a place
+constexpr double kBarLength = 36.0;   // of a transition
+constexpr double kBarGap = 5.0;       // from the middle of a bar to the end of an arrow
+constexpr int kLine = 18;             // from one line of text to the next
+constexpr double kNetMargin = 150.0;  // around the outermost node: room for its label
 constexpr double kTitle = 50.0;
 
 cv::Point2d point(const Vector2d& v) { return {v.x(), v.y()}; }
@@ -53,8 +53,8 @@ class NetPicture {
         high = high.cwiseMax(at);
       }
     }
-    origin_ = kScale * low - Vector2d(kMargin, kMargin / 2 + kTitle);
-    const Vector2d size = kScale * high - origin_ + Vector2d(kMargin, kMargin / 2 + 20.0);
+    origin_ = kScale * low - Vector2d(kNetMargin, kNetMargin / 2 + kTitle);
+    const Vector2d size = kScale * high - origin_ + Vector2d(kNetMargin, kNetMargin / 2 + 20.0);
     picture_.create(static_cast<int>(size.y()), static_cast<int>(size.x()), CV_8UC3);
     picture_.setTo(palette::kPaper);
     for (Vector2d& at : layout_.places) at = inPicture(at);

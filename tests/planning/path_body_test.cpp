@@ -21,7 +21,7 @@ namespace {
 using test::DrawnMap;
 
 const GlobalPlannerParams kRobot;
-constexpr double kBody_m = 0.31;
+constexpr double kWidth_m = 0.31;
 
 BodyCheck checkOn(const WallMap& walls, double radius_m) {
   RobotBody body;
@@ -62,8 +62,8 @@ TEST(PlannedPath, KeepsTheBodyOffTheWallsOfRandomMaps) {
     const BodyCheck check = checkOn(walls, kRobot.robot_radius_m);
     GlobalPlanner planner(map.grid(), kRobot);
     for (int k = 0; k < 3; ++k) {
-      const GlobalPlan plan = planner.plan(test::randomPlace(random, map, kBody_m),
-                                           test::randomPlace(random, map, kBody_m));
+      const GlobalPlan plan = planner.plan(test::randomPlace(random, map, kWidth_m),
+                                           test::randomPlace(random, map, kWidth_m));
       if (!plan.found()) continue;
       ++plans;
       EXPECT_EQ(collisionsOn(plan.path, check, map.cell_size_m), 0) << "map " << i;

@@ -20,9 +20,9 @@ using testing::IsEmpty;
 
 enum Action { kWalk, kWave };
 enum Condition { kNear, kTired };
-const PlanVocabulary kWords = {{"walk", "wave"}, {"near", "tired"}};
+const PlanVocabulary kRunnerWords = {{"walk", "wave"}, {"near", "tired"}};
 
-PlanRunner runnerOf(const PetriNet& net) { return PlanRunner(makePlan(net, kWords)); }
+PlanRunner runnerOf(const PetriNet& net) { return PlanRunner(makePlan(net, kRunnerWords)); }
 
 /// Steps while exactly these conditions hold.
 const PlanStep& step(PlanRunner& runner, const std::set<int>& facts = {}) {
@@ -146,7 +146,7 @@ TEST(PlanRunner, AStepAllocatesNothing) {
 }
 
 TEST(PlanRunner, NeedsARoleForEachElement) {
-  PetriPlan plan = makePlan(walkAndWave(), kWords);
+  PetriPlan plan = makePlan(walkAndWave(), kRunnerWords);
   plan.places.pop_back();
   EXPECT_THROW(PlanRunner{plan}, std::invalid_argument);
 }

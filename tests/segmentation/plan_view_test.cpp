@@ -19,7 +19,7 @@ namespace {
 using test::allOf;
 using test::pointAt;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
 TEST(PlanView, CountsEachPointOnceAndKeepsTheGreatestHeight) {
@@ -61,7 +61,7 @@ TEST(PlanView, GivesAPointTheSurfaceOfItsPixel) {
 
 TEST(PlanView, LeavesOutWhatHasNoPlaceOnTheGrid) {
   ColorCloud cloud;
-  for (const float bad : {kNan, kInf, -kInf}) {
+  for (const float bad : {kNowhere, kInf, -kInf}) {
     cloud.push_back(pointAt(bad, 0.0, 1.0));
     cloud.push_back(pointAt(1.0, bad, 1.0));
     cloud.push_back(pointAt(1.0, 0.0, bad));

@@ -15,7 +15,7 @@
 namespace heel {
 namespace {
 
-struct Options {
+struct EvaluateOptions {
   std::filesystem::path tracks;
   std::filesystem::path truth;
   std::filesystem::path out;
@@ -74,7 +74,7 @@ void print(const Evaluation& result) {
   std::printf("  MOTP                  %6.3f m\n", people.motp_m());
 }
 
-void run(const Options& options) {
+void run(const EvaluateOptions& options) {
   const Evaluation result =
       evaluate(alignByStamp(readTracks(options.tracks), readTruth(options.truth)), options.params);
   print(result);
@@ -87,7 +87,7 @@ void run(const Options& options) {
 }  // namespace
 
 void addEvaluate(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<EvaluateOptions>();
   CLI::App* verb = app.add_subcommand("evaluate", "Compare tracks with where people really were");
   verb->footer(
       "Example:\n"

@@ -22,7 +22,7 @@
 namespace heel {
 namespace {
 
-struct Options {
+struct AppearanceOptions {
   int wardrobes = 20;
   std::uint64_t seed = 1;
   std::filesystem::path out;
@@ -83,7 +83,7 @@ void endIfStopped() {
 }
 
 /// Each real person's model against all of them.
-void runPeople(const Options& options, const std::optional<Output>& output) {
+void runPeople(const AppearanceOptions& options, const std::optional<Output>& output) {
   ProgressBar progress("people", 100);
   WardrobeRuns runs;
   runs.models =
@@ -101,7 +101,7 @@ void runPeople(const Options& options, const std::optional<Output>& output) {
   if (output) writeAppearanceFiles(*output, "people", {runs}, min_share);
 }
 
-void runSimulated(const Options& options, const std::optional<Output>& output) {
+void runSimulated(const AppearanceOptions& options, const std::optional<Output>& output) {
   constexpr std::size_t kSteps = 100;
   const auto all = static_cast<std::size_t>(options.wardrobes) + 1;
   ProgressBar progress("appearance", kSteps * all);
@@ -130,7 +130,7 @@ void keepModels(std::vector<OfferedModel>& models, const std::string& text) {
   if (models.empty()) throw std::invalid_argument("no model's name holds '" + text + "'");
 }
 
-void run(Options& options) {
+void run(AppearanceOptions& options) {
   keepModels(options.params.models, options.models);
   options.params.drawn_light = options.light == "drawn";
   std::optional<Output> output = experimentOutput("appearance", options.out, {options.people});
@@ -142,7 +142,7 @@ void run(Options& options) {
 }  // namespace
 
 void addAppearanceExperiment(CLI::App& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<AppearanceOptions>();
   options->params.scenes = sceneFolder();
   CLI::App* experiment = verb.add_subcommand(
       "appearance", "Who is detected with whose model: the paper's section 4.1, in simulation");

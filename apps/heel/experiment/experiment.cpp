@@ -21,13 +21,13 @@
 namespace heel {
 namespace {
 
-struct Options {
+struct ExperimentOptions {
   std::filesystem::path recording;
   std::filesystem::path other;
   ExperimentParams params;
 };
 
-void runDetector(const Options& options) {
+void runDetector(const ExperimentOptions& options) {
   using Clock = std::chrono::steady_clock;
   Clock::time_point begin;
   double total_ms = 0.0;
@@ -51,7 +51,7 @@ void printRow(const std::string& name, const TargetMetrics& m) {
               m.wrongPersonShare(), m.frames_in_view);
 }
 
-void runProtocol(const Options& options) {
+void runProtocol(const ExperimentOptions& options) {
   std::printf("the paper's protocol: learned alone, then followed by appearance alone\n");
   for (const OfferedModel& offered : offeredModels()) {
     ExperimentParams params = options.params;
@@ -89,7 +89,7 @@ void print(const Reliability& reliability) {
   std::printf("  expected calibration error %.3f\n", reliability.expectedError());
 }
 
-void runTargets(const Options& options) {
+void runTargets(const ExperimentOptions& options) {
   std::printf(
       "each person as the target: recall and share of frames on a wrong person; found by\n"
       "looks, also the frames they are not in, and the shares claimed then and right of all\n");
@@ -146,8 +146,9 @@ void addExperiment(CLI::App& app) {
       "Example:\n"
       "  heel experiment targets recordings/six_people\n"
       "Recordings: a still camera, empty at first, with people's true places in truth.csv.");
-  const auto add = [verb](const char* name, const char* what, void (*run)(const Options&)) {
-    auto options = std::make_shared<Options>();
+  const auto add = [verb](const char* name, const char* what,
+                          void (*run)(const ExperimentOptions&)) {
+    auto options = std::make_shared<ExperimentOptions>();
     CLI::App* experiment = verb->add_subcommand(name, what);
     experiment->footer(std::string("Example:\n  heel experiment ") + name +
                        " recordings/six_people");

@@ -19,7 +19,7 @@
 namespace heel {
 namespace {
 
-struct Options {
+struct FollowExperimentOptions {
   std::filesystem::path out = "out/follow_experiment";
   FollowExperimentParams params;
 };
@@ -34,7 +34,7 @@ void printRow(const FollowEpisode& episode) {
   std::fflush(stdout);
 }
 
-void run(Options& options) {
+void run(FollowExperimentOptions& options) {
   options.params.scenes = sceneFolder();
   options.params.plans = planFolder();
   std::optional<Output> output = experimentOutput("follow", options.out);
@@ -67,7 +67,7 @@ void run(Options& options) {
 }  // namespace
 
 void addFollowExperiment(CLI::App& experiment) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FollowExperimentOptions>();
   CLI::App* verb = experiment.add_subcommand(
       "follow", "The paper's three experiments with its plan and ours, and random homes");
   verb->footer(

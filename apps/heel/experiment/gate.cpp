@@ -20,7 +20,7 @@
 namespace heel {
 namespace {
 
-struct Options {
+struct GateOptions {
   SimulatedRuns simulated{10};
   GateExperimentParams params;
 };
@@ -74,7 +74,7 @@ void writeFiles(const Output& output, const std::vector<GateRun>& runs, const Su
                                       {"without_gate", without.toJson()}});
 }
 
-void run(Options& options) {
+void run(GateOptions& options) {
   std::optional<Output> output = experimentOutput("gate", options.simulated.out);
   const auto count = static_cast<std::size_t>(options.simulated.recordings);
   ProgressBar progress("gate", count);
@@ -97,7 +97,7 @@ void run(Options& options) {
 }  // namespace
 
 void addGateExperiment(CLI::App& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<GateOptions>();
   CLI::App* experiment = verb.add_subcommand(
       "gate", "What the map's walls are good for: a target among posters of the same colour");
   experiment->footer("Example:\n  heel experiment gate --out out/gate");

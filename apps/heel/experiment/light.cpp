@@ -22,7 +22,7 @@
 namespace heel {
 namespace {
 
-struct Options {
+struct LightOptions {
   std::vector<std::filesystem::path> real;
   SimulatedRuns simulated{20};
   PerceptionTruthParams params;
@@ -64,7 +64,7 @@ void writeFiles(const Output& output, const std::vector<std::pair<std::string, L
   writeJson(output / "summary.json", {{"complete", !isStopRequested()}, {"rows", 9 * runs.size()}});
 }
 
-void run(Options& options) {
+void run(LightOptions& options) {
   std::optional<Output> output = experimentOutput("light", options.simulated.out, options.real);
   const auto count = static_cast<std::size_t>(options.simulated.recordings);
   ProgressBar progress("light", count + options.real.size());
@@ -92,7 +92,7 @@ void run(Options& options) {
 }  // namespace
 
 void addLightExperiment(CLI::App& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<LightOptions>();
   CLI::App* experiment = verb.add_subcommand(
       "light", "People learned in one light and looked for in another, simulated and real");
   experiment->footer("Example:\n  heel experiment light recordings/six_people --out out/light");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/experiment/localization_experiment.hpp>
+#include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/experiment/experiment_commands.hpp>
 #include <heel/apps/heel/shared/arguments.hpp>
 #include <heel/apps/heel/shared/terminal.hpp>
@@ -24,9 +25,7 @@
 namespace heel {
 namespace {
 
-constexpr double kDegrees = 57.29577951308232;
-
-struct Options {
+struct LocalizationOptions {
   std::string scene = sceneFolder() / "home.yaml";
   std::size_t tracking = 10, global = 100, kidnapped = 50;
   std::uint64_t seed = 1;
@@ -39,7 +38,7 @@ using RunOne = LocalizationRun (*)(const Scene&, std::uint64_t,
                                    const LocalizationExperimentParams&);
 
 Runs runAll(const char* title, std::size_t count, RunOne one, const Scene& scene,
-            const Options& options) {
+            const LocalizationOptions& options) {
   ProgressBar progress(title, count);
   Runs runs;
   for (std::size_t i = 0; i < count && !isStopRequested(); ++i) {
@@ -116,7 +115,7 @@ void addRows(CsvWriter& csv, const char* kind, const Runs& runs) {
   }
 }
 
-void run(const Options& options) {
+void run(const LocalizationOptions& options) {
   std::optional<Output> output = experimentOutput("localization", options.out);
   const Scene scene = loadScene(options.scene);
   const Runs tracking = runAll("tracking", options.tracking, runTracking, scene, options);
@@ -147,7 +146,7 @@ void run(const Options& options) {
 }  // namespace
 
 void addLocalizationExperiment(CLI::App& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<LocalizationOptions>();
   CLI::App* experiment = verb.add_subcommand(
       "localization", "Localization against exact truth, in a simulated flat with people in it");
   experiment->footer("Example:\n  heel experiment localization --out out/localization");

@@ -22,7 +22,7 @@
 namespace heel {
 namespace {
 
-struct Options {
+struct PerceptionExperimentOptions {
   SimulatedRuns simulated{50};
   PerceptionTruthParams params;
 };
@@ -89,7 +89,7 @@ void writeFiles(const Output& output, const std::vector<PerceptionTruthRun>& run
   writeJson(output / "summary.json", summary);
 }
 
-void run(Options& options) {
+void run(PerceptionExperimentOptions& options) {
   std::optional<Output> output = experimentOutput("perception", options.simulated.out);
   const auto count = static_cast<std::size_t>(options.simulated.recordings);
   ProgressBar progress("perception", count);
@@ -111,7 +111,7 @@ void run(Options& options) {
 }  // namespace
 
 void addPerceptionExperiment(CLI::App& verb) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PerceptionExperimentOptions>();
   CLI::App* experiment = verb.add_subcommand(
       "perception", "The perception against exact truth, on simulated recordings");
   experiment->footer("Example:\n  heel experiment perception --out out/perception");

@@ -35,7 +35,7 @@ double residentMemory_MiB() {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
 }
 
-struct Options {
+struct FollowOptions {
   std::string scene = "home";
   std::string plan = "search";
   std::filesystem::path out = "out/follow";
@@ -50,7 +50,7 @@ struct Options {
   bool no_film = false;
 };
 
-Scene sceneOf(const Options& options) {
+Scene sceneOf(const FollowOptions& options) {
   Scene scene = options.random ? randomEpisode(options.loop.seed, sceneFolder(), options.episode)
                                : loadScene(sceneFile(options.scene).string());
   if (options.alone && !scene.people.empty()) scene.people.resize(1);
@@ -67,8 +67,8 @@ Scene sceneOf(const Options& options) {
   return scene;
 }
 
-std::string commandOf(const Options& options) {
-  const Options shortest;
+std::string commandOf(const FollowOptions& options) {
+  const FollowOptions shortest;
   std::ostringstream command;
   command << "heel follow " << (options.random ? "--random" : options.scene);
   if (options.episode.visits != shortest.episode.visits) {
@@ -121,7 +121,7 @@ void print(const FollowSummary& summary, const FollowOutput& output) {
   std::printf("results in %s: %s\n", output.folder().c_str(), output.fileNames().c_str());
 }
 
-void run(Options& options) {
+void run(FollowOptions& options) {
   if (!(options.loop.limit_s > 0.0 && std::isfinite(options.loop.limit_s))) {
     throw std::invalid_argument("--limit must be positive");
   }
@@ -162,7 +162,7 @@ void run(Options& options) {
 }  // namespace
 
 void addFollow(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FollowOptions>();
   CLI::App* verb =
       app.add_subcommand("follow", "Let a simulated robot learn a person and follow them");
   verb->footer(

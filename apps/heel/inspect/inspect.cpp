@@ -32,13 +32,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct InspectOptions {
   fs::path what;
   fs::path out = "inspect.png";
   RecordingParams opening;
 };
-
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 
 const char* nameOf(ColorModel model) {
   switch (model) {
@@ -150,7 +148,7 @@ cv::Mat inspectFloorPlan(const fs::path& file) {
   return drawMap(floor, file.filename().string());
 }
 
-cv::Mat inspect(const Options& options) {
+cv::Mat inspect(const InspectOptions& options) {
   const fs::path& what = options.what;
   if (isPattern(what)) {
     inspectClouds(what);
@@ -169,7 +167,7 @@ cv::Mat inspect(const Options& options) {
   return isMapServerFile(what) ? inspectFloorPlan(what) : inspectModel(what);
 }
 
-void run(const Options& options) {
+void run(const InspectOptions& options) {
   if (!fs::exists(options.what) && !isPattern(options.what)) {
     throw std::runtime_error(options.what.string() + ": there is no such file or folder");
   }
@@ -184,7 +182,7 @@ void run(const Options& options) {
 }  // namespace
 
 void addInspect(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<InspectOptions>();
   CLI::App* verb =
       app.add_subcommand("inspect", "Tell what is in a model, a map, a plan or a recording");
   verb->footer(

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/follower/depth_images.hpp>
+#include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/inspect/inspect.hpp>
 #include <heel/apps/heel/shared/cloud_batch.hpp>
 #include <heel/apps/recording/clouds/cloud_inputs.hpp>
@@ -22,8 +23,6 @@ namespace heel {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
 
 void printBounds(const ColorCloud& cloud) {
   pcl::Indices finite;

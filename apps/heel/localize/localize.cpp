@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct LocalizeOptions {
   fs::path log;
   fs::path out;
   std::string map;
@@ -37,7 +37,7 @@ struct Options {
   LogLocalizationParams params;
 };
 
-OccupancyGrid readMap(Options& options) {
+OccupancyGrid readMap(LocalizeOptions& options) {
   LogLocalizationParams& params = options.params;
   const auto log = openLaserLog(options.log, params.topics);
   if (!log->lost().empty()) warn(log->lost());
@@ -60,7 +60,7 @@ OccupancyGrid readMap(Options& options) {
   return laserGrid(scene, options.cell_size_m);
 }
 
-void run(Options& options) {
+void run(LocalizeOptions& options) {
   using Clock = std::chrono::steady_clock;
   const OccupancyGrid map = readMap(options);
   std::vector<fs::path> inputs = {options.log};
@@ -95,7 +95,7 @@ void run(Options& options) {
 }  // namespace
 
 void addLocalize(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<LocalizeOptions>();
   CLI::App* verb = app.add_subcommand("localize", "Find a robot on its map in a laser log");
   verb->footer(
       "Example:\n"

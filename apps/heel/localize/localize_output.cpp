@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/film/video_writer.hpp>
+#include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/localize/localize_output.hpp>
 #include <heel/apps/pictures/drawing.hpp>
 #include <heel/apps/results/result_files.hpp>
@@ -13,11 +14,7 @@
 #include <string>
 
 namespace heel {
-namespace {
-
-constexpr double kDegrees = 57.29577951308232;
-
-}  // namespace
+namespace {}  // namespace
 
 LocalizeOutput::LocalizeOutput(const std::filesystem::path& folder, const OccupancyGrid& map,
                                const std::vector<std::filesystem::path>& inputs)

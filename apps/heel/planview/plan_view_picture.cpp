@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/planview/cloud_plan.hpp>
 #include <heel/apps/output/csv_file.hpp>
 #include <heel/apps/pictures/drawing.hpp>
@@ -123,7 +124,6 @@ void drawBlobs(const CloudPlan& plan, const FloorScale& floor, cv::Mat& panel) {
 }
 
 std::string describe(const CloudPlan& plan) {
-  constexpr double kDegrees = 180.0 / 3.14159265358979323846;
   const std::string eye = fixedText(plan.mounting.height_m, 2) + " m over the floor, pitch " +
                           fixedText(plan.mounting.pitch_rad * kDegrees, 1) + " deg (" +
                           toText(plan.floor) + ")";

@@ -20,9 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDegrees = 180.0 / 3.14159265358979323846;
-
-struct Options {
+struct PlanViewOptions {
   fs::path model;
   fs::path out = "out";
   CloudBatch batch;
@@ -44,7 +42,7 @@ struct Planned {
   bool has_area = false;
 };
 
-CloudPlanParams paramsOf(const Options& options) {
+CloudPlanParams paramsOf(const PlanViewOptions& options) {
   CloudPlanParams params = options.params;
   params.R_optical_cloud = opticalFromUp(options.up);
   if (options.height_m) params.mounting = {*options.height_m, options.pitch_deg / kDegrees, 0.0};
@@ -58,7 +56,7 @@ CloudPlanParams paramsOf(const Options& options) {
 }
 
 Planned planOne(const fs::path& in, const OutputPath& picture, const AppearanceModel* model,
-                const CloudPlanParams& params, const Options& options, CloudFate& fate) {
+                const CloudPlanParams& params, const PlanViewOptions& options, CloudFate& fate) {
   const CloudFile cloud = readCloud(in);
   fate.facts = cloud.facts;
   const CloudPlan plan = planCloud(in, cloud, model, params);
@@ -101,7 +99,7 @@ void addFields(const Planned& planned, CsvWriter& row) {
   row.integer(static_cast<std::int64_t>(planned.people));
 }
 
-void run(const Options& options) {
+void run(const PlanViewOptions& options) {
   const CloudPlanParams params = paramsOf(options);
   std::optional<AppearanceModel> model;
   if (!options.model.empty()) model = loadAppearance(options.model);
@@ -150,7 +148,7 @@ void run(const Options& options) {
 }  // namespace
 
 void addPlanView(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PlanViewOptions>();
   CLI::App* verb = app.add_subcommand("planview", "Look at clouds from above: who stands where");
   verb->footer(
       "Examples:\n"

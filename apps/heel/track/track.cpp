@@ -23,7 +23,7 @@
 namespace heel {
 namespace {
 
-struct Options {
+struct TrackOptions {
   std::filesystem::path recording;
   std::filesystem::path model;
   std::filesystem::path out = "out";
@@ -61,7 +61,7 @@ std::vector<std::string> motionWarnings(const RobotPlaces& robot, const MotionWa
   return warnings;
 }
 
-void run(const Options& options) {
+void run(const TrackOptions& options) {
   const AppearanceModel model = loadAppearance(options.model);
   const auto recording = openRecording(options.recording, options.opening);
   const CameraSetup setup = findCameraSetup(*openRecording(options.recording, options.opening));
@@ -133,7 +133,7 @@ void run(const Options& options) {
 }  // namespace
 
 void addTrack(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TrackOptions>();
   CLI::App* verb = app.add_subcommand("track", "Follow a learned person through a recording");
   verb->footer(
       "Example:\n"

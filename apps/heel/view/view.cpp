@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ViewOptions {
   fs::path recording;
   fs::path model;
   std::string map;
@@ -117,7 +117,7 @@ class Scenes {
 
 /// Gives the scene of every so many frames to `show`, until it says that that is enough.
 /// @return how many frames there were.
-std::size_t eachScene(const Options& options, Scenes& scenes, std::size_t step,
+std::size_t eachScene(const ViewOptions& options, Scenes& scenes, std::size_t step,
                       const std::function<bool(const ViewScene&, double)>& show) {
   const auto recording = openRecording(options.recording, options.opening);
   Frame frame;
@@ -141,7 +141,7 @@ std::size_t eachScene(const Options& options, Scenes& scenes, std::size_t step,
   return seen;
 }
 
-void showInWindow(const Options& options, Scenes& scenes, SceneWindow& window) {
+void showInWindow(const ViewOptions& options, Scenes& scenes, SceneWindow& window) {
   constexpr double kLongest_s = 1.0;  // a gap in the recording is not waited for
   std::printf("close the window (or press q in it) to end\n");
   std::fflush(stdout);
@@ -155,7 +155,7 @@ void showInWindow(const Options& options, Scenes& scenes, SceneWindow& window) {
   while (is_open) is_open = window.show(last, kLongest_s);
 }
 
-void writePictures(const Options& options, Scenes& scenes, std::size_t frames) {
+void writePictures(const ViewOptions& options, Scenes& scenes, std::size_t frames) {
   std::vector<fs::path> inputs = {options.recording, options.model};
   if (!options.map.empty()) inputs.push_back(mapSource(options.map));
   Output output({"view", OutputKind::kFolder, options.out, std::move(inputs)});
@@ -178,7 +178,7 @@ void writePictures(const Options& options, Scenes& scenes, std::size_t frames) {
   if (isStopRequested()) throw Stopped("stopped: there are pictures of the frames until then");
 }
 
-void run(Options& options) {
+void run(ViewOptions& options) {
   std::optional<AppearanceModel> model;
   if (!options.model.empty()) model = loadAppearance(options.model);
   const CameraSetup setup = findCameraSetup(*openRecording(options.recording, options.opening));
@@ -199,7 +199,7 @@ void run(Options& options) {
 }  // namespace
 
 void addView(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ViewOptions>();
   CLI::App* verb = app.add_subcommand("view", "Show a recording in three dimensions");
   verb->footer(
       "Examples:\n"

@@ -27,17 +27,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Words = std::vector<std::string>;
+using WordList = std::vector<std::string>;
 
 constexpr std::size_t kLargest = std::numeric_limits<std::uint32_t>::max();  // of PCL's numbers
 
-[[noreturn]] void fail(const fs::path& file, const std::string& why) {
+[[noreturn]] void failPcd(const fs::path& file, const std::string& why) {
   throw std::runtime_error(file.string() + ": " + why);
 }
 
-Words wordsOf(const std::string& line) {
+WordList wordsOf(const std::string& line) {
   std::istringstream in(line);
-  Words words;
+  WordList words;
   for (std::string word; in >> word;) words.push_back(word);
   return words;
 }
@@ -48,10 +48,10 @@ class HeaderReader {
   explicit HeaderReader(const fs::path& file) : file_(file) {}
 
   PcdHeader read() {
-    if (!fs::exists(file_)) fail(file_, "the cloud is missing");
+    if (!fs::exists(file_)) failPcd(file_, "the cloud is missing");
     checkIsFile(file_);
     std::ifstream in(file_, std::ios::binary);
-    if (!in || fs::is_directory(file_)) fail(file_, "the cloud cannot be read");
+    if (!in || fs::is_directory(file_)) failPcd(file_, "the cloud cannot be read");
     bool has_data = false, is_known = true;
     for (std::string line; is_known && !has_data && std::getline(in, line);) {
       words_ = wordsOf(line);
@@ -59,7 +59,7 @@ class HeaderReader {
       is_known = take();
       has_data = words_.front() == "DATA";
     }
-    if (header_.layout.fields.empty()) fail(file_, "this is not a PCD file");
+    if (header_.layout.fields.empty()) failPcd(file_, "this is not a PCD file");
     if (!has_data) damaged(is_known ? "it has no DATA" : "'" + words_.front() + "'");
     header_.data_start = static_cast<std::size_t>(in.tellg());
     layOut();
@@ -68,7 +68,7 @@ class HeaderReader {
 
  private:
   [[noreturn]] void damaged(const std::string& why) const {
-    fail(file_, "the PCD header is damaged (" + why + ")");
+    failPcd(file_, "the PCD header is damaged (" + why + ")");
   }
 
   /// Takes a line; false if its keyword is none.
@@ -176,9 +176,9 @@ class HeaderReader {
   }
 
   const fs::path& file_;
-  Words words_;
+  WordList words_;
   std::vector<std::size_t> sizes_, counts_;
-  Words types_;
+  WordList types_;
   std::size_t width_ = 0, height_ = 0;
   std::optional<std::size_t> points_;
   PcdHeader header_;
@@ -248,16 +248,16 @@ void checkPcdSize(const fs::path& file, const PcdHeader& header) {
       std::min(timesAtMost(header.points, header.layout.point_step), kEnough);
   const auto checkEnd = [&](std::size_t end) {
     if (file_bytes < end) {
-      fail(file, "the cloud is truncated (" + std::to_string(file_bytes) + " of " +
-                     std::to_string(end) + " bytes)");
+      failPcd(file, "the cloud is truncated (" + std::to_string(file_bytes) + " of " +
+                        std::to_string(end) + " bytes)");
     }
   };
   std::size_t unpacked_bytes = 0;
   if (header.encoding == CloudEncoding::kAscii) {
     // A digit and a blank (or the line's end, but the last) for each value.
     if (timesAtMost(header.points, header.values) > (file_bytes + 1 - header.data_start) / 2) {
-      fail(file, "the cloud is truncated (its " + std::to_string(file_bytes) +
-                     " bytes have no room for " + std::to_string(header.points) + " points)");
+      failPcd(file, "the cloud is truncated (its " + std::to_string(file_bytes) +
+                        " bytes have no room for " + std::to_string(header.points) + " points)");
     }
   } else if (header.encoding == CloudEncoding::kBinary) {
     checkEnd(header.data_start + data_bytes);
@@ -270,11 +270,11 @@ void checkPcdSize(const fs::path& file, const PcdHeader& header) {
     unpacked_bytes = sizes[1];
     if (!in || unpacked_bytes < timesAtMost(header.points, header.stored_bytes) ||
         unpacked_bytes > kMostOfAByte * sizes[0]) {
-      fail(file, "the compressed cloud is damaged");
+      failPcd(file, "the compressed cloud is damaged");
     }
   }
   if (timesAtMost(header.layout.width, header.layout.point_step) > kLargest) {
-    fail(file, "a row of the cloud's points has more than 4 GiB");
+    failPcd(file, "a row of the cloud's points has more than 4 GiB");
   }
   checkMemory(file.string() + ": the cloud of " + std::to_string(header.points) + " points",
               data_bytes + unpacked_bytes + header.points * sizeof(ColorCloud::PointType),

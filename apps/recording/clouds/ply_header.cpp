@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-[[noreturn]] void fail(const fs::path& file, const std::string& why) {
+[[noreturn]] void failHeader(const fs::path& file, const std::string& why) {
   throw std::runtime_error(file.string() + ": " + why);
 }
 
@@ -92,30 +92,30 @@ const PlyElement* PlyHeader::find(const std::string& name) const {
 }
 
 PlyHeader readPlyHeader(const fs::path& file) {
-  if (!fs::exists(file)) fail(file, "the cloud is missing");
+  if (!fs::exists(file)) failHeader(file, "the cloud is missing");
   checkIsFile(file);
   std::ifstream in(file, std::ios::binary);
-  if (!in || fs::is_directory(file)) fail(file, "the cloud cannot be read");
+  if (!in || fs::is_directory(file)) failHeader(file, "the cloud cannot be read");
   std::string line;
   const auto next = [&] {
     if (!std::getline(in, line)) return false;
     if (!line.empty() && line.back() == '\r') line.pop_back();
     return true;
   };
-  if (!next() || line != "ply") fail(file, "this is not a PLY file");
+  if (!next() || line != "ply") failHeader(file, "this is not a PLY file");
   PlyHeader header;
   bool has_format = false;
   while (next()) {
     if (line.rfind("end_header", 0) == 0) {
-      if (!has_format) fail(file, "the PLY header is damaged");
+      if (!has_format) failHeader(file, "the PLY header is damaged");
       header.bytes = static_cast<std::size_t>(in.tellg());
       return header;
     }
     if (!takeLine(line, header))
-      fail(file, "the PLY header is damaged ('" + line.substr(0, 60) + "')");
+      failHeader(file, "the PLY header is damaged ('" + line.substr(0, 60) + "')");
     has_format = has_format || line.rfind("format", 0) == 0;
   }
-  fail(file, "the PLY header is damaged (it has no end)");
+  failHeader(file, "the PLY header is damaged (it has no end)");
 }
 
 }  // namespace heel

@@ -26,7 +26,7 @@ using Field = pcl::PCLPointField;
 
 constexpr std::size_t kLeft = std::numeric_limits<std::size_t>::max();  // out, as an offset
 
-[[noreturn]] void fail(const fs::path& file, const std::string& why) {
+[[noreturn]] void failPly(const fs::path& file, const std::string& why) {
   throw std::runtime_error(file.string() + ": " + why);
 }
 
@@ -172,11 +172,11 @@ class ValueReader {
   }
 
   [[noreturn]] void truncated() const {
-    fail(file_,
-         "the cloud is truncated (at its " + *element_ + " " + std::to_string(row_ + 1) + ")");
+    failPly(file_,
+            "the cloud is truncated (at its " + *element_ + " " + std::to_string(row_ + 1) + ")");
   }
   [[noreturn]] void damaged(const std::string& why) const {
-    fail(file_, "the " + *element_ + " " + std::to_string(row_ + 1) + " of the cloud " + why);
+    failPly(file_, "the " + *element_ + " " + std::to_string(row_ + 1) + " of the cloud " + why);
   }
 
   const fs::path& file_;
@@ -208,8 +208,8 @@ void checkSize(const fs::path& file, const PlyHeader& header, std::size_t step) 
     const std::size_t bytes = leastBytes(header, element);
     if (bytes == 0) continue;  // and none of it will be read
     if (element.count > room / bytes) {
-      fail(file, "the cloud is truncated (" + std::to_string(room) + " bytes for " +
-                     std::to_string(element.count) + " of " + element.name + ")");
+      failPly(file, "the cloud is truncated (" + std::to_string(room) + " bytes for " +
+                        std::to_string(element.count) + " of " + element.name + ")");
     }
     if (element.name == "vertex" || element.name == "range_grid") points += element.count;
   }
@@ -297,7 +297,7 @@ void arrange(const fs::path& file, const std::vector<std::size_t>& grid,
       continue;
     }
     if (grid[i] >= points) {
-      fail(file, "the range_grid " + std::to_string(i + 1) + " of the cloud has no such point");
+      failPly(file, "the range_grid " + std::to_string(i + 1) + " of the cloud has no such point");
     }
     std::memcpy(&data[i * step], &blob.data[grid[i] * step], step);
   }
@@ -309,12 +309,12 @@ void arrange(const fs::path& file, const std::vector<std::size_t>& grid,
 pcl::PCLPointCloud2 plyLayout(const fs::path& file, const PlyHeader& header) {
   const PlyElement* vertex = header.find("vertex");
   pcl::PCLPointCloud2 blob;
-  if (vertex == nullptr || vertex->count == 0) fail(file, "the cloud is empty (0 points)");
+  if (vertex == nullptr || vertex->count == 0) failPly(file, "the cloud is empty (0 points)");
   Layout layout(*vertex);
   constexpr std::size_t kLargest = std::numeric_limits<std::uint32_t>::max();
   checkSize(file, header, layout.step);
   if (timesAtMost(vertex->count, std::max<std::size_t>(layout.step, 1)) > kLargest) {
-    fail(file, "the points of the cloud are more than 4 GiB");
+    failPly(file, "the points of the cloud are more than 4 GiB");
   }
   blob.fields = std::move(layout.fields);
   blob.point_step = static_cast<std::uint32_t>(layout.step);

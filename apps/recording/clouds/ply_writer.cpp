@@ -22,7 +22,7 @@ struct Piece {
   std::size_t bytes;
 };
 
-struct Layout {
+struct WrittenLayout {
   std::string properties;
   std::vector<Piece> pieces;
 
@@ -43,8 +43,8 @@ const char* typeName(std::uint8_t datatype) {
   return found == kNames.end() ? nullptr : found->second;
 }
 
-Layout layoutOf(const std::filesystem::path& file, const pcl::PCLPointCloud2& blob) {
-  Layout layout;
+WrittenLayout layoutOf(const std::filesystem::path& file, const pcl::PCLPointCloud2& blob) {
+  WrittenLayout layout;
   for (const auto& field : blob.fields) {
     if (field.name == "_") continue;
     if (field.name == "rgb" || field.name == "rgba") {  // the bytes b, g, r, a
@@ -71,7 +71,7 @@ Layout layoutOf(const std::filesystem::path& file, const pcl::PCLPointCloud2& bl
 }  // namespace
 
 void writePly(const std::filesystem::path& file, const pcl::PCLPointCloud2& blob) {
-  const Layout layout = layoutOf(file, blob);
+  const WrittenLayout layout = layoutOf(file, blob);
   const std::size_t points = std::size_t{blob.width} * blob.height;
   std::ofstream out(file, std::ios::binary);
   out << "ply\nformat binary_little_endian 1.0\n";

@@ -72,7 +72,7 @@ struct ColoredStage : test::ActedScene {
   }
 };
 
-CameraSetup setupOf(SensorKind sensor) {
+CameraSetup cameraSetupOf(SensorKind sensor) {
   CameraSetup setup;
   setup.sensor = sensor;
   setup.camera.left = ColoredStage().camera;
@@ -86,7 +86,7 @@ AppearanceModel personInRed() {
 
 Perception perceptionOf(SensorKind sensor = SensorKind::kRgbd,
                         const PerceptionParams& params = {}) {
-  return Perception(setupOf(sensor), personInRed(), params);
+  return Perception(cameraSetupOf(sensor), personInRed(), params);
 }
 
 void expectFollowedAt(const PerceptionStep& step, const Eigen::Vector2d& place_m,
