@@ -6,7 +6,7 @@ set -euo pipefail
 data=$(realpath -m "${1:-${HEEL_DATA:-$(dirname "$0")/../shared/data}}")
 cd "$(dirname "$0")"
 
-.ci/setup
+.ci/setup build
 [ -f build/release/build.ninja ] || cmake --preset release --log-level=WARNING
 cmake --build --preset release --target heel_command
 heel=build/release/apps/heel/heel

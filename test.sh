@@ -9,7 +9,7 @@ cd "$(dirname "$0")"
 preset=${1:-release}
 [ $# -gt 0 ] && shift
 
-.ci/setup
+.ci/setup test
 cmake --preset "$preset" --log-level=WARNING
 cmake --build --preset "$preset"
 ctest --preset "$preset" --parallel "$(nproc)" "$@"

@@ -18,13 +18,16 @@ if(NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
   set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/${bin_to_lib}")
 endif()
 
-# Installs the library heel::NAME as the component NAME of find_package(heel). Headers go to
-# include/heel, which is the include folder: "cloud/x.hpp" in the tree and for whoever uses it.
+# Installs the library heel::NAME as the component NAME of find_package(heel), and the headers of
+# its folder.
 function(heel_install_module name)
   install(TARGETS heel_${name} EXPORT heel-${name}
     LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
-      COMPONENT runtime NAMELINK_COMPONENT development
-    FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/heel" COMPONENT development)
+      COMPONENT runtime NAMELINK_COMPONENT development)
+  file(RELATIVE_PATH folder "${PROJECT_SOURCE_DIR}" "${CMAKE_CURRENT_SOURCE_DIR}")
+  install(DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/"
+    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/heel/${folder}" COMPONENT development
+    FILES_MATCHING PATTERN "*.hpp")
   install(EXPORT heel-${name} FILE heel-${name}-targets.cmake NAMESPACE heel::
     DESTINATION "${HEEL_CONFIG_DIR}" COMPONENT development)
 endfunction()

@@ -5,14 +5,16 @@
 /// The coloured cloud that travels between Heel's stages, and how images become one.
 #pragma once
 
-#include "cloud/pinhole_camera.hpp"
-#include "cloud/row_spans.hpp"
+#include <heel/cloud/pinhole_camera.hpp>
+#include <heel/cloud/row_spans.hpp>
 
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/types.h>
+
+#include <optional>
 
 namespace heel {
 
@@ -68,5 +70,13 @@ class MaskedCloud {
   pcl::Indices indices_;
   RowSpans spans_;
 };
+
+/// Fits u = fx X / Z + cx and v = fy Y / Z + cy to an organized cloud in the optical frame, by
+/// least squares over all its points.
+///
+/// @return The camera, or nothing if the cloud is not organized, has less than three points or all
+///         in one row or column, which determine no camera, or does not come from one pinhole
+///         camera (the residual is over half a pixel, root mean square).
+std::optional<PinholeCamera> fitPinhole(const ColorCloud& cloud);
 
 }  // namespace heel

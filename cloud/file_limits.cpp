@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud/file_limits.hpp"
+#include <heel/cloud/file_limits.hpp>
 
 #include <sys/resource.h>
 #include <unistd.h>

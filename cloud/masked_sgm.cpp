@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud/masked_sgm.hpp"
+#include <heel/cloud/masked_sgm.hpp>
 
 #include <opencv2/imgproc.hpp>
 

@@ -5,9 +5,9 @@
 /// Semi-global matching whose cost follows the number of pixels that are asked for.
 #pragma once
 
-#include "cloud/row_spans.hpp"
-#include "cloud/sgm_kernels.hpp"
-#include "cloud/stereo_params.hpp"
+#include <heel/cloud/row_spans.hpp>
+#include <heel/cloud/sgm_kernels.hpp>
+#include <heel/cloud/stereo_params.hpp>
 
 #include <opencv2/core/mat.hpp>
 

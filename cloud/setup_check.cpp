@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud/setup_check.hpp"
+#include <heel/cloud/setup_check.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 /// Is the camera set up well? Looked at frame by frame, answered in sentences.
 #pragma once
 
-#include "cloud/stereo_matcher.hpp"
+#include <heel/cloud/stereo_matcher.hpp>
 
 #include <opencv2/core/mat.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud/sgm_kernels.hpp"
+#include <heel/cloud/sgm_kernels.hpp>
 
 #include <algorithm>
 #include <climits>

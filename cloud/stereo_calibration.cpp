@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud/stereo_calibration.hpp"
+#include <heel/cloud/stereo_calibration.hpp>
 
 #include <stdexcept>
 #include <string>

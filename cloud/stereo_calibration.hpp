@@ -7,7 +7,7 @@
 /// Every reader throws std::runtime_error with one sentence that names the file and the reason.
 #pragma once
 
-#include "cloud/stereo_rig.hpp"
+#include <heel/cloud/stereo_rig.hpp>
 
 #include <opencv2/core/types.hpp>
 

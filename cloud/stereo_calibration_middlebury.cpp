@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud/image_extent.hpp"
-#include "cloud/stereo_calibration.hpp"
+#include <heel/cloud/image_extent.hpp>
+#include <heel/cloud/stereo_calibration.hpp>
 
 #include <algorithm>
 #include <fstream>
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& file, const std::string& reason) {
+[[noreturn]] void failFile(const fs::path& file, const std::string& reason) {
   throw std::runtime_error(file.string() + ": " + reason);
 }
 
@@ -30,14 +30,15 @@ std::string trimmed(const std::string& text) {
 std::vector<double> numbers(const fs::path& file, const std::map<std::string, std::string>& lines,
                             const std::string& key, std::size_t count) {
   const auto line = lines.find(key);
-  if (line == lines.end()) fail(file, key + " is missing");
+  if (line == lines.end()) failFile(file, key + " is missing");
   std::string text = line->second;
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '[' || c == ']' || c == ';'; }, ' ');
   std::istringstream stream(text);
   std::vector<double> values;
   for (double value = 0.0; stream >> value;) values.push_back(value);
-  if (values.size() != count) fail(file, key + " has not " + std::to_string(count) + " numbers");
+  if (values.size() != count)
+    failFile(file, key + " has not " + std::to_string(count) + " numbers");
   return values;
 }
 
@@ -45,7 +46,7 @@ std::vector<double> numbers(const fs::path& file, const std::map<std::string, st
 
 StereoRig readMiddleburyCalibration(const fs::path& file) {
   std::ifstream stream(file);
-  if (!fs::is_regular_file(file) || !stream) fail(file, "there is no such file");
+  if (!fs::is_regular_file(file) || !stream) failFile(file, "there is no such file");
   std::map<std::string, std::string> lines;
   for (std::string line; std::getline(stream, line);) {
     const auto equals = line.find('=');
@@ -61,8 +62,8 @@ StereoRig readMiddleburyCalibration(const fs::path& file) {
   camera.left = {static_cast<int>(width), static_cast<int>(height), K[0], K[4], K[2], K[5]};
   camera.baseline_m = numbers(file, lines, "baseline", 1)[0] / 1000.0;
   camera.disparity_offset = numbers(file, lines, "doffs", 1)[0];
-  if (!(camera.baseline_m > 0.0)) fail(file, "there is no baseline between the cameras");
-  if (!(camera.left.fx > 0.0)) fail(file, "a focal length is not positive");
+  if (!(camera.baseline_m > 0.0)) failFile(file, "there is no baseline between the cameras");
+  if (!(camera.left.fx > 0.0)) failFile(file, "a focal length is not positive");
   return StereoRig(camera);
 }
 

@@ -6,8 +6,8 @@
 ///
 /// cv::FileStorage is not used: on foreign files it loops without an end, or crashes.
 
-#include "cloud/stereo_calibration.hpp"
-#include "cloud/whole_file.hpp"
+#include <heel/cloud/stereo_calibration.hpp>
+#include <heel/cloud/whole_file.hpp>
 
 #include <opencv2/calib3d.hpp>
 #include <pugixml.hpp>

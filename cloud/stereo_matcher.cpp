@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud/stereo_matcher.hpp"
-
-#include "cloud/mask_support.hpp"
+#include <heel/cloud/mask_support.hpp>
+#include <heel/cloud/stereo_matcher.hpp>
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -16,9 +15,9 @@
 namespace heel {
 namespace {
 
-constexpr std::int16_t kNone = -kDisparityScale;
+constexpr std::int16_t kNoMatch = -kDisparityScale;
 
-void require(bool holds, const char* rule) {
+void requireImages(bool holds, const char* rule) {
   if (!holds) throw std::invalid_argument(std::string("StereoMatcher: ") + rule);
 }
 
@@ -40,11 +39,11 @@ StereoMatcher& StereoMatcher::operator=(StereoMatcher&&) noexcept = default;
 /// Checks the images, makes them grey, and continues them at the left: then the first pixel has
 /// the whole range of disparities.
 void StereoMatcher::prepare(const cv::Mat& left, const cv::Mat& right) {
-  require(!left.empty() && !right.empty(), "an image is empty");
-  require(left.size() == right.size(), "left and right images differ in size");
+  requireImages(!left.empty() && !right.empty(), "an image is empty");
+  requireImages(left.size() == right.size(), "left and right images differ in size");
   for (const auto& [image, wide] : {std::pair{&left, &left_}, std::pair{&right, &right_}}) {
-    require(image->type() == CV_8UC3 || image->type() == CV_8UC1,
-            "images must be 8-bit BGR or grey");
+    requireImages(image->type() == CV_8UC3 || image->type() == CV_8UC1,
+                  "images must be 8-bit BGR or grey");
     if (image->channels() == 3) cv::cvtColor(*image, grey_, cv::COLOR_BGR2GRAY);
     cv::copyMakeBorder(image->channels() == 3 ? grey_ : *image, *wide, 0, 0, params_.disparities, 0,
                        cv::BORDER_REPLICATE);
@@ -63,8 +62,8 @@ int StereoMatcher::match(const cv::Mat& left, const cv::Mat& right, cv::Mat& dis
 MaskedMatch StereoMatcher::match(const cv::Mat& left, const cv::Mat& right, const cv::Mat& mask,
                                  cv::Mat& disparity) {
   prepare(left, right);
-  require(mask.type() == CV_8UC1 && mask.size() == left.size(),
-          "the mask must be 8-bit and of the images' size");
+  requireImages(mask.type() == CV_8UC1 && mask.size() == left.size(),
+                "the mask must be 8-bit and of the images' size");
   const SupportCount support = keepSupported(mask, params_.min_support, supported_, cells_);
   MaskedMatch result{support.wanted, support.kept, 0};
 
@@ -81,7 +80,7 @@ MaskedMatch StereoMatcher::match(const cv::Mat& left, const cv::Mat& right, cons
     cv::Mat filtered = filtered_(inside);
     cv::medianBlur(fixed_(inside), filtered, 3);
     if (params_.speckle_size > 0) {
-      cv::filterSpeckles(filtered, kNone, params_.speckle_size,
+      cv::filterSpeckles(filtered, kNoMatch, params_.speckle_size,
                          params_.speckle_range * kDisparityScale, speckle_buffer_);
     }
     filtered.copyTo(fixed_(inside));

@@ -5,8 +5,8 @@
 /// Disparities of a rectified stereo pair: of the whole image, or only where a mask says.
 #pragma once
 
-#include "cloud/masked_sgm.hpp"
-#include "cloud/stereo_params.hpp"
+#include <heel/cloud/masked_sgm.hpp>
+#include <heel/cloud/stereo_params.hpp>
 
 #include <opencv2/core/mat.hpp>
 

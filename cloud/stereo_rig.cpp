@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud/stereo_rig.hpp"
-
-#include "cloud/image_extent.hpp"
+#include <heel/cloud/image_extent.hpp>
+#include <heel/cloud/stereo_rig.hpp>
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>

@@ -5,7 +5,7 @@
 /// A calibrated pair of cameras: how its images are rectified, and what they measure then.
 #pragma once
 
-#include "cloud/pinhole_camera.hpp"
+#include <heel/cloud/pinhole_camera.hpp>
 
 #include <opencv2/core/mat.hpp>
 

@@ -5,7 +5,7 @@
 /// Does the camera stand still? As far as its depth images tell.
 #pragma once
 
-#include "cloud/pinhole_camera.hpp"
+#include <heel/cloud/pinhole_camera.hpp>
 
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>

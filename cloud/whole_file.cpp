@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud/whole_file.hpp"
-
-#include "cloud/file_limits.hpp"
+#include <heel/cloud/file_limits.hpp>
+#include <heel/cloud/whole_file.hpp>
 
 #include <cerrno>
 #include <cstdio>

@@ -212,13 +212,13 @@ def make_page():
     out += first_section(structs)
     out += ["## All structs", ""]
     for module in MODULES:
-        names = [s.name for s in structs.values() if s.path.rpartition("/")[0] == module]
+        names = [s.name for s in structs.values() if s.path.startswith(module + "/")]
         out.append(f"- **{module}**: {', '.join(anchor(name) for name in names)}")
     out.append("")
     for module, about in MODULES.items():
         out += [f"## {module}", "", about, ""]
         for struct in structs.values():
-            if struct.path.rpartition("/")[0] == module:
+            if struct.path.startswith(module + "/"):
                 out += struct_section(struct, structs, users, changed)
     return "\n".join(out).rstrip() + "\n"
 

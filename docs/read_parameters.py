@@ -158,7 +158,7 @@ def read_structs():
     """All structs of the modules' headers, by name."""
     structs = {}
     for module in MODULES:
-        for path in sorted((ROOT / module).glob("*.hpp")):
+        for path in sorted((ROOT / module).rglob("*.hpp")):
             lines = path.read_text(encoding="utf-8").splitlines()
             comment = []
             for number, line in enumerate(lines):
@@ -191,7 +191,7 @@ def changed_defaults(structs):
     that change defaults: X::X() and `Y X::name()` for structs X and Y of parameters."""
     found = []
     for module in MODULES:
-        for path in sorted((ROOT / module).glob("*.cpp")):
+        for path in sorted((ROOT / module).rglob("*.cpp")):
             lines = path.read_text(encoding="utf-8").splitlines()
             for number, line in enumerate(lines):
                 made = re.match(r"^(\w+)::\1\(\) \{$", line)

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/body_check.hpp"
-
-#include "mapping/obstacle_layer.hpp"
+#include <heel/mapping/body_check.hpp>
+#include <heel/mapping/obstacle_layer.hpp>
 
 #include <fcl/geometry/octree/octree.h>
 #include <fcl/geometry/shape/box.h>

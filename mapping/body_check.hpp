@@ -5,7 +5,7 @@
 /// Whether the robot's body fits: FCL's checks against the map's octree and the obstacle layer.
 #pragma once
 
-#include "mapping/floor_pose.hpp"
+#include <heel/mapping/floor_pose.hpp>
 
 #include <cstddef>
 #include <limits>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/floor_pose.hpp"
+#include <heel/mapping/floor_pose.hpp>
 
 #include <cmath>
 

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// A place and a heading on the floor, and the few motions on it.
+/// Places on the floor: a pose, the few motions of it, and a disc.
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 namespace heel {
@@ -35,5 +36,10 @@ FloorPose alongArc(const FloorPose& pose, double distance_m, double turn_rad);
 
 /// Which way a place is from a pose [rad], 0 straight ahead, to the left from there.
 double bearingOf(const FloorPose& from, const Eigen::Vector2d& place);
+
+struct FloorDisc {
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();  ///< [m]
+  double radius_m = 0.0;
+};
 
 }  // namespace heel

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/likelihood_field.hpp"
+#include <heel/mapping/likelihood_field.hpp>
 
 #include <opencv2/imgproc.hpp>
 

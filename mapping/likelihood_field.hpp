@@ -5,8 +5,8 @@
 /// How likely a laser beam is to end at a place of the map.
 #pragma once
 
-#include "mapping/floor_pose.hpp"
-#include "mapping/occupancy_grid.hpp"
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/occupancy_grid.hpp>
 
 #include <cstddef>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/localization.hpp"
+#include <heel/mapping/localization.hpp>
 
 #include <algorithm>
 #include <cmath>

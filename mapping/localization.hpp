@@ -5,11 +5,11 @@
 /// Where the robot is on its map: Monte Carlo localization with a laser.
 #pragma once
 
-#include "mapping/likelihood_field.hpp"
-#include "mapping/motion_model.hpp"
-#include "mapping/particle_set.hpp"
-#include "mapping/pose_search.hpp"
-#include "mapping/scan_beams.hpp"
+#include <heel/mapping/likelihood_field.hpp>
+#include <heel/mapping/motion_model.hpp>
+#include <heel/mapping/particle_set.hpp>
+#include <heel/mapping/pose_search.hpp>
+#include <heel/mapping/scan_beams.hpp>
 
 #include <Eigen/Core>
 

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/map_server_file.hpp"
-
-#include "cloud/image_extent.hpp"
-#include "cloud/whole_file.hpp"
+#include <heel/cloud/image_extent.hpp>
+#include <heel/cloud/whole_file.hpp>
+#include <heel/mapping/map_server_file.hpp>
 
 #include <opencv2/core/mat.hpp>
 #include <opencv2/imgcodecs.hpp>

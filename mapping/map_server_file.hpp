@@ -5,7 +5,7 @@
 /// Floor plans as files: ROS's map_server pairs (YAML and PGM or PNG), and plain pictures.
 #pragma once
 
-#include "mapping/occupancy_grid.hpp"
+#include <heel/mapping/occupancy_grid.hpp>
 
 #include <filesystem>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/motion_model.hpp"
+#include <heel/mapping/motion_model.hpp>
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 /// Where a robot may be after its wheels say that it has moved.
 #pragma once
 
-#include "mapping/particle_set.hpp"
+#include <heel/mapping/particle_set.hpp>
 
 namespace heel {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/obstacle_layer.hpp"
+#include <heel/mapping/obstacle_layer.hpp>
 
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>

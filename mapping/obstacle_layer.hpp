@@ -5,11 +5,10 @@
 /// What stands around the robot now and is not on the map: furniture, people, table tops.
 #pragma once
 
-#include "mapping/distance_transform.hpp"
-#include "mapping/floor_disc.hpp"
-#include "mapping/floor_pose.hpp"
-#include "mapping/laser_scan.hpp"
-#include "mapping/occupancy_grid.hpp"
+#include <heel/mapping/distance_transform.hpp>
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/laser_scan.hpp>
+#include <heel/mapping/occupancy_grid.hpp>
 
 #include <Eigen/Core>
 #include <pcl/types.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/particle_set.hpp"
+#include <heel/mapping/particle_set.hpp>
 
 #include <algorithm>
 #include <cmath>

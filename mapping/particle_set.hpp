@@ -5,8 +5,8 @@
 /// Weighted robot poses, how many are enough, and drawing new ones from old ones.
 #pragma once
 
-#include "mapping/floor_pose.hpp"
-#include "mapping/random_numbers.hpp"
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/random_numbers.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/pose_search.hpp"
-
-#include "mapping/motion_model.hpp"
+#include <heel/mapping/motion_model.hpp>
+#include <heel/mapping/pose_search.hpp>
 
 #include <algorithm>
 #include <cmath>

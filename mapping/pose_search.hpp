@@ -5,8 +5,8 @@
 /// Where on the whole map a scan could have been taken.
 #pragma once
 
-#include "mapping/likelihood_field.hpp"
-#include "mapping/particle_set.hpp"
+#include <heel/mapping/likelihood_field.hpp>
+#include <heel/mapping/particle_set.hpp>
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/scan_beams.hpp"
+#include <heel/mapping/scan_beams.hpp>
 
 #include <algorithm>
 #include <cmath>

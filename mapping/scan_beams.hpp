@@ -5,9 +5,9 @@
 /// The beams of a scan that localization looks at, and how well the map explains them.
 #pragma once
 
-#include "mapping/floor_disc.hpp"
-#include "mapping/laser_scan.hpp"
-#include "mapping/likelihood_field.hpp"
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/laser_scan.hpp>
+#include <heel/mapping/likelihood_field.hpp>
 
 #include <vector>
 

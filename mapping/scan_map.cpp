@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/scan_map.hpp"
-
-#include "cloud/file_limits.hpp"
+#include <heel/cloud/file_limits.hpp>
+#include <heel/mapping/scan_map.hpp>
 
 #include <algorithm>
 #include <cmath>

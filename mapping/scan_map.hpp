@@ -5,9 +5,9 @@
 /// A floor map from laser scans whose places are known.
 #pragma once
 
-#include "mapping/floor_pose.hpp"
-#include "mapping/laser_scan.hpp"
-#include "mapping/occupancy_grid.hpp"
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/laser_scan.hpp>
+#include <heel/mapping/occupancy_grid.hpp>
 
 #include <cstdint>
 #include <vector>

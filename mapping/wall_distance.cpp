@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/wall_distance.hpp"
+#include <heel/mapping/wall_distance.hpp>
 
 #include <dynamicEDT3D/dynamicEDT3D.h>
 

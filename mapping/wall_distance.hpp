@@ -5,7 +5,7 @@
 /// How far it is from any place on the floor to the nearest wall.
 #pragma once
 
-#include "mapping/occupancy_grid.hpp"
+#include <heel/mapping/occupancy_grid.hpp>
 
 #include <vector>
 

@@ -6,7 +6,7 @@
 /// hide.
 #pragma once
 
-#include "mapping/occupancy_grid.hpp"
+#include <heel/mapping/occupancy_grid.hpp>
 
 #include <Eigen/Geometry>
 

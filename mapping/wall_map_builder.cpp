@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/wall_map_builder.hpp"
-
-#include "cloud/file_limits.hpp"
+#include <heel/cloud/file_limits.hpp>
+#include <heel/mapping/wall_map_builder.hpp>
 
 #include <octomap/OcTree.h>
 

@@ -5,7 +5,7 @@
 /// How a wall map comes to be: from a plan's solids, from a floor plan, from clouds.
 #pragma once
 
-#include "mapping/wall_map.hpp"
+#include <heel/mapping/wall_map.hpp>
 
 #include <Eigen/Geometry>
 

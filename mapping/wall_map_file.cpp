@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/wall_map_file.hpp"
-
-#include "cloud/file_limits.hpp"
-#include "cloud/whole_file.hpp"
+#include <heel/cloud/file_limits.hpp>
+#include <heel/cloud/whole_file.hpp>
+#include <heel/mapping/wall_map_file.hpp>
 
 #include <octomap/OcTree.h>
 
@@ -58,13 +57,13 @@ struct Header {
   std::size_t end = 0;  ///< Where the nodes begin.
 };
 
-[[noreturn]] void fail(const std::filesystem::path& file, const std::string& why) {
+[[noreturn]] void failMap(const std::filesystem::path& file, const std::string& why) {
   throw std::runtime_error(file.string() + ": " + why);
 }
 
 Header readHeader(const std::filesystem::path& file, const std::string& bytes) {
   if (bytes.compare(0, kFirstLine.size(), kFirstLine) != 0) {
-    fail(file, "it is not a wall map: it does not begin with '" + std::string(kFirstLine) + "'");
+    failMap(file, "it is not a wall map: it does not begin with '" + std::string(kFirstLine) + "'");
   }
   std::istringstream lines(bytes.substr(0, 4096));
   Header header;
@@ -73,17 +72,17 @@ Header readHeader(const std::filesystem::path& file, const std::string& bytes) {
     std::string key, id;
     words >> key;
     if (key == "id" && (!(words >> id) || id != "OcTree")) {
-      fail(file, "it holds a tree of another kind, '" + id + "'");
+      failMap(file, "it holds a tree of another kind, '" + id + "'");
     }
-    if (key == "size" && !(words >> header.nodes)) fail(file, "its 'size' is not a number");
+    if (key == "size" && !(words >> header.nodes)) failMap(file, "its 'size' is not a number");
     if (key == "res") words >> header.cell_size_m;
     if (key != "data") continue;
-    if (!isCellSize(header.cell_size_m)) fail(file, "its 'res' is not from 0.0001 to 100 m");
+    if (!isCellSize(header.cell_size_m)) failMap(file, "its 'res' is not from 0.0001 to 100 m");
     if (lines.eof()) break;
     header.end = static_cast<std::size_t>(lines.tellg());
     return header;
   }
-  fail(file, "it is truncated: its header has no end");
+  failMap(file, "it is truncated: its header has no end");
 }
 
 }  // namespace
@@ -107,12 +106,12 @@ WallMap loadWallMap(const std::filesystem::path& file) {
   if (header.nodes == 0) return WallMap(tree);
   const std::string nodes = bytes.substr(header.end);
   NodeWalk walk(nodes);
-  if (const char* wrong = walk.walk(0)) fail(file, wrong);
+  if (const char* wrong = walk.walk(0)) failMap(file, wrong);
   if (walk.nodes() != header.nodes) {
-    fail(file, "it says that it has " + std::to_string(header.nodes) + " nodes, but has " +
-                   std::to_string(walk.nodes()));
+    failMap(file, "it says that it has " + std::to_string(header.nodes) + " nodes, but has " +
+                      std::to_string(walk.nodes()));
   }
-  if (!walk.isAtEnd()) fail(file, "it goes on after the end of its tree");
+  if (!walk.isAtEnd()) failMap(file, "it goes on after the end of its tree");
   std::istringstream in(nodes, std::ios::binary);
   tree->readBinaryData(in);
   WallMap map(tree);

@@ -5,7 +5,7 @@
 /// Wall maps as OctoMap's binary files (.bt).
 #pragma once
 
-#include "mapping/wall_map.hpp"
+#include <heel/mapping/wall_map.hpp>
 
 #include <filesystem>
 

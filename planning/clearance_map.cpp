@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/clearance_map.hpp"
+#include <heel/planning/clearance_map.hpp>
 
 #include <algorithm>
 #include <cmath>

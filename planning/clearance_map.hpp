@@ -5,8 +5,8 @@
 /// How far away blocked floor is, and whether a round body can go straight from here to there.
 #pragma once
 
-#include "mapping/floor_disc.hpp"
-#include "mapping/occupancy_grid.hpp"
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/occupancy_grid.hpp>
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/coarse_floor.hpp"
+#include <heel/planning/coarse_floor.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 /// A map of walls in large cells, for questions about where people walk.
 #pragma once
 
-#include "mapping/occupancy_grid.hpp"
+#include <heel/mapping/occupancy_grid.hpp>
 
 #include <Eigen/Core>
 

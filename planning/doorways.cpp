@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/doorways.hpp"
+#include <heel/planning/doorways.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr int kDirections = 16;  // Over half a turn.
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 class DoorwaySearch {
@@ -69,7 +68,7 @@ class DoorwaySearch {
         double least = kFar;
         DoorwayOnMap place;
         for (int i = 0; i < kDirections; ++i) {
-          const double angle = kPi * i / kDirections;
+          const double angle = M_PI * i / kDirections;
           const Vector2d across(std::cos(angle), std::sin(angle));
           const double a = freeWay(p, across, params_.max_width_m);
           if (a >= params_.max_width_m) continue;

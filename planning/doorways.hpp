@@ -5,7 +5,7 @@
 /// Finds the narrow places of a map that join one room to another.
 #pragma once
 
-#include "mapping/occupancy_grid.hpp"
+#include <heel/mapping/occupancy_grid.hpp>
 
 #include <Eigen/Core>
 

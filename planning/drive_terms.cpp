@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/drive_terms.hpp"
+#include <heel/planning/drive_terms.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr std::size_t kStride = 5;  // The slow terms look at every fifth pose.
 
 double square(double x) { return x * x; }
@@ -116,7 +116,7 @@ const char* nameOf(DriveTerm term) {
 
 double roomToPeople(const std::vector<MovingPerson>& people, const Vector2d& position,
                     double radius_m, double after_s) {
-  double least = kInfinite;
+  double least = kUnbounded;
   for (const MovingPerson& p : people) {
     const double off = (p.position + after_s * p.velocity - position).norm();
     least = std::min(least, off - p.radius_m - radius_m);
@@ -126,7 +126,7 @@ double roomToPeople(const std::vector<MovingPerson>& people, const Vector2d& pos
 
 double roomToWays(const std::vector<MovingPerson>& people, const Vector2d& position,
                   double radius_m, double after_s) {
-  double least = kInfinite;
+  double least = kUnbounded;
   for (const MovingPerson& p : people) {
     const Vector2d way = after_s * p.velocity, to = position - p.position;
     const double length2 = way.squaredNorm();

@@ -5,8 +5,8 @@
 /// What makes one future of the robot better than another: small costs, each on its own.
 #pragma once
 
-#include "planning/path_ahead.hpp"
-#include "planning/surroundings.hpp"
+#include <heel/planning/path_ahead.hpp>
+#include <heel/planning/surroundings.hpp>
 
 #include <array>
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/following_plan.hpp"
+#include <heel/planning/following_plan.hpp>
 
 namespace heel {
 

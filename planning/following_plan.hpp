@@ -5,7 +5,7 @@
 /// What a plan for following a person can do, and what it can ask.
 #pragma once
 
-#include "planning/plan_runner.hpp"
+#include <heel/planning/plan_runner.hpp>
 
 #include <array>
 #include <cstddef>

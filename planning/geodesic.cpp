@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/geodesic.hpp"
-
-#include "planning/free_cells.hpp"
+#include <heel/planning/geodesic.hpp>
+#include <heel/planning/grid_wave.hpp>
 
 #include <algorithm>
 #include <stdexcept>

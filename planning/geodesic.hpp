@@ -5,9 +5,9 @@
 /// How far it is to walk from one place to every other.
 #pragma once
 
-#include "mapping/occupancy_grid.hpp"
-#include "planning/clearance_map.hpp"
-#include "planning/grid_wave.hpp"
+#include <heel/mapping/occupancy_grid.hpp>
+#include <heel/planning/clearance_map.hpp>
+#include <heel/planning/grid_wave.hpp>
 
 #include <Eigen/Core>
 

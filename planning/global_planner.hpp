@@ -5,11 +5,11 @@
 /// The way to a place on the whole map.
 #pragma once
 
-#include "mapping/occupancy_grid.hpp"
-#include "planning/clearance_map.hpp"
-#include "planning/grid_wave.hpp"
-#include "planning/path.hpp"
-#include "planning/taut_path.hpp"
+#include <heel/mapping/occupancy_grid.hpp>
+#include <heel/planning/clearance_map.hpp>
+#include <heel/planning/grid_wave.hpp>
+#include <heel/planning/path.hpp>
+#include <heel/planning/taut_path.hpp>
 
 #include <Eigen/Core>
 

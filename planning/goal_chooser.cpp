@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/goal_chooser.hpp"
+#include <heel/planning/goal_chooser.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +13,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kImpossible = std::numeric_limits<double>::infinity();
 constexpr int kBearings = 32;
-constexpr double kPi = 3.14159265358979323846;
 
 }  // namespace
 
@@ -51,7 +50,7 @@ std::optional<StandPlace> GoalChooser::choose(const MovingPerson& target, const 
 
   const auto judge = [&](const Vector2d& at) -> StandPlace {
     StandPlace out;
-    out.cost = kInfinite;
+    out.cost = kImpossible;
     const Vector2d to = person - at;
     const double off = to.norm();
     const double room = clearance(at);
@@ -75,14 +74,14 @@ std::optional<StandPlace> GoalChooser::choose(const MovingPerson& target, const 
   };
 
   StandPlace best;
-  best.cost = kInfinite;
+  best.cost = kImpossible;
   const Vector2d from = robot.position - person;
   const double first = from.norm() > 1e-6 ? std::atan2(from.y(), from.x()) : 0.0;
   const double middle = 0.5 * (p.standoff_m + p.most_standoff_m);
   for (const double distance : {p.standoff_m, 0.5 * (p.standoff_m + p.least_standoff_m), middle,
                                 p.most_standoff_m - 1e-9}) {
     for (int i = 0; i < kBearings; ++i) {
-      const double bearing = first + 2.0 * kPi * i / kBearings;
+      const double bearing = first + 2.0 * M_PI * i / kBearings;
       const StandPlace place =
           judge(person + distance * Vector2d(std::cos(bearing), std::sin(bearing)));
       if (place.cost < best.cost) best = place;
@@ -95,7 +94,7 @@ std::optional<StandPlace> GoalChooser::choose(const MovingPerson& target, const 
     const StandPlace kept = judge(*last_);
     if (kept.cost < best.cost + p.keep_m * p.way_cost) best = kept;
   }
-  if (best.cost == kInfinite) {
+  if (best.cost == kImpossible) {
     last_.reset();
     return std::nullopt;
   }

@@ -5,9 +5,9 @@
 /// Where to stand to be with a person: near, in view, and in nobody's way.
 #pragma once
 
-#include "mapping/floor_pose.hpp"
-#include "planning/doorways.hpp"
-#include "planning/surroundings.hpp"
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/planning/doorways.hpp>
+#include <heel/planning/surroundings.hpp>
 
 #include <optional>
 #include <vector>

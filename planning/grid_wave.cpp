@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/grid_wave.hpp"
+#include <heel/planning/grid_wave.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,9 @@
 /// when the goal moves, and mends itself where the map changes.
 #pragma once
 
-#include "planning/clearance_map.hpp"
+#include <heel/planning/clearance_map.hpp>
+
+#include <Eigen/Core>
 
 #include <array>
 #include <cstdint>
@@ -137,5 +139,10 @@ class GridWave {
   int last_list_ = -1;      ///< ... nor after this one.
   std::vector<int> touched_, seeds_, chain_, lost_, broken_, open_;
 };
+
+/// Free cells of the wave whose place is within `within_m` of the
+/// point, the nearest first.
+void freeCellsNear(const ClearanceMap& map, const GridWave& wave, const Eigen::Vector2d& point,
+                   double within_m, std::vector<int>& cells);
 
 }  // namespace heel

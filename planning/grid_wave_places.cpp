@@ -4,14 +4,14 @@
 /// @file
 /// Which points the cells of a wave stand for.
 
-#include "planning/grid_wave.hpp"
+#include <heel/planning/grid_wave.hpp>
 
 #include <algorithm>
 
 namespace heel {
 namespace {
 
-constexpr float kRoot2 = 1.41421356F;
+constexpr float kDiagonal = 1.41421356F;
 
 /// A wide cell stands for its middle if there is so much more room than it takes, in cells.
 constexpr float kAmple = 0.5F;
@@ -59,7 +59,7 @@ void GridWave::choosePlace(int cell) {
       chosen.place = {2 * x + 1, 2 * y + 1};
     }
   }
-  if (chosen.room >= ample || chosen.room <= radius_ - 0.5F * kRoot2) return;
+  if (chosen.room >= ample || chosen.room <= radius_ - 0.5F * kDiagonal) return;
   for (int y = std::max(1, y0); y < std::min(y1, map_->height() - 1); ++y) {
     for (int x = std::max(1, x0); x < std::min(x1, map_->width() - 1); ++x) chooseRim(cell, x, y);
   }
@@ -71,7 +71,7 @@ void GridWave::choosePlace(int cell) {
 void GridWave::chooseRim(int cell, int x, int y) {
   const int across_y = map_->width(), map_cell = y * across_y + x;
   const float here = map_->clearanceInCells(map_cell);
-  if (here <= radius_ - 0.5F * kRoot2) return;
+  if (here <= radius_ - 0.5F * kDiagonal) return;
   const auto is_ridge = [&](int across) {
     const float a = map_->clearanceInCells(map_cell - across),
                 b = map_->clearanceInCells(map_cell + across);
@@ -89,6 +89,26 @@ void GridWave::chooseRim(int cell, int x, int y) {
     at(cell).room = room;
     at(cell).place = {2 * x + 1 + rim[0], 2 * y + 1 + rim[1]};
   }
+}
+
+void freeCellsNear(const ClearanceMap& map, const GridWave& wave, const Eigen::Vector2d& point,
+                   double within_m, std::vector<int>& cells) {
+  cells.clear();
+  if (!map.isInside(point)) return;
+  const int middle = wave.cellOf(point), width = wave.width();
+  const int reach = static_cast<int>(std::min(within_m / wave.cell_size_m() + 1.0, 1e6));
+  const int mx = middle % width, my = middle / width;
+  const auto distance = [&](int cell) { return (wave.placeOf(cell) - point).squaredNorm(); };
+  for (int y = std::max(0, my - reach); y <= std::min(wave.height() - 1, my + reach); ++y) {
+    for (int x = std::max(0, mx - reach); x <= std::min(width - 1, mx + reach); ++x) {
+      const int cell = y * width + x;
+      if (wave.isFree(cell) && distance(cell) <= within_m * within_m) cells.push_back(cell);
+    }
+  }
+  std::sort(cells.begin(), cells.end(), [&](int a, int b) {
+    const double da = distance(a), db = distance(b);
+    return da < db || (da == db && a < b);
+  });
 }
 
 }  // namespace heel

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/local_planner.hpp"
+#include <heel/planning/local_planner.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 /// Obstacle avoidance: the next command towards the goal that touches nothing.
 #pragma once
 
-#include "planning/drive_terms.hpp"
-#include "planning/facing.hpp"
+#include <heel/planning/drive_terms.hpp>
+#include <heel/planning/trajectory.hpp>
 
 #include <optional>
 #include <vector>

@@ -5,7 +5,7 @@
 /// The next stretch of a global path, in even steps, and a drive along it.
 #pragma once
 
-#include "planning/trajectory.hpp"
+#include <heel/planning/trajectory.hpp>
 
 #include <Eigen/Core>
 

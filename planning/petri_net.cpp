@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/petri_net.hpp"
+#include <heel/planning/petri_net.hpp>
 
 #include <algorithm>
 #include <stdexcept>

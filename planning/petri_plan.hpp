@@ -14,8 +14,8 @@
 ///   `follow.failed`.
 #pragma once
 
-#include "planning/petri_net.hpp"
-#include "planning/plan_guard.hpp"
+#include <heel/planning/petri_net.hpp>
+#include <heel/planning/plan_guard.hpp>
 
 #include <string>
 #include <vector>

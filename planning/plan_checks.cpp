@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/plan_checks.hpp"
+#include <heel/planning/plan_checks.hpp>
 
 #include <algorithm>
 #include <limits>

@@ -5,7 +5,7 @@
 /// What is proved of a plan before a robot runs it.
 #pragma once
 
-#include "planning/petri_plan.hpp"
+#include <heel/planning/petri_plan.hpp>
 
 #include <string>
 #include <vector>

@@ -5,7 +5,7 @@
 /// Runs a Petri Net Plan.
 #pragma once
 
-#include "planning/petri_plan.hpp"
+#include <heel/planning/petri_plan.hpp>
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/search_map.hpp"
+#include <heel/planning/search_map.hpp>
 
 #include <algorithm>
 #include <cmath>

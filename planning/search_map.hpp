@@ -7,10 +7,10 @@
 /// Goes beyond the paper, whose robot only turns on the spot ("no search is implemented here").
 #pragma once
 
-#include "mapping/floor_pose.hpp"
-#include "mapping/laser_scan.hpp"
-#include "planning/coarse_floor.hpp"
-#include "planning/function_ref.hpp"
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/laser_scan.hpp>
+#include <heel/planning/coarse_floor.hpp>
+#include <heel/planning/function_ref.hpp>
 
 #include <array>
 #include <optional>

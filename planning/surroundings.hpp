@@ -5,7 +5,7 @@
 /// What the robot must not touch: things that stand, and people who move.
 #pragma once
 
-#include "planning/function_ref.hpp"
+#include <heel/planning/function_ref.hpp>
 
 #include <Eigen/Core>
 

@@ -5,8 +5,8 @@
 /// Makes a path short by pulling it taut around what is in its way, as a string.
 #pragma once
 
-#include "planning/clearance_map.hpp"
-#include "planning/path.hpp"
+#include <heel/planning/clearance_map.hpp>
+#include <heel/planning/path.hpp>
 
 namespace heel {
 

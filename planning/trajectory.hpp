@@ -2,16 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// What a differential drive can do, and where a command leads.
+/// What a differential drive can do, where a command leads, and how it turns to face a point.
 #pragma once
 
-#include "mapping/floor_pose.hpp"
-#include "planning/velocity_command.hpp"
+#include <heel/mapping/floor_pose.hpp>
+
+#include <Eigen/Core>
 
 #include <cstddef>
 #include <vector>
 
 namespace heel {
+
+/// A speed along the robot's heading and a turn.
+struct VelocityCommand {
+  double forward_mps = 0.0;
+  double turn_radps = 0.0;  ///< To the left is positive.
+};
 
 /// The robot as a disc that drives and turns. The defaults are a Pioneer 3-DX at the paper's speed.
 struct DriveLimits {
@@ -61,5 +68,17 @@ struct Trajectories {
 /// Adds the future in which one command is held.
 void addHeld(const DriveLimits& limits, const DriveState& now, const VelocityCommand& command,
              Trajectories& out);
+
+struct FacingParams {
+  double gain = 1.8;        ///< Speed of turning per angle that is left [1/s].
+  double still_rad = 0.05;  ///< A turn ends when no more than this is left of it.
+  double begin_rad = 0.12;  ///< A robot that stands turns only for more than this.
+};
+
+/// The turn in rad/s that brings the robot round to `point`: proportional, never so fast that it
+/// could not stop in time, and none when it faces the point. 0 for a point that isn't finite or is
+/// under the robot.
+double turnToFace(const DriveLimits& limits, const DriveState& now, const Eigen::Vector2d& point,
+                  const FacingParams& params = {});
 
 }  // namespace heel

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/wayside.hpp"
-
-#include "planning/goal_chooser.hpp"
+#include <heel/planning/goal_chooser.hpp>
+#include <heel/planning/wayside.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +12,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr int kBearings = 24;
+constexpr int kPlaces = 24;
 constexpr double kRing_m = 0.2;
 /// Cosine of the least angle between the way to a place and the direction of the person.
 constexpr double kTowards = 0.3;
@@ -27,8 +25,8 @@ bool leavesRoom(const Vector2d& place, const Vector2d& person, Clearance clearan
   const double first = std::atan2(to.y(), to.x());
   const double aside_m = params.radius_m + params.person_m;
   const auto isOpen = [&](double side) {
-    for (int i = 1; i <= kBearings / 4; ++i) {
-      const double bearing = first + side * 2.0 * kPi * i / kBearings;
+    for (int i = 1; i <= kPlaces / 4; ++i) {
+      const double bearing = first + side * 2.0 * M_PI * i / kPlaces;
       const Vector2d p = place + aside_m * Vector2d(std::cos(bearing), std::sin(bearing));
       if (!(clearance(p) >= params.person_m)) return false;  // NaN too
     }
@@ -54,8 +52,8 @@ void findWaysides(const Vector2d& robot, const Vector2d& person, Clearance clear
            leavesRoom(place, person, clearance, params);
   };
   for (double ring_m = kRing_m; ring_m <= params.reach_m; ring_m += kRing_m) {
-    for (int i = 0; i < kBearings; ++i) {
-      const double bearing = 2.0 * kPi * i / kBearings;
+    for (int i = 0; i < kPlaces; ++i) {
+      const double bearing = 2.0 * M_PI * i / kPlaces;
       const Vector2d place = robot + ring_m * Vector2d(std::cos(bearing), std::sin(bearing));
       const bool is_new = std::none_of(out.begin(), out.end(), [&](const Vector2d& other) {
         return (other - place).norm() < params.apart_m;

@@ -5,8 +5,8 @@
 /// Where to stand so that somebody can get past the robot.
 #pragma once
 
-#include "planning/doorways.hpp"
-#include "planning/surroundings.hpp"
+#include <heel/planning/doorways.hpp>
+#include <heel/planning/surroundings.hpp>
 
 #include <vector>
 

@@ -5,7 +5,7 @@
 /// The appearance filter on a point cloud (paper, section 3.1), as a PCL filter.
 #pragma once
 
-#include "segmentation/color_table.hpp"
+#include <heel/segmentation/color_table.hpp>
 
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/filters/filter_indices.h>
@@ -104,5 +104,5 @@ class AppearanceFilter<pcl::PCLPointCloud2> : public pcl::FilterIndices<pcl::PCL
 }  // namespace heel
 
 #ifdef PCL_NO_PRECOMPILE  // users with a point type of their own get the bodies
-#include "segmentation/appearance_filter_impl.hpp"
+#include <heel/segmentation/appearance_filter_impl.hpp>
 #endif

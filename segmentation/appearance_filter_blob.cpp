@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/appearance_filter.hpp"
+#include <heel/segmentation/appearance_filter.hpp>
 
 #include <pcl/common/io.h>
 #include <pcl/console/print.h>

@@ -5,7 +5,7 @@
 /// The bodies of AppearanceFilter, for the point types that it is not instantiated for.
 #pragma once
 
-#include "segmentation/appearance_filter.hpp"
+#include <heel/segmentation/appearance_filter.hpp>
 
 #include <pcl/common/point_tests.h>
 #include <pcl/console/print.h>

@@ -5,8 +5,8 @@
 /// Collects the colours of phase 1 and makes the target's appearance of them (paper, section 2).
 #pragma once
 
-#include "cloud/color_cloud.hpp"
-#include "segmentation/appearance_model.hpp"
+#include <heel/cloud/color_cloud.hpp>
+#include <heel/segmentation/appearance_model.hpp>
 
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>

@@ -5,12 +5,12 @@
 /// The target's appearance: what phase 1 leaves for phase 2 (paper, section 2).
 #pragma once
 
-#include "segmentation/appearance_threshold.hpp"
-#include "segmentation/body_description.hpp"
-#include "segmentation/color_histogram.hpp"
-#include "segmentation/color_score.hpp"
-#include "segmentation/color_table.hpp"
-#include "segmentation/stature.hpp"
+#include <heel/segmentation/appearance_threshold.hpp>
+#include <heel/segmentation/body_description.hpp>
+#include <heel/segmentation/color_histogram.hpp>
+#include <heel/segmentation/color_score.hpp>
+#include <heel/segmentation/color_table.hpp>
+#include <heel/segmentation/stature.hpp>
 
 #include <cstddef>
 #include <cstdint>

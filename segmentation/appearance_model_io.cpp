@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/appearance_model_io.hpp"
-
-#include "cloud/whole_file.hpp"
+#include <heel/cloud/whole_file.hpp>
+#include <heel/segmentation/appearance_model_io.hpp>
 
 #include <yaml-cpp/yaml.h>
 

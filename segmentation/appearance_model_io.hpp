@@ -5,7 +5,7 @@
 /// Appearance models as files.
 #pragma once
 
-#include "segmentation/appearance_model.hpp"
+#include <heel/segmentation/appearance_model.hpp>
 
 #include <filesystem>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/appearance_picture.hpp"
+#include <heel/segmentation/appearance_picture.hpp>
 
 #include <opencv2/imgproc.hpp>
 

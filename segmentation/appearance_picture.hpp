@@ -5,7 +5,7 @@
 /// An appearance model as a picture.
 #pragma once
 
-#include "segmentation/appearance_model.hpp"
+#include <heel/segmentation/appearance_model.hpp>
 
 #include <opencv2/core/mat.hpp>
 

@@ -6,8 +6,8 @@
 /// (section 3.1).
 #pragma once
 
-#include "segmentation/color_histogram.hpp"
-#include "segmentation/color_table.hpp"
+#include <heel/segmentation/color_histogram.hpp>
+#include <heel/segmentation/color_table.hpp>
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/background_model.hpp"
+#include <heel/segmentation/background_model.hpp>
 
 #include <opencv2/imgproc.hpp>
 

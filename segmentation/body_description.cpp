@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/body_description.hpp"
+#include <heel/segmentation/body_description.hpp>
 
 #include <opencv2/core/types.hpp>
 

@@ -5,10 +5,10 @@
 /// What a body looks like: the colours of all of it, by height.
 #pragma once
 
-#include "cloud/color_cloud.hpp"
-#include "segmentation/color_histogram.hpp"
-#include "segmentation/stature.hpp"
-#include "segmentation/world_blobs.hpp"
+#include <heel/cloud/color_cloud.hpp>
+#include <heel/segmentation/color_histogram.hpp>
+#include <heel/segmentation/stature.hpp>
+#include <heel/segmentation/world_blobs.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

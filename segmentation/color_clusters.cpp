@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/color_clusters.hpp"
+#include <heel/segmentation/color_clusters.hpp>
 
 #include <Eigen/Core>
 
@@ -15,7 +15,7 @@
 namespace heel {
 namespace {
 
-constexpr double kDarkOffset = 12.0;  // below it, logarithms would blow up the camera's noise
+constexpr double kLogOffset = 12.0;  // below it, logarithms would blow up the camera's noise
 constexpr int kMaxRounds = 50;
 
 struct Sample {
@@ -30,7 +30,7 @@ std::vector<Sample> makeSamples(const ColorHistogram& colors) {
   std::vector<Sample> samples;
   colors.forEach([&](Bgr c, std::uint64_t count) {
     samples.push_back(
-        {{std::log(c.b + kDarkOffset), std::log(c.g + kDarkOffset), std::log(c.r + kDarkOffset)},
+        {{std::log(c.b + kLogOffset), std::log(c.g + kLogOffset), std::log(c.r + kLogOffset)},
          static_cast<double>(count),
          c,
          count});

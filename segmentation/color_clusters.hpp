@@ -5,7 +5,7 @@
 /// Which principal colours a person wears.
 #pragma once
 
-#include "segmentation/color_histogram.hpp"
+#include <heel/segmentation/color_histogram.hpp>
 
 #include <vector>
 

@@ -5,7 +5,7 @@
 /// How often each colour was seen: all that phase 1 keeps of the person and of the room.
 #pragma once
 
-#include "segmentation/color_table.hpp"
+#include <heel/segmentation/color_table.hpp>
 
 #include <cstddef>
 #include <cstdint>

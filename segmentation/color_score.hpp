@@ -5,7 +5,7 @@
 /// What an appearance model says about a colour, and the models that Heel offers.
 #pragma once
 
-#include "segmentation/color_histogram.hpp"
+#include <heel/segmentation/color_histogram.hpp>
 
 #include <cstdint>
 #include <functional>

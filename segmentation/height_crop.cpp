@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/height_crop.hpp"
+#include <heel/segmentation/height_crop.hpp>
 
 #include <cmath>
 #include <stdexcept>

@@ -5,7 +5,7 @@
 /// Keeps the points at the heights of a standing person: PCL's own PassThrough on z.
 #pragma once
 
-#include "cloud/color_cloud.hpp"
+#include <heel/cloud/color_cloud.hpp>
 
 #include <pcl/filters/passthrough.h>
 

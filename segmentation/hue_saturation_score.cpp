@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/color_score.hpp"
-#include "segmentation/hsv.hpp"
+#include <heel/segmentation/color_score.hpp>
+#include <heel/segmentation/hsv.hpp>
 
 #include <algorithm>
 #include <cstddef>

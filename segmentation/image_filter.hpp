@@ -5,7 +5,7 @@
 /// The appearance filter on an image: which pixels have the target's colours (paper, section 3.1).
 #pragma once
 
-#include "segmentation/color_table.hpp"
+#include <heel/segmentation/color_table.hpp>
 
 #include <opencv2/core/mat.hpp>
 

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/plan_view.hpp"
-
-#include "segmentation/plan_view_impl.hpp"
+#include <heel/segmentation/plan_view.hpp>
+#include <heel/segmentation/plan_view_impl.hpp>
 
 #include <cmath>
 #include <stdexcept>

@@ -5,7 +5,7 @@
 /// The scene from above: candidate points on a grid over the floor (section 3.2).
 #pragma once
 
-#include "segmentation/color_table.hpp"
+#include <heel/segmentation/color_table.hpp>
 
 #include <Eigen/Core>
 #include <pcl/point_cloud.h>
@@ -97,5 +97,5 @@ class PlanView {
 }  // namespace heel
 
 #ifdef PCL_NO_PRECOMPILE  // users with a point type of their own get the body
-#include "segmentation/plan_view_impl.hpp"
+#include <heel/segmentation/plan_view_impl.hpp>
 #endif

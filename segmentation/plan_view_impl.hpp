@@ -5,7 +5,7 @@
 /// The body of PlanView::build, for the point types that it is not instantiated for.
 #pragma once
 
-#include "segmentation/plan_view.hpp"
+#include <heel/segmentation/plan_view.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/color_clusters.hpp"
-#include "segmentation/color_score.hpp"
-#include "segmentation/hsv.hpp"
+#include <heel/segmentation/color_clusters.hpp>
+#include <heel/segmentation/color_score.hpp>
+#include <heel/segmentation/hsv.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/world_blobs.hpp"
+#include <heel/segmentation/world_blobs.hpp>
 
 #include <algorithm>
 #include <cmath>

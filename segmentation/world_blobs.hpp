@@ -5,7 +5,7 @@
 /// Connected components of the plan view: the paper's world blobs (section 3.2).
 #pragma once
 
-#include "segmentation/plan_view.hpp"
+#include <heel/segmentation/plan_view.hpp>
 
 #include <Eigen/Core>
 

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "tracking/clear_mot.hpp"
-
-#include "tracking/assignment.hpp"
+#include <heel/tracking/assignment.hpp>
+#include <heel/tracking/clear_mot.hpp>
 
 #include <cmath>
 #include <map>

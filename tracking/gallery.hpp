@@ -5,7 +5,7 @@
 /// Everybody who is known, and what a look at a body says about who it is.
 #pragma once
 
-#include "tracking/observation.hpp"
+#include <heel/tracking/observation.hpp>
 
 #include <Eigen/Core>
 

@@ -5,8 +5,8 @@
 /// Whether a person can be seen at a place: the paper's geometric filtering (section 3.2).
 #pragma once
 
-#include "tracking/clutter_map.hpp"
-#include "tracking/observation.hpp"
+#include <heel/tracking/clutter_map.hpp>
+#include <heel/tracking/observation.hpp>
 
 #include <Eigen/Core>
 

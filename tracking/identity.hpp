@@ -5,10 +5,10 @@
 /// Who is who: what is believed of each track, by Bayes, over time.
 #pragma once
 
-#include "tracking/clutter_map.hpp"
-#include "tracking/gallery.hpp"
-#include "tracking/geometric_gate.hpp"
-#include "tracking/track.hpp"
+#include <heel/tracking/clutter_map.hpp>
+#include <heel/tracking/gallery.hpp>
+#include <heel/tracking/geometric_gate.hpp>
+#include <heel/tracking/track.hpp>
 
 #include <Eigen/Core>
 

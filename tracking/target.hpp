@@ -5,8 +5,8 @@
 /// The one person to follow, among everyone in view.
 #pragma once
 
-#include "tracking/identity.hpp"
-#include "tracking/tracker.hpp"
+#include <heel/tracking/identity.hpp>
+#include <heel/tracking/tracker.hpp>
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "tracking/track.hpp"
+#include <heel/tracking/track.hpp>
 
 #include <stdexcept>
 #include <string>

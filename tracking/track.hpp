@@ -5,8 +5,8 @@
 /// A track, the tracker's parameters, and its report of a step.
 #pragma once
 
-#include "tracking/geometric_gate.hpp"
-#include "tracking/kalman.hpp"
+#include <heel/tracking/geometric_gate.hpp>
+#include <heel/tracking/kalman.hpp>
 
 #include <array>
 #include <cmath>

@@ -5,11 +5,11 @@
 /// Tracks of everyone in view: the paper's Kalman filters, gating and association (section 3.2).
 #pragma once
 
-#include "tracking/assignment.hpp"
-#include "tracking/geometric_gate.hpp"
-#include "tracking/kalman.hpp"
-#include "tracking/observation.hpp"
-#include "tracking/track.hpp"
+#include <heel/tracking/assignment.hpp>
+#include <heel/tracking/geometric_gate.hpp>
+#include <heel/tracking/kalman.hpp>
+#include <heel/tracking/observation.hpp>
+#include <heel/tracking/track.hpp>
 
 #include <functional>
 #include <optional>

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/bag/bag.hpp"
-
-#include "apps/bag/ros1_bag_reader.hpp"
-#include "apps/bag/ros1_bag_writer.hpp"
-#include "apps/bag/ros2_bag_reader.hpp"
-#include "apps/bag/ros2_bag_writer.hpp"
+#include <heel/apps/bag/bag.hpp>
+#include <heel/apps/bag/ros1_bag_reader.hpp>
+#include <heel/apps/bag/ros1_bag_writer.hpp>
+#include <heel/apps/bag/ros2_bag_reader.hpp>
+#include <heel/apps/bag/ros2_bag_writer.hpp>
 
 #include <algorithm>
 #include <stdexcept>

@@ -5,8 +5,8 @@
 /// Bags: the logs of ROS robots, read as a stream. No ROS is needed.
 #pragma once
 
-#include "apps/bag/message_archives.hpp"
-#include "apps/bag/message_definition.hpp"
+#include <heel/apps/bag/message_archives.hpp>
+#include <heel/apps/bag/message_definition.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -5,8 +5,8 @@
 /// Things to draw, as messages; see messages.hpp.
 #pragma once
 
-#include "apps/bag/geometry_messages.hpp"
-#include "apps/bag/sensor_messages.hpp"
+#include <heel/apps/bag/geometry_messages.hpp>
+#include <heel/apps/bag/sensor_messages.hpp>
 
 #include <array>
 #include <cstdint>

@@ -8,7 +8,7 @@
 /// numbers to their size, and ends strings with a 0 that it counts.
 #pragma once
 
-#include "apps/bag/messages.hpp"
+#include <heel/apps/bag/messages.hpp>
 
 #include <cstddef>
 #include <cstring>

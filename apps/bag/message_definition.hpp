@@ -5,7 +5,7 @@
 /// The text that tells readers of a ROS 1 bag what a message's fields are.
 #pragma once
 
-#include "apps/bag/message_archives.hpp"
+#include <heel/apps/bag/message_archives.hpp>
 
 #include <set>
 #include <string>

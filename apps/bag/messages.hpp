@@ -9,7 +9,7 @@
 /// (message_definition.hpp).
 #pragma once
 
-#include "apps/bag/geometry_messages.hpp"
-#include "apps/bag/marker_messages.hpp"
-#include "apps/bag/navigation_messages.hpp"
-#include "apps/bag/sensor_messages.hpp"
+#include <heel/apps/bag/geometry_messages.hpp>
+#include <heel/apps/bag/marker_messages.hpp>
+#include <heel/apps/bag/navigation_messages.hpp>
+#include <heel/apps/bag/sensor_messages.hpp>

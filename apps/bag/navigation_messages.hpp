@@ -5,7 +5,7 @@
 /// Odometry, paths and maps as messages; see messages.hpp.
 #pragma once
 
-#include "apps/bag/geometry_messages.hpp"
+#include <heel/apps/bag/geometry_messages.hpp>
 
 #include <array>
 #include <cstdint>

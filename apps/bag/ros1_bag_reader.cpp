@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/bag/ros1_bag_reader.hpp"
-
-#include "cloud/file_limits.hpp"
+#include <heel/apps/bag/ros1_bag_reader.hpp>
+#include <heel/cloud/file_limits.hpp>
 
 #include <algorithm>
 #include <stdexcept>

@@ -5,8 +5,8 @@
 /// ROS 1 bags, read record by record.
 #pragma once
 
-#include "apps/bag/bag.hpp"
-#include "apps/bag/ros1_records.hpp"
+#include <heel/apps/bag/bag.hpp>
+#include <heel/apps/bag/ros1_records.hpp>
 
 #include <fstream>
 #include <map>

@@ -5,8 +5,8 @@
 /// Writes ROS 1 bags, with their index.
 #pragma once
 
-#include "apps/bag/bag.hpp"
-#include "apps/bag/ros1_records.hpp"
+#include <heel/apps/bag/bag.hpp>
+#include <heel/apps/bag/ros1_records.hpp>
 
 #include <fstream>
 #include <map>

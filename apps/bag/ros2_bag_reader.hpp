@@ -5,9 +5,9 @@
 /// ROS 2 bags in SQLite storage.
 #pragma once
 
-#include "apps/bag/bag.hpp"
-#include "apps/bag/ros2_page_scan.hpp"
-#include "apps/bag/sqlite_file.hpp"
+#include <heel/apps/bag/bag.hpp>
+#include <heel/apps/bag/ros2_page_scan.hpp>
+#include <heel/apps/bag/sqlite_file.hpp>
 
 #include <cstdint>
 #include <map>

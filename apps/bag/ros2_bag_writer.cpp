@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/bag/ros2_bag_writer.hpp"
-
-#include "apps/report/output.hpp"
+#include <heel/apps/bag/ros2_bag_writer.hpp>
+#include <heel/apps/output/output.hpp>
 
 #include <algorithm>
 #include <sstream>

@@ -5,8 +5,8 @@
 /// Writes ROS 2 bags in SQLite storage.
 #pragma once
 
-#include "apps/bag/bag.hpp"
-#include "apps/bag/sqlite_file.hpp"
+#include <heel/apps/bag/bag.hpp>
+#include <heel/apps/bag/sqlite_file.hpp>
 
 #include <memory>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/bag/ros2_page_scan.hpp"
+#include <heel/apps/bag/ros2_page_scan.hpp>
 
 #include <algorithm>
 

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/bag/sqlite_file.hpp"
-
-#include "cloud/file_limits.hpp"
+#include <heel/apps/bag/sqlite_file.hpp>
+#include <heel/cloud/file_limits.hpp>
 
 #include <sqlite3.h>
 

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/appearance_experiment.hpp"
-
-#include "apps/experiment/model_lessons.hpp"
-#include "apps/experiment/seen_at.hpp"
-#include "apps/experiment/simulated_frames.hpp"
-#include "apps/experiment/simulated_lesson.hpp"
-#include "apps/simulation/random.hpp"
+#include <heel/apps/experiment/appearance_experiment.hpp>
+#include <heel/apps/experiment/model_lessons.hpp>
+#include <heel/apps/experiment/seen_at.hpp>
+#include <heel/apps/experiment/simulated_frames.hpp>
+#include <heel/apps/experiment/simulated_lesson.hpp>
+#include <heel/apps/simulation/random.hpp>
 
 #include <tbb/parallel_for.h>
 

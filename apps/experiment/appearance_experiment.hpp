@@ -6,11 +6,11 @@
 /// side by side.
 #pragma once
 
-#include "apps/experiment/confusion_matrix.hpp"
-#include "apps/experiment/offered_models.hpp"
-#include "apps/experiment/random_wardrobe.hpp"
-#include "apps/follower/acquisition.hpp"
-#include "apps/follower/perception.hpp"
+#include <heel/apps/experiment/confusion_matrix.hpp>
+#include <heel/apps/experiment/offered_models.hpp>
+#include <heel/apps/experiment/random_wardrobe.hpp>
+#include <heel/apps/follower/acquisition.hpp>
+#include <heel/apps/follower/perception.hpp>
 
 #include <array>
 #include <filesystem>

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/appearance_report.hpp"
-
-#include "apps/experiment/confusion_picture.hpp"
-#include "apps/report/csv_file.hpp"
-#include "apps/report/result_files.hpp"
-#include "apps/report/video_writer.hpp"
+#include <heel/apps/experiment/appearance_report.hpp>
+#include <heel/apps/experiment/confusion_picture.hpp>
+#include <heel/apps/film/video_writer.hpp>
+#include <heel/apps/output/csv_file.hpp>
+#include <heel/apps/results/result_files.hpp>
 
 #include <nlohmann/json.hpp>
 

@@ -5,8 +5,8 @@
 /// The appearance experiment's figures, summed up and as files.
 #pragma once
 
-#include "apps/experiment/appearance_experiment.hpp"
-#include "apps/report/output.hpp"
+#include <heel/apps/experiment/appearance_experiment.hpp>
+#include <heel/apps/output/output.hpp>
 
 #include <string>
 #include <vector>

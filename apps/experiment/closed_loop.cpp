@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/closed_loop.hpp"
-
-#include "apps/report/run_end.hpp"
-#include "apps/simulation/scene_map.hpp"
+#include <heel/apps/experiment/closed_loop.hpp>
+#include <heel/apps/output/run_end.hpp>
+#include <heel/apps/simulation/scene_map.hpp>
 
 #include <algorithm>
 #include <cmath>

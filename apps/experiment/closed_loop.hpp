@@ -5,10 +5,10 @@
 /// The robot follows a person through a simulated home: sensors to mind to wheels, and round again.
 #pragma once
 
-#include "apps/experiment/faults.hpp"
-#include "apps/follower/follower.hpp"
-#include "apps/report/follow_log.hpp"
-#include "apps/simulation/simulator.hpp"
+#include <heel/apps/experiment/faults.hpp>
+#include <heel/apps/follower/follower.hpp>
+#include <heel/apps/results/follow_log.hpp>
+#include <heel/apps/simulation/simulator.hpp>
 
 #include <cstdint>
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/confusion_matrix.hpp"
+#include <heel/apps/experiment/confusion_matrix.hpp>
 
 namespace heel {
 

@@ -5,7 +5,7 @@
 /// Every model against every person: who is detected with whose model (section 4.1).
 #pragma once
 
-#include "apps/experiment/proportion.hpp"
+#include <heel/apps/experiment/proportion.hpp>
 
 #include <cstddef>
 #include <optional>

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/confusion_picture.hpp"
-
-#include "apps/report/drawing.hpp"
+#include <heel/apps/experiment/confusion_picture.hpp>
+#include <heel/apps/pictures/drawing.hpp>
 
 #include <algorithm>
 #include <cmath>

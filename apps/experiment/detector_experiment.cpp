@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/experiments.hpp"
-#include "apps/experiment/truth_frames.hpp"
-#include "apps/follower/depth_images.hpp"
-#include "apps/follower/people_detector.hpp"
+#include <heel/apps/experiment/experiments.hpp>
+#include <heel/apps/experiment/truth_frames.hpp>
+#include <heel/apps/follower/depth_images.hpp>
+#include <heel/apps/follower/people_detector.hpp>
 
 #include <map>
 

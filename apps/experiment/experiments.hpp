@@ -5,10 +5,10 @@
 /// What the tables of docs/results.md about real people are made with.
 #pragma once
 
-#include "apps/follower/learn_person.hpp"
-#include "apps/follower/perception.hpp"
-#include "tracking/clear_mot.hpp"
-#include "tracking/target_metrics.hpp"
+#include <heel/apps/follower/learn_person.hpp>
+#include <heel/apps/follower/perception.hpp>
+#include <heel/tracking/clear_mot.hpp>
+#include <heel/tracking/target_metrics.hpp>
 
 #include <filesystem>
 #include <functional>

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/faults.hpp"
-
-#include "apps/simulation/random.hpp"
+#include <heel/apps/experiment/faults.hpp>
+#include <heel/apps/simulation/random.hpp>
 
 #include <opencv2/core.hpp>
 

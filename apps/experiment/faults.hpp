@@ -5,8 +5,8 @@
 /// What can go wrong with a robot's sensors, done to a simulated one.
 #pragma once
 
-#include "apps/follower/robot_readings.hpp"
-#include "apps/simulation/simulator.hpp"
+#include <heel/apps/follower/sensor_watch.hpp>
+#include <heel/apps/simulation/simulator.hpp>
 
 #include <cstdint>
 #include <vector>

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/follow_experiment.hpp"
-
-#include "apps/experiment/random_episode.hpp"
-#include "apps/report/run_end.hpp"
-#include "planning/plan_file.hpp"
+#include <heel/apps/experiment/follow_experiment.hpp>
+#include <heel/apps/experiment/random_episode.hpp>
+#include <heel/apps/output/run_end.hpp>
+#include <heel/planning/plan_file.hpp>
 
 #include <algorithm>
 #include <atomic>

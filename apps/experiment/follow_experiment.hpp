@@ -5,8 +5,8 @@
 /// The paper's Table 1, and many homes more.
 #pragma once
 
-#include "apps/experiment/closed_loop.hpp"
-#include "apps/report/follow_experiment_page.hpp"
+#include <heel/apps/experiment/closed_loop.hpp>
+#include <heel/apps/pages/follow_experiment_page.hpp>
 
 #include <cstdint>
 #include <filesystem>

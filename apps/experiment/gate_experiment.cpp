@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/gate_experiment.hpp"
-
-#include "apps/experiment/simulated_frames.hpp"
-#include "apps/experiment/simulated_lesson.hpp"
-#include "apps/simulation/random.hpp"
+#include <heel/apps/experiment/gate_experiment.hpp>
+#include <heel/apps/experiment/simulated_frames.hpp>
+#include <heel/apps/experiment/simulated_lesson.hpp>
+#include <heel/apps/simulation/random.hpp>
 
 #include <stdexcept>
 #include <string>

@@ -5,10 +5,10 @@
 /// What the wall gate is good for: a target among things in the target's colours.
 #pragma once
 
-#include "apps/experiment/random_wardrobe.hpp"
-#include "apps/follower/learn_person.hpp"
-#include "apps/follower/perception.hpp"
-#include "tracking/target_metrics.hpp"
+#include <heel/apps/experiment/random_wardrobe.hpp>
+#include <heel/apps/follower/learn_person.hpp>
+#include <heel/apps/follower/perception.hpp>
+#include <heel/tracking/target_metrics.hpp>
 
 #include <cstdint>
 #include <filesystem>

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/light_experiment.hpp"
-
-#include "apps/experiment/truth_frames.hpp"
-#include "apps/experiment/truth_lessons.hpp"
-#include "apps/simulation/color.hpp"
+#include <heel/apps/experiment/light_experiment.hpp>
+#include <heel/apps/experiment/truth_frames.hpp>
+#include <heel/apps/experiment/truth_lessons.hpp>
+#include <heel/apps/simulation/color.hpp>
 
 #include <opencv2/core.hpp>
 

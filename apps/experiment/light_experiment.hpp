@@ -5,9 +5,9 @@
 /// A person learned in one light and looked for in another.
 #pragma once
 
-#include "apps/experiment/experiments.hpp"
-#include "apps/experiment/perception_truth_experiment.hpp"
-#include "apps/recording/frame.hpp"
+#include <heel/apps/experiment/experiments.hpp>
+#include <heel/apps/experiment/perception_truth_experiment.hpp>
+#include <heel/apps/recording/frame.hpp>
 
 #include <opencv2/core/mat.hpp>
 

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/localization_experiment.hpp"
-
-#include "apps/experiment/roaming_driver.hpp"
-#include "apps/simulation/scene_grid.hpp"
-#include "apps/simulation/simulator.hpp"
+#include <heel/apps/experiment/localization_experiment.hpp>
+#include <heel/apps/experiment/roaming_driver.hpp>
+#include <heel/apps/simulation/scene_map.hpp>
+#include <heel/apps/simulation/simulator.hpp>
 
 #include <Eigen/LU>
 

@@ -5,8 +5,8 @@
 /// Localization against exact truth: a simulated robot roams a flat in which people walk.
 #pragma once
 
-#include "apps/simulation/scene.hpp"
-#include "mapping/localization.hpp"
+#include <heel/apps/simulation/scene.hpp>
+#include <heel/mapping/localization.hpp>
 
 #include <cstdint>
 #include <optional>

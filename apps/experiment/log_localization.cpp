@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/log_localization.hpp"
-
-#include "apps/report/run_end.hpp"
-#include "mapping/scan_map.hpp"
+#include <heel/apps/experiment/log_localization.hpp>
+#include <heel/apps/output/run_end.hpp>
+#include <heel/mapping/scan_map.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 /// Localization on a recorded laser log.
 #pragma once
 
-#include "apps/recording/laser_log.hpp"
-#include "mapping/localization.hpp"
+#include <heel/apps/recording/laser_log.hpp>
+#include <heel/mapping/localization.hpp>
 
 #include <filesystem>
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/model_lessons.hpp"
+#include <heel/apps/experiment/model_lessons.hpp>
 
 #include <algorithm>
 

@@ -5,8 +5,8 @@
 /// One acquisition that teaches several models at once.
 #pragma once
 
-#include "apps/experiment/offered_models.hpp"
-#include "segmentation/appearance_learner.hpp"
+#include <heel/apps/experiment/offered_models.hpp>
+#include <heel/segmentation/appearance_learner.hpp>
 
 #include <cstddef>
 #include <optional>

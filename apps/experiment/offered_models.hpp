@@ -5,7 +5,7 @@
 /// The appearance models that the experiments compare.
 #pragma once
 
-#include "segmentation/appearance_model.hpp"
+#include <heel/segmentation/appearance_model.hpp>
 
 #include <string>
 #include <vector>

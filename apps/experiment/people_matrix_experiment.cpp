@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/people_matrix_experiment.hpp"
-
-#include "apps/experiment/seen_at.hpp"
-#include "apps/experiment/truth_lessons.hpp"
-#include "apps/follower/perception.hpp"
+#include <heel/apps/experiment/people_matrix_experiment.hpp>
+#include <heel/apps/experiment/seen_at.hpp>
+#include <heel/apps/experiment/truth_lessons.hpp>
+#include <heel/apps/follower/perception.hpp>
 
 #include <tbb/parallel_for.h>
 

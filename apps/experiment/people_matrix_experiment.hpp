@@ -5,8 +5,8 @@
 /// Everyone's model against everyone, on a recording of real people.
 #pragma once
 
-#include "apps/experiment/appearance_experiment.hpp"
-#include "apps/experiment/experiments.hpp"
+#include <heel/apps/experiment/appearance_experiment.hpp>
+#include <heel/apps/experiment/experiments.hpp>
 
 #include <filesystem>
 #include <functional>

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/perception_truth_experiment.hpp"
-
-#include "apps/experiment/simulated_lesson.hpp"
-#include "apps/simulation/random.hpp"
+#include <heel/apps/experiment/perception_truth_experiment.hpp>
+#include <heel/apps/experiment/simulated_lesson.hpp>
+#include <heel/apps/simulation/random.hpp>
 
 #include <limits>
 #include <stdexcept>

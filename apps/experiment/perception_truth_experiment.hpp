@@ -5,12 +5,12 @@
 /// The perception against exact truth, pixel by pixel and place by place.
 #pragma once
 
-#include "apps/experiment/random_wardrobe.hpp"
-#include "apps/experiment/simulated_frames.hpp"
-#include "apps/follower/learn_person.hpp"
-#include "apps/follower/perception.hpp"
-#include "tracking/clear_mot.hpp"
-#include "tracking/target_metrics.hpp"
+#include <heel/apps/experiment/random_wardrobe.hpp>
+#include <heel/apps/experiment/simulated_frames.hpp>
+#include <heel/apps/follower/learn_person.hpp>
+#include <heel/apps/follower/perception.hpp>
+#include <heel/tracking/clear_mot.hpp>
+#include <heel/tracking/target_metrics.hpp>
 
 #include <cstdint>
 #include <filesystem>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/experiments.hpp"
-#include "apps/experiment/truth_frames.hpp"
+#include <heel/apps/experiment/experiments.hpp>
+#include <heel/apps/experiment/truth_frames.hpp>
 
 #include <stdexcept>
 

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/random_episode.hpp"
-
-#include "apps/experiment/random_home.hpp"
-#include "apps/experiment/random_wardrobe.hpp"
-#include "apps/simulation/floor_plan.hpp"
-#include "apps/simulation/random.hpp"
-#include "planning/global_planner.hpp"
+#include <heel/apps/experiment/random_episode.hpp>
+#include <heel/apps/experiment/random_home.hpp>
+#include <heel/apps/experiment/random_wardrobe.hpp>
+#include <heel/apps/simulation/floor_plan.hpp>
+#include <heel/apps/simulation/random.hpp>
+#include <heel/planning/global_planner.hpp>
 
 #include <Eigen/Geometry>
 

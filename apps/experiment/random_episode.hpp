@@ -5,7 +5,7 @@
 /// A person to follow through a random home, with others about.
 #pragma once
 
-#include "apps/simulation/scene.hpp"
+#include <heel/apps/simulation/scene.hpp>
 
 #include <cstdint>
 #include <filesystem>

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/random_home.hpp"
-
-#include "apps/simulation/floor_plan.hpp"
-#include "apps/simulation/material.hpp"
-#include "apps/simulation/random.hpp"
+#include <heel/apps/experiment/random_home.hpp>
+#include <heel/apps/simulation/floor_plan.hpp>
+#include <heel/apps/simulation/material.hpp>
+#include <heel/apps/simulation/random.hpp>
 
 #include <Eigen/Geometry>
 

@@ -5,7 +5,7 @@
 /// Homes of all kinds, to follow a person through.
 #pragma once
 
-#include "apps/simulation/scene.hpp"
+#include <heel/apps/simulation/scene.hpp>
 
 #include <cstdint>
 #include <filesystem>

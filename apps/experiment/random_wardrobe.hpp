@@ -5,7 +5,7 @@
 /// Five people with clothes, and the scenes in which they are learned and looked for.
 #pragma once
 
-#include "apps/simulation/scene.hpp"
+#include <heel/apps/simulation/scene.hpp>
 
 #include <array>
 #include <cstdint>

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/roaming_driver.hpp"
-
-#include "apps/simulation/floor_plan.hpp"
-#include "apps/simulation/path_driver.hpp"
+#include <heel/apps/experiment/roaming_driver.hpp>
+#include <heel/apps/simulation/floor_plan.hpp>
+#include <heel/apps/simulation/path_driver.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +16,7 @@
 namespace heel {
 namespace {
 
-constexpr double kCell_m = 0.1;
+constexpr double kRoamCell_m = 0.1;
 constexpr float kFar = std::numeric_limits<float>::infinity();
 constexpr double kPi = 3.14159265358979;
 
@@ -26,8 +25,8 @@ constexpr double kPi = 3.14159265358979;
 RoamingDriver::RoamingDriver(const Scene& scene, std::uint64_t seed) : random_(hashOf(seed, 71)) {
   for (const ScenePerson& person : scene.people) people_.push_back(person.start);
   const FloorBounds bounds = floorBounds(scene);
-  const Eigen::Vector2d size = (bounds.high - bounds.low) / kCell_m;
-  room_ = OccupancyGrid(bounds.low, kCell_m, static_cast<int>(size.x()) + 1,
+  const Eigen::Vector2d size = (bounds.high - bounds.low) / kRoamCell_m;
+  room_ = OccupancyGrid(bounds.low, kRoamCell_m, static_cast<int>(size.x()) + 1,
                         static_cast<int>(size.y()) + 1, Occupancy::kOccupied);
   const FloorPlan plan(scene);
   const double needed_m = scene.robot.radius_m + 0.08;
@@ -80,7 +79,7 @@ bool RoamingDriver::findWay() {
       for (int dx = -1; dx <= 1; ++dx) {
         const GridCell next{at.first + dx, at.second + dy};
         if (!room_.contains(next) || room_.at(next) != Occupancy::kFree) continue;
-        const float there = way + static_cast<float>(kCell_m * std::hypot(dx, dy));
+        const float there = way + static_cast<float>(kRoamCell_m * std::hypot(dx, dy));
         if (there >= way_m_[room_.index(next)]) continue;
         way_m_[room_.index(next)] = there;
         open.push({there, {next.x, next.y}});

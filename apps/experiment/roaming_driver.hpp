@@ -5,9 +5,9 @@
 /// Drives a simulated robot about, so that something else can be measured.
 #pragma once
 
-#include "apps/simulation/random.hpp"
-#include "apps/simulation/simulator.hpp"
-#include "mapping/occupancy_grid.hpp"
+#include <heel/apps/simulation/random.hpp>
+#include <heel/apps/simulation/simulator.hpp>
+#include <heel/mapping/occupancy_grid.hpp>
 
 #include <vector>
 

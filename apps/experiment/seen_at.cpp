@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/seen_at.hpp"
+#include <heel/apps/experiment/seen_at.hpp>
 
 namespace heel {
 

@@ -5,7 +5,7 @@
 /// What the perception makes of one place on the floor.
 #pragma once
 
-#include "apps/follower/perception.hpp"
+#include <heel/apps/follower/perception.hpp>
 
 #include <Eigen/Core>
 

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/simulated_frames.hpp"
-
-#include "apps/follower/depth_images.hpp"
-#include "apps/follower/wall_gate.hpp"
-#include "apps/simulation/scene_map.hpp"
-#include "apps/simulation/simulator.hpp"
+#include <heel/apps/experiment/simulated_frames.hpp>
+#include <heel/apps/follower/depth_images.hpp>
+#include <heel/apps/follower/wall_gate.hpp>
+#include <heel/apps/simulation/scene_map.hpp>
+#include <heel/apps/simulation/simulator.hpp>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

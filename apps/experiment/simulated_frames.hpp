@@ -5,13 +5,13 @@
 /// Recordings that are rendered straight into memory, with their truth.
 #pragma once
 
-#include "apps/follower/camera_setup.hpp"
-#include "apps/recording/frame.hpp"
-#include "apps/simulation/scene.hpp"
-#include "cloud/stereo_params.hpp"
-#include "tracking/geometric_gate.hpp"
-#include "tracking/target.hpp"
-#include "tracking/target_metrics.hpp"
+#include <heel/apps/follower/camera_setup.hpp>
+#include <heel/apps/recording/frame.hpp>
+#include <heel/apps/simulation/scene.hpp>
+#include <heel/cloud/stereo_params.hpp>
+#include <heel/tracking/geometric_gate.hpp>
+#include <heel/tracking/target.hpp>
+#include <heel/tracking/target_metrics.hpp>
 
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>

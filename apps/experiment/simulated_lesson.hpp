@@ -5,10 +5,10 @@
 /// Phase 1 on rendered frames.
 #pragma once
 
-#include "apps/experiment/model_lessons.hpp"
-#include "apps/experiment/random_wardrobe.hpp"
-#include "apps/experiment/simulated_frames.hpp"
-#include "apps/follower/acquisition.hpp"
+#include <heel/apps/experiment/model_lessons.hpp>
+#include <heel/apps/experiment/random_wardrobe.hpp>
+#include <heel/apps/experiment/simulated_frames.hpp>
+#include <heel/apps/follower/acquisition.hpp>
 
 #include <cstdint>
 #include <vector>

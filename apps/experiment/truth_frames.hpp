@@ -5,8 +5,8 @@
 /// True places by frame and by person.
 #pragma once
 
-#include "apps/report/result_files.hpp"
-#include "tracking/target_metrics.hpp"
+#include <heel/apps/results/result_files.hpp>
+#include <heel/tracking/target_metrics.hpp>
 
 #include <cstddef>
 #include <filesystem>

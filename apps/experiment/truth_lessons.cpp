@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/experiment/truth_lessons.hpp"
-
-#include "apps/follower/depth_images.hpp"
+#include <heel/apps/experiment/truth_lessons.hpp>
+#include <heel/apps/follower/depth_images.hpp>
 
 #include <set>
 #include <string>

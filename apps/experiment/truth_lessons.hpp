@@ -5,9 +5,9 @@
 /// Everyone of a recording learned from where they truly were.
 #pragma once
 
-#include "apps/experiment/experiments.hpp"
-#include "apps/experiment/model_lessons.hpp"
-#include "apps/experiment/truth_frames.hpp"
+#include <heel/apps/experiment/experiments.hpp>
+#include <heel/apps/experiment/model_lessons.hpp>
+#include <heel/apps/experiment/truth_frames.hpp>
 
 #include <filesystem>
 #include <vector>

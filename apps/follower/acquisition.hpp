@@ -5,7 +5,7 @@
 /// Phase 1 as a stream: the empty scene, then the person to follow (section 2).
 #pragma once
 
-#include "apps/follower/people_detector.hpp"
+#include <heel/apps/follower/people_detector.hpp>
 
 #include <cstdint>
 

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/follower/camera_setup.hpp"
-
-#include "apps/follower/depth_images.hpp"
-#include "cloud/pinhole_fit.hpp"
+#include <heel/apps/follower/camera_setup.hpp>
+#include <heel/apps/follower/depth_images.hpp>
+#include <heel/cloud/color_cloud.hpp>
 
 #include <stdexcept>
 

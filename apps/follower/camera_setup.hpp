@@ -5,10 +5,10 @@
 /// The camera of a recording, and whether it is set up well: what is settled before both phases.
 #pragma once
 
-#include "apps/recording/recording.hpp"
-#include "cloud/ground_plane.hpp"
-#include "cloud/setup_check.hpp"
-#include "cloud/stereo_params.hpp"
+#include <heel/apps/recording/recording.hpp>
+#include <heel/cloud/ground_plane.hpp>
+#include <heel/cloud/setup_check.hpp>
+#include <heel/cloud/stereo_params.hpp>
 
 #include <Eigen/Geometry>
 

@@ -5,8 +5,8 @@
 /// Colour and depth of a frame, whatever the sensor.
 #pragma once
 
-#include "apps/recording/recording.hpp"
-#include "cloud/stereo_matcher.hpp"
+#include <heel/apps/recording/recording.hpp>
+#include <heel/cloud/stereo_matcher.hpp>
 
 #include <opencv2/core/mat.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/follower/depth_sight.hpp"
+#include <heel/apps/follower/depth_sight.hpp>
 
 #include <algorithm>
 #include <cmath>

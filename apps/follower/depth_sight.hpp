@@ -5,8 +5,8 @@
 /// What a depth image says of a place on the floor.
 #pragma once
 
-#include "cloud/pinhole_camera.hpp"
-#include "tracking/clutter_map.hpp"
+#include <heel/cloud/pinhole_camera.hpp>
+#include <heel/tracking/clutter_map.hpp>
 
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>

@@ -5,12 +5,12 @@
 /// The robot's mind: readings in, a velocity out. The paper's system as one step.
 #pragma once
 
-#include "apps/follower/follower_params.hpp"
-#include "apps/follower/robot_readings.hpp"
-#include "mapping/wall_distance.hpp"
-#include "mapping/wall_map.hpp"
-#include "planning/clearance_map.hpp"
-#include "planning/following_plan.hpp"
+#include <heel/apps/follower/follower_params.hpp>
+#include <heel/apps/follower/sensor_watch.hpp>
+#include <heel/mapping/wall_distance.hpp>
+#include <heel/mapping/wall_map.hpp>
+#include <heel/planning/clearance_map.hpp>
+#include <heel/planning/following_plan.hpp>
 
 #include <functional>
 #include <memory>

@@ -3,7 +3,7 @@
 
 // The follower's actions: from what the plan says to a velocity.
 
-#include "apps/follower/follower.hpp"
+#include <heel/apps/follower/follower.hpp>
 
 #include <algorithm>
 #include <optional>

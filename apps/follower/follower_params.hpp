@@ -5,19 +5,19 @@
 /// The robot that follows, and all that can be set of how it does.
 #pragma once
 
-#include "apps/follower/laser_bodies.hpp"
-#include "apps/follower/learn_person.hpp"
-#include "apps/follower/obstacle_points.hpp"
-#include "apps/follower/perception.hpp"
-#include "apps/follower/person_search.hpp"
-#include "apps/follower/sensor_watch.hpp"
-#include "apps/follower/wall_gate.hpp"
-#include "mapping/localization.hpp"
-#include "mapping/obstacle_layer.hpp"
-#include "planning/global_planner.hpp"
-#include "planning/goal_chooser.hpp"
-#include "planning/local_planner.hpp"
-#include "planning/wayside.hpp"
+#include <heel/apps/follower/laser_bodies.hpp>
+#include <heel/apps/follower/learn_person.hpp>
+#include <heel/apps/follower/obstacle_points.hpp>
+#include <heel/apps/follower/perception.hpp>
+#include <heel/apps/follower/person_search.hpp>
+#include <heel/apps/follower/sensor_watch.hpp>
+#include <heel/apps/follower/wall_gate.hpp>
+#include <heel/mapping/localization.hpp>
+#include <heel/mapping/obstacle_layer.hpp>
+#include <heel/planning/global_planner.hpp>
+#include <heel/planning/goal_chooser.hpp>
+#include <heel/planning/local_planner.hpp>
+#include <heel/planning/wayside.hpp>
 
 namespace heel {
 

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/follower/laser_bodies.hpp"
-
-#include "apps/follower/param_checks.hpp"
+#include <heel/apps/follower/laser_bodies.hpp>
+#include <heel/apps/follower/param_checks.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,11 +5,11 @@
 /// What a laser scan shows of a person's size, and where nobody is.
 #pragma once
 
-#include "mapping/floor_pose.hpp"
-#include "mapping/laser_scan.hpp"
-#include "planning/surroundings.hpp"
-#include "tracking/clutter_map.hpp"
-#include "tracking/observation.hpp"
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/laser_scan.hpp>
+#include <heel/planning/surroundings.hpp>
+#include <heel/tracking/clutter_map.hpp>
+#include <heel/tracking/observation.hpp>
 
 #include <Eigen/Core>
 

@@ -5,12 +5,12 @@
 /// Phase 1 from a recording to a model: who to follow (section 2).
 #pragma once
 
-#include "apps/follower/acquisition.hpp"
-#include "apps/follower/camera_setup.hpp"
-#include "apps/follower/depth_images.hpp"
-#include "apps/recording/recording.hpp"
-#include "segmentation/appearance_learner.hpp"
-#include "segmentation/appearance_model.hpp"
+#include <heel/apps/follower/acquisition.hpp>
+#include <heel/apps/follower/camera_setup.hpp>
+#include <heel/apps/follower/depth_images.hpp>
+#include <heel/apps/recording/recording.hpp>
+#include <heel/segmentation/appearance_learner.hpp>
+#include <heel/segmentation/appearance_model.hpp>
 
 #include <functional>
 #include <vector>

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/follower/obstacle_points.hpp"
-
-#include "apps/follower/depth_images.hpp"
-#include "apps/follower/param_checks.hpp"
+#include <heel/apps/follower/depth_images.hpp>
+#include <heel/apps/follower/obstacle_points.hpp>
+#include <heel/apps/follower/param_checks.hpp>
 
 #include <opencv2/imgproc.hpp>
 

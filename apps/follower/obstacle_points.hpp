@@ -5,9 +5,9 @@
 /// What the camera sees of everything, coarsely: so that the robot does not run into a table top.
 #pragma once
 
-#include "apps/follower/camera_setup.hpp"
-#include "apps/recording/frame.hpp"
-#include "cloud/stereo_matcher.hpp"
+#include <heel/apps/follower/camera_setup.hpp>
+#include <heel/apps/recording/frame.hpp>
+#include <heel/cloud/stereo_matcher.hpp>
 
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>

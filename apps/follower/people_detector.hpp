@@ -5,11 +5,11 @@
 /// People before a known background: steps 2 and 3 of phase 1 (section 2).
 #pragma once
 
-#include "cloud/color_cloud.hpp"
-#include "segmentation/background_model.hpp"
-#include "segmentation/height_crop.hpp"
-#include "segmentation/plan_view.hpp"
-#include "segmentation/world_blobs.hpp"
+#include <heel/cloud/color_cloud.hpp>
+#include <heel/segmentation/background_model.hpp>
+#include <heel/segmentation/height_crop.hpp>
+#include <heel/segmentation/plan_view.hpp>
+#include <heel/segmentation/world_blobs.hpp>
 
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/follower/perception.hpp"
-
-#include "apps/follower/depth_images.hpp"
-#include "apps/follower/depth_sight.hpp"
-#include "apps/follower/wall_gate.hpp"
-#include "segmentation/image_filter.hpp"
+#include <heel/apps/follower/depth_images.hpp>
+#include <heel/apps/follower/depth_sight.hpp>
+#include <heel/apps/follower/perception.hpp>
+#include <heel/apps/follower/wall_gate.hpp>
+#include <heel/segmentation/image_filter.hpp>
 
 #include <opencv2/core.hpp>
 #include <pcl/common/transforms.h>

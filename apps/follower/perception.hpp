@@ -5,19 +5,19 @@
 /// Phase 2, a frame in and the target's place out (section 3).
 #pragma once
 
-#include "apps/follower/camera_setup.hpp"
-#include "apps/follower/laser_bodies.hpp"
-#include "apps/recording/frame.hpp"
-#include "cloud/color_cloud.hpp"
-#include "cloud/stereo_matcher.hpp"
-#include "mapping/floor_pose.hpp"
-#include "segmentation/appearance_filter.hpp"
-#include "segmentation/appearance_model.hpp"
-#include "segmentation/body_description.hpp"
-#include "segmentation/height_crop.hpp"
-#include "segmentation/plan_view.hpp"
-#include "segmentation/world_blobs.hpp"
-#include "tracking/target.hpp"
+#include <heel/apps/follower/camera_setup.hpp>
+#include <heel/apps/follower/laser_bodies.hpp>
+#include <heel/apps/recording/frame.hpp>
+#include <heel/cloud/color_cloud.hpp>
+#include <heel/cloud/stereo_matcher.hpp>
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/segmentation/appearance_filter.hpp>
+#include <heel/segmentation/appearance_model.hpp>
+#include <heel/segmentation/body_description.hpp>
+#include <heel/segmentation/height_crop.hpp>
+#include <heel/segmentation/plan_view.hpp>
+#include <heel/segmentation/world_blobs.hpp>
+#include <heel/tracking/target.hpp>
 
 #include <functional>
 #include <optional>

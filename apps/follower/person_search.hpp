@@ -5,8 +5,8 @@
 /// The search for a person who was lost: where to look next, until the time for it is over.
 #pragma once
 
-#include "planning/search_map.hpp"
-#include "planning/surroundings.hpp"
+#include <heel/planning/search_map.hpp>
+#include <heel/planning/surroundings.hpp>
 
 #include <optional>
 

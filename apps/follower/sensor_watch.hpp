@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// Whether the robot's senses work: it must not move on stale or senseless readings.
+/// What a robot's sensors bring, and whether they work: it must not move on stale or senseless
+/// readings.
 #pragma once
 
-#include "apps/follower/camera_setup.hpp"
-#include "apps/follower/robot_readings.hpp"
+#include <heel/apps/follower/camera_setup.hpp>
+#include <heel/apps/recording/frame.hpp>
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/laser_scan.hpp>
 
 #include <opencv2/core/types.hpp>
 
@@ -14,6 +17,15 @@
 #include <string>
 
 namespace heel {
+
+/// What is new since the step before; a sensor that did not measure is null or absent.
+struct RobotReadings {
+  double stamp_s = 0.0;
+  const Frame* frame = nullptr;
+  double pair_gap_s = 0.0;  ///< Between the frame's left and right image.
+  const LaserScan* scan = nullptr;
+  std::optional<FloorPose> odometry;  ///< In a frame of its own, drifting.
+};
 
 struct SensorWatchParams {
   double max_image_age_s = 0.6;  ///< The robot stops when the last good image is older than this.

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/follower/wall_gate.hpp"
-
-#include "mapping/wall_distance.hpp"
+#include <heel/apps/follower/wall_gate.hpp>
+#include <heel/mapping/wall_distance.hpp>
 
 #include <Eigen/Eigenvalues>
 

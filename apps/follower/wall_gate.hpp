@@ -5,10 +5,10 @@
 /// The paper's geometric filtering (section 3.2): no person is inside a wall or behind one.
 #pragma once
 
-#include "cloud/pinhole_camera.hpp"
-#include "mapping/floor_pose.hpp"
-#include "mapping/wall_map.hpp"
-#include "tracking/geometric_gate.hpp"
+#include <heel/cloud/pinhole_camera.hpp>
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/wall_map.hpp>
+#include <heel/tracking/geometric_gate.hpp>
 
 #include <memory>
 

@@ -16,6 +16,9 @@ class App;
 
 namespace heel {
 
+/// Users read and write angles in degrees: so many are one radian.
+constexpr double kDegrees = 57.29577951308232;
+
 /// Tells a user what they should know, on stderr; the work goes on.
 void warn(const std::string& warning);
 

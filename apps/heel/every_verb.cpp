@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/heel/commands.hpp"
-#include "cloud/file_limits.hpp"
+#include <heel/apps/heel/commands.hpp>
+#include <heel/apps/heel/shared/terminal.hpp>
+#include <heel/cloud/file_limits.hpp>
 
 #include <CLI/CLI.hpp>
 
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <functional>
 #include <string>
 
@@ -21,6 +23,10 @@ std::string whyNotFinite(const std::string& text) {
 }
 
 }  // namespace
+
+void warn(const std::string& warning) {
+  std::fprintf(stderr, "heel: warning: %s\n", sentenceForTerminal(warning).c_str());
+}
 
 void completeVerbs(CLI::App& app) {
   const auto verbs = app.get_subcommands([](const CLI::App*) { return true; });

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/heel/commands.hpp"
-#include "apps/report/run_end.hpp"
-#include "apps/report/terminal.hpp"
+#include <heel/apps/heel/commands.hpp>
+#include <heel/apps/heel/shared/terminal.hpp>
+#include <heel/apps/output/run_end.hpp>
 
 #include <CLI/CLI.hpp>
 #include <opencv2/core.hpp>
@@ -90,10 +90,6 @@ void silenceLibraries() {
 }
 
 }  // namespace
-
-void heel::warn(const std::string& warning) {
-  std::fprintf(stderr, "heel: warning: %s\n", sentenceForTerminal(warning).c_str());
-}
 
 int main(int argc, char** argv) {
   silenceLibraries();

@@ -5,7 +5,7 @@
 /// camera.yaml: what a recording says about its camera.
 #pragma once
 
-#include "cloud/pinhole_camera.hpp"
+#include <heel/cloud/pinhole_camera.hpp>
 
 #include <Eigen/Geometry>
 

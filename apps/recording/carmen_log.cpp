@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/carmen_log.hpp"
-
-#include "cloud/file_limits.hpp"
+#include <heel/apps/recording/carmen_log.hpp>
+#include <heel/cloud/file_limits.hpp>
 
 #include <zlib.h>
 

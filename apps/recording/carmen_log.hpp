@@ -5,7 +5,7 @@
 /// Laser logs of the CARMEN toolkit.
 #pragma once
 
-#include "apps/recording/laser_log.hpp"
+#include <heel/apps/recording/laser_log.hpp>
 
 #include <filesystem>
 #include <memory>

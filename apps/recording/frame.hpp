@@ -5,7 +5,7 @@
 /// One moment of a recording.
 #pragma once
 
-#include "cloud/color_cloud.hpp"
+#include <heel/cloud/color_cloud.hpp>
 
 #include <opencv2/core/mat.hpp>
 

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/image_file.hpp"
-
-#include "cloud/file_limits.hpp"
-#include "cloud/image_extent.hpp"
+#include <heel/apps/recording/image_file.hpp>
+#include <heel/cloud/file_limits.hpp>
+#include <heel/cloud/image_extent.hpp>
 
 #include <opencv2/imgcodecs.hpp>
 

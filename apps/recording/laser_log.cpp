@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/laser_log.hpp"
-
-#include "apps/recording/bag_laser_log.hpp"
-#include "apps/recording/carmen_log.hpp"
-#include "apps/recording/simulated_laser_log.hpp"
+#include <heel/apps/recording/bags/bag_laser_log.hpp>
+#include <heel/apps/recording/carmen_log.hpp>
+#include <heel/apps/recording/folders/simulated_laser_log.hpp>
+#include <heel/apps/recording/laser_log.hpp>
 
 #include <stdexcept>
 

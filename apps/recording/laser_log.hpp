@@ -5,9 +5,9 @@
 /// Scans and odometry of a robot that has driven, one after the other.
 #pragma once
 
-#include "apps/recording/bag_topics.hpp"
-#include "mapping/floor_pose.hpp"
-#include "mapping/laser_scan.hpp"
+#include <heel/apps/recording/bags/bag_topics.hpp>
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/laser_scan.hpp>
 
 #include <filesystem>
 #include <memory>

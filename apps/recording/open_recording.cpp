@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/bag_recording.hpp"
-#include "apps/recording/pcd_recording.hpp"
-#include "apps/recording/recording.hpp"
-#include "apps/recording/rgbd_recording.hpp"
-#include "apps/recording/stereo_recording.hpp"
+#include <heel/apps/recording/bags/bag_recording.hpp>
+#include <heel/apps/recording/folders/pcd_recording.hpp>
+#include <heel/apps/recording/folders/rgbd_recording.hpp>
+#include <heel/apps/recording/folders/stereo_recording.hpp>
+#include <heel/apps/recording/recording.hpp>
 
 #include <stdexcept>
 

@@ -5,10 +5,10 @@
 /// Recordings of a robot's camera, read as a stream.
 #pragma once
 
-#include "apps/recording/bag_topics.hpp"
-#include "apps/recording/frame.hpp"
-#include "apps/recording/robot_motion.hpp"
-#include "cloud/pinhole_camera.hpp"
+#include <heel/apps/recording/bags/bag_topics.hpp>
+#include <heel/apps/recording/frame.hpp>
+#include <heel/apps/recording/robot_motion.hpp>
+#include <heel/cloud/pinhole_camera.hpp>
 
 #include <Eigen/Geometry>
 

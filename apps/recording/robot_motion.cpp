@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/robot_motion.hpp"
-
-#include "apps/recording/bag_poses.hpp"
-#include "apps/recording/stamps.hpp"
+#include <heel/apps/recording/bags/bag_poses.hpp>
+#include <heel/apps/recording/robot_motion.hpp>
+#include <heel/apps/recording/stamps.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/recording/stamp_order.hpp"
+#include <heel/apps/recording/stamp_order.hpp>
 
 #include <algorithm>
 #include <stdexcept>

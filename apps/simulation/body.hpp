@@ -5,7 +5,7 @@
 /// A person's body as tapered capsules, posed by a gait.
 #pragma once
 
-#include "apps/simulation/scene.hpp"
+#include <heel/apps/simulation/scene.hpp>
 
 #include <Eigen/Geometry>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/camera_model.hpp"
+#include <heel/apps/simulation/camera_model.hpp>
 
 #include <opencv2/imgproc.hpp>
 #include <tbb/parallel_for.h>

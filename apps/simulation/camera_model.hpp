@@ -5,10 +5,10 @@
 /// From light to grey levels: blur, vignetting, exposure, noise, white balance and sRGB's curve.
 #pragma once
 
-#include "apps/simulation/camera_light.hpp"
-#include "apps/simulation/random.hpp"
-#include "apps/simulation/scene.hpp"
-#include "cloud/pinhole_camera.hpp"
+#include <heel/apps/simulation/camera_light.hpp>
+#include <heel/apps/simulation/random.hpp>
+#include <heel/apps/simulation/scene.hpp>
+#include <heel/cloud/pinhole_camera.hpp>
 
 #include <opencv2/core/mat.hpp>
 

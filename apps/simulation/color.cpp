@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/color.hpp"
+#include <heel/apps/simulation/color.hpp>
 
 #include <cmath>
 #include <cstdint>

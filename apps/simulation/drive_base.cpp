@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/drive_base.hpp"
+#include <heel/apps/simulation/drive_base.hpp>
 
 #include <algorithm>
 #include <cmath>

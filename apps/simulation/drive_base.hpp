@@ -5,10 +5,10 @@
 /// A differential-drive robot and what its wheels tell.
 #pragma once
 
-#include "apps/simulation/random.hpp"
-#include "apps/simulation/scene.hpp"
-#include "mapping/floor_pose.hpp"
-#include "planning/velocity_command.hpp"
+#include <heel/apps/simulation/random.hpp>
+#include <heel/apps/simulation/scene.hpp>
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/planning/trajectory.hpp>
 
 namespace heel {
 

@@ -5,7 +5,7 @@
 /// Values that are spread over a face.
 #pragma once
 
-#include "apps/simulation/geometry.hpp"
+#include <heel/apps/simulation/geometry.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 /// The floor plan seen from above: what people and the robot must not walk through.
 #pragma once
 
-#include "apps/simulation/scene.hpp"
-#include "mapping/floor_disc.hpp"
+#include <heel/apps/simulation/scene.hpp>
+#include <heel/mapping/floor_pose.hpp>
 
 #include <vector>
 

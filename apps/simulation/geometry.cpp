@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/geometry.hpp"
-
-#include "apps/simulation/floor_plan.hpp"
+#include <heel/apps/simulation/floor_plan.hpp>
+#include <heel/apps/simulation/geometry.hpp>
 
 #include <array>
 #include <cmath>

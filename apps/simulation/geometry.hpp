@@ -5,8 +5,8 @@
 /// All that never moves in a scene, as flat faces and upright cylinders.
 #pragma once
 
-#include "apps/simulation/material.hpp"
-#include "apps/simulation/scene.hpp"
+#include <heel/apps/simulation/material.hpp>
+#include <heel/apps/simulation/scene.hpp>
 
 #include <Eigen/Geometry>
 

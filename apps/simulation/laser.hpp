@@ -5,9 +5,9 @@
 /// A planar laser scanner.
 #pragma once
 
-#include "apps/simulation/drive_base.hpp"
-#include "apps/simulation/ray_world.hpp"
-#include "mapping/laser_scan.hpp"
+#include <heel/apps/simulation/drive_base.hpp>
+#include <heel/apps/simulation/ray_world.hpp>
+#include <heel/mapping/laser_scan.hpp>
 
 #include <cstdint>
 

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/light_map.hpp"
-
-#include "apps/simulation/random.hpp"
+#include <heel/apps/simulation/light_map.hpp>
+#include <heel/apps/simulation/random.hpp>
 
 #include <tbb/parallel_for.h>
 

@@ -6,10 +6,10 @@
 /// walls and floor throw on each other.
 #pragma once
 
-#include "apps/simulation/face_grid.hpp"
-#include "apps/simulation/floor_plan.hpp"
-#include "apps/simulation/light_source.hpp"
-#include "apps/simulation/ray_world.hpp"
+#include <heel/apps/simulation/face_grid.hpp>
+#include <heel/apps/simulation/floor_plan.hpp>
+#include <heel/apps/simulation/light_source.hpp>
+#include <heel/apps/simulation/ray_world.hpp>
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/light_source.hpp"
+#include <heel/apps/simulation/light_source.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,6 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr float kOffMaterial_m = 0.06F;
 
 }  // namespace
@@ -21,7 +20,7 @@ LightSource::LightSource(const Light& light)
   const Vector3f& at = center_;
   if (light.kind == Light::Kind::kLamp) {
     for (const double turn : {0.25, 1.25, 0.75, 1.75}) {
-      const double angle = kPi * turn, r = 0.7 * light.radius_m;
+      const double angle = M_PI * turn, r = 0.7 * light.radius_m;
       points_.emplace_back(at + Vector3f(static_cast<float>(r * std::cos(angle)),
                                          static_cast<float>(r * std::sin(angle)), -kOffMaterial_m));
     }
@@ -47,7 +46,7 @@ float LightSource::irradiance(std::size_t i, const Vector3f& p, const Vector3f& 
   if (cosine <= 0.0F) return 0.0F;
   const float square = std::max(to.squaredNorm(), 0.01F);
   const float distance = std::sqrt(square);
-  float share = 1.0F / (4.0F * static_cast<float>(kPi));
+  float share = 1.0F / (4.0F * static_cast<float>(M_PI));
   if (facing_.isZero()) {  // A lamp's shade keeps its light from the ceiling.
     share *= std::clamp(0.3F + 4.0F * to.z() / distance, 0.0F, 1.0F);
   } else {  // A window shines most straight into the room.

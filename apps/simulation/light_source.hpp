@@ -5,7 +5,7 @@
 /// Light as it falls straight from lamps and windows.
 #pragma once
 
-#include "apps/simulation/scene.hpp"
+#include <heel/apps/simulation/scene.hpp>
 
 #include <Eigen/Core>
 

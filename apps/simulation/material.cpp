@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/material.hpp"
-
-#include "apps/simulation/random.hpp"
+#include <heel/apps/simulation/material.hpp>
+#include <heel/apps/simulation/random.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 /// What surfaces are made of. All materials are drawn by formulas; there are no picture files.
 #pragma once
 
-#include "apps/simulation/texture.hpp"
+#include <heel/apps/simulation/texture.hpp>
 
 #include <map>
 #include <string>

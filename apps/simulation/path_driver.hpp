@@ -5,8 +5,8 @@
 /// Drives a simulated robot along a path that is given.
 #pragma once
 
-#include "apps/simulation/simulator.hpp"
-#include "planning/path.hpp"
+#include <heel/apps/simulation/simulator.hpp>
+#include <heel/planning/path.hpp>
 
 #include <cstddef>
 

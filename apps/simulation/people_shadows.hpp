@@ -5,7 +5,7 @@
 /// Shadows that people throw on faces.
 #pragma once
 
-#include "apps/simulation/light_map.hpp"
+#include <heel/apps/simulation/light_map.hpp>
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/pillar_geometry.hpp"
+#include <heel/apps/simulation/pillar_geometry.hpp>
 
 #include <cmath>
 #include <limits>

@@ -5,8 +5,8 @@
 /// Upright cylinders for Embree, which has none with flat ends.
 #pragma once
 
-#include "apps/simulation/embree.hpp"
-#include "apps/simulation/geometry.hpp"
+#include <heel/apps/simulation/embree.hpp>
+#include <heel/apps/simulation/geometry.hpp>
 
 namespace heel {
 

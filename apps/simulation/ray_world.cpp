@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/ray_world.hpp"
-
-#include "apps/simulation/embree.hpp"
-#include "apps/simulation/pillar_geometry.hpp"
+#include <heel/apps/simulation/embree.hpp>
+#include <heel/apps/simulation/pillar_geometry.hpp>
+#include <heel/apps/simulation/ray_world.hpp>
 
 #include <tbb/task_arena.h>
 

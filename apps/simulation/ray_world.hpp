@@ -5,8 +5,8 @@
 /// Everything that a ray can hit: the still geometry, and the people of this moment.
 #pragma once
 
-#include "apps/simulation/body.hpp"
-#include "apps/simulation/geometry.hpp"
+#include <heel/apps/simulation/body.hpp>
+#include <heel/apps/simulation/geometry.hpp>
 
 #include <array>
 #include <cstdint>

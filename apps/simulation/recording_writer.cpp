@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/recording_writer.hpp"
-
-#include "apps/recording/sensor_bag.hpp"
-#include "apps/report/csv_file.hpp"
-#include "apps/report/result_files.hpp"
-#include "apps/report/video_writer.hpp"
+#include <heel/apps/film/video_writer.hpp>
+#include <heel/apps/output/csv_file.hpp>
+#include <heel/apps/recording/bags/sensor_bag.hpp>
+#include <heel/apps/results/result_files.hpp>
+#include <heel/apps/simulation/recording_writer.hpp>
 
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>

@@ -5,8 +5,8 @@
 /// The files of a recording, as `simulate` describes them.
 #pragma once
 
-#include "apps/report/output.hpp"
-#include "apps/simulation/simulator.hpp"
+#include <heel/apps/output/output.hpp>
+#include <heel/apps/simulation/simulator.hpp>
 
 #include <tbb/task_group.h>
 

@@ -5,8 +5,8 @@
 /// Pictures of the world as an ideal camera would get them, with the truth about every pixel.
 #pragma once
 
-#include "apps/simulation/shader.hpp"
-#include "cloud/pinhole_camera.hpp"
+#include <heel/apps/simulation/shader.hpp>
+#include <heel/cloud/pinhole_camera.hpp>
 
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>

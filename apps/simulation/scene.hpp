@@ -6,7 +6,7 @@
 /// up.
 #pragma once
 
-#include "apps/simulation/color.hpp"
+#include <heel/apps/simulation/color.hpp>
 
 #include <Eigen/Core>
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/material.hpp"
-#include "apps/simulation/scene.hpp"
-#include "apps/simulation/scene_parts.hpp"
-#include "apps/simulation/yaml_map.hpp"
+#include <heel/apps/simulation/material.hpp>
+#include <heel/apps/simulation/scene.hpp>
+#include <heel/apps/simulation/scene_parts.hpp>
+#include <heel/apps/simulation/yaml_map.hpp>
 
 #include <algorithm>
 #include <cmath>

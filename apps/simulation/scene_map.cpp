@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/scene_map.hpp"
+#include <heel/apps/simulation/floor_plan.hpp>
+#include <heel/apps/simulation/scene_map.hpp>
+#include <heel/mapping/wall_map_builder.hpp>
 
-#include "apps/simulation/floor_plan.hpp"
-#include "mapping/wall_map_builder.hpp"
-
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace heel {
 namespace {
@@ -49,6 +50,67 @@ WallMap wallMapOf(const Scene& scene, double cell_size_m) {
     for (const FurniturePart& part : piece.parts) addPart(builder, part);
   }
   return builder.build();
+}
+
+namespace {
+
+/// The scene without furniture above or below some heights.
+Scene sliceOf(Scene scene, double low_m, double high_m) {
+  for (Furniture& piece : scene.furniture) {
+    auto& parts = piece.parts;
+    parts.erase(std::remove_if(parts.begin(), parts.end(),
+                               [&](const FurniturePart& part) {
+                                 const bool box = part.shape == FurniturePart::Shape::kBox;
+                                 const double height_m = box ? part.size_m.z() : part.height_m;
+                                 const double base_m = part.base.z();
+                                 return base_m > high_m || base_m + height_m < low_m;
+                               }),
+                parts.end());
+  }
+  return scene;
+}
+
+/// Marks as free what can be reached over unknown cells.
+void fillFree(const GridCell& start, OccupancyGrid& grid) {
+  if (!grid.contains(start) || grid.at(start) != Occupancy::kUnknown) return;
+  std::vector<GridCell> open{start};
+  grid.at(start) = Occupancy::kFree;
+  while (!open.empty()) {
+    const GridCell c = open.back();
+    open.pop_back();
+    for (const GridCell next : {GridCell{c.x + 1, c.y}, GridCell{c.x - 1, c.y},
+                                GridCell{c.x, c.y + 1}, GridCell{c.x, c.y - 1}}) {
+      if (!grid.contains(next) || grid.at(next) != Occupancy::kUnknown) continue;
+      grid.at(next) = Occupancy::kFree;
+      open.push_back(next);
+    }
+  }
+}
+
+}  // namespace
+
+OccupancyGrid sceneGrid(const Scene& scene, const SceneGridParams& params) {
+  const FloorBounds bounds = floorBounds(scene);
+  const Eigen::Vector2d origin = bounds.low.array() - params.margin_m;
+  const Eigen::Vector2d size = (bounds.high - bounds.low).array() + 2.0 * params.margin_m;
+  OccupancyGrid grid(
+      origin, params.cell_size_m, static_cast<int>(std::ceil(size.x() / params.cell_size_m)),
+      static_cast<int>(std::ceil(size.y() / params.cell_size_m)), Occupancy::kUnknown);
+  const FloorPlan plan(sliceOf(scene, params.low_m, params.high_m), true);
+  for (GridCell c; c.y < grid.height(); ++c.y) {
+    for (c.x = 0; c.x < grid.width(); ++c.x) {
+      if (plan.clearance(grid.center(c)) < 0.0) grid.at(c) = Occupancy::kOccupied;
+    }
+  }
+  fillFree(grid.cellAt(scene.robot.start), grid);
+  return grid;
+}
+
+OccupancyGrid laserGrid(const Scene& scene, double cell_size_m) {
+  SceneGridParams params;
+  params.cell_size_m = cell_size_m;
+  params.low_m = params.high_m = scene.robot.laser.at.z();
+  return sceneGrid(scene, params);
 }
 
 }  // namespace heel

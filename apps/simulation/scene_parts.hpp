@@ -5,8 +5,8 @@
 /// The larger parts of a scene file, each read on its own.
 #pragma once
 
-#include "apps/simulation/scene.hpp"
-#include "apps/simulation/yaml_map.hpp"
+#include <heel/apps/simulation/scene.hpp>
+#include <heel/apps/simulation/yaml_map.hpp>
 
 #include <string>
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/floor_plan.hpp"
-#include "apps/simulation/scene_parts.hpp"
+#include <heel/apps/simulation/floor_plan.hpp>
+#include <heel/apps/simulation/scene_parts.hpp>
 
 namespace heel {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/scene_parts.hpp"
+#include <heel/apps/simulation/scene_parts.hpp>
 
 namespace heel {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/shader.hpp"
+#include <heel/apps/simulation/shader.hpp>
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 /// The light that comes back along a ray: materials, clothes, shadows and highlights.
 #pragma once
 
-#include "apps/simulation/people_shadows.hpp"
+#include <heel/apps/simulation/people_shadows.hpp>
 
 #include <array>
 #include <cstdint>

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/simulate.hpp"
-
-#include "apps/recording/sensor_bag.hpp"
-#include "apps/report/run_end.hpp"
-#include "apps/simulation/recording_writer.hpp"
+#include <heel/apps/output/run_end.hpp>
+#include <heel/apps/recording/bags/sensor_bag.hpp>
+#include <heel/apps/simulation/recording_writer.hpp>
+#include <heel/apps/simulation/simulate.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +16,7 @@
 namespace heel {
 namespace {
 
-constexpr double kTick_s = 0.01;
+constexpr double kPace_s = 0.01;
 constexpr double kLongest_s = 1e6;  // eleven days
 
 /// The longest step, in whole ticks, that skips no measurement of any sensor.
@@ -27,9 +26,9 @@ double stepFor(const RobotParams& robot) {
   const double step = 1.0 / fastest;
   // Sensors whose rates do not divide the fastest one need every tick.
   for (const double rate : {robot.camera.rate_hz, robot.laser.rate_hz, robot.odometry.rate_hz}) {
-    const double ratio = fastest / rate, ticks = step / kTick_s;
+    const double ratio = fastest / rate, ticks = step / kPace_s;
     if (std::abs(ratio - std::round(ratio)) > 1e-6 || std::abs(ticks - std::round(ticks)) > 1e-6) {
-      return kTick_s;
+      return kPace_s;
     }
   }
   return step;

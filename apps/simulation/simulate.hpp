@@ -5,8 +5,8 @@
 /// A simulation as a recording that the other commands read.
 #pragma once
 
-#include "apps/simulation/scene.hpp"
-#include "apps/simulation/simulator.hpp"
+#include <heel/apps/simulation/scene.hpp>
+#include <heel/apps/simulation/simulator.hpp>
 
 #include <filesystem>
 #include <functional>

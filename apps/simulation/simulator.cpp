@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/simulator.hpp"
+#include <heel/apps/simulation/simulator.hpp>
 
 #include <tbb/info.h>
 #include <tbb/parallel_invoke.h>

@@ -5,11 +5,11 @@
 /// A world that runs: people walk, the robot drives, its sensors measure.
 #pragma once
 
-#include "apps/simulation/camera_model.hpp"
-#include "apps/simulation/drive_base.hpp"
-#include "apps/simulation/laser.hpp"
-#include "apps/simulation/renderer.hpp"
-#include "apps/simulation/walker.hpp"
+#include <heel/apps/simulation/camera_model.hpp>
+#include <heel/apps/simulation/drive_base.hpp>
+#include <heel/apps/simulation/laser.hpp>
+#include <heel/apps/simulation/renderer.hpp>
+#include <heel/apps/simulation/walker.hpp>
 
 #include <memory>
 #include <optional>

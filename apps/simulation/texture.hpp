@@ -5,7 +5,7 @@
 /// A picture that repeats in both directions and is filtered to the size of a pixel.
 #pragma once
 
-#include "apps/simulation/color.hpp"
+#include <heel/apps/simulation/color.hpp>
 
 #include <cstdint>
 #include <functional>

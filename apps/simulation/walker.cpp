@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/walker.hpp"
+#include <heel/apps/simulation/walker.hpp>
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kArrived_m = 0.08;
 constexpr double kTurnRate_radps = 3.0;
 constexpr double kAcceleration_mps2 = 2.0;
@@ -29,8 +28,6 @@ constexpr double kAside_mps = 0.4;
 constexpr double kHair_m = 0.01;     // Nobody comes nearer to the robot than this.
 constexpr double kMeets_s = 5.0;     // Who came back for the robot gives it so long to turn round.
 constexpr double kGivesUp_s = 10.0;  // Someone who can't get to a place goes to the next.
-
-double wrapped(double angle) { return std::remainder(angle, 2.0 * kPi); }
 
 /// When two discs touch if both keep their velocity; infinite if never.
 double timeToTouch(const Vector2d& offset, const Vector2d& approach, double reach) {
@@ -171,7 +168,7 @@ Vector2d Walker::wayAside(const FloorPlan& plan, const Vector2d& robot) const {
   Vector2d best = Vector2d::Zero();
   double most = 0.0;
   for (int i = 0; i < 16; ++i) {
-    const double angle = kPi / 8.0 * i;
+    const double angle = M_PI / 8.0 * i;
     const Vector2d way(std::cos(angle), std::sin(angle));
     const Vector2d there = pose_.position + 0.5 * way;
     const double room_m =
@@ -241,7 +238,7 @@ void Walker::move(double dt_s) {
   if (speed > 0.05) turnTo(std::atan2(velocity_.y(), velocity_.x()), dt_s);
   pose_.speed_mps = speed;
   pose_.gait_rad = std::remainder(
-      pose_.gait_rad + 2.0 * kPi * speed * dt_s / strideLength(*person_, speed), 2.0 * kPi);
+      pose_.gait_rad + 2.0 * M_PI * speed * dt_s / strideLength(*person_, speed), 2.0 * M_PI);
 }
 
 void Walker::turnTo(double yaw_rad, double dt_s) {

@@ -5,8 +5,8 @@
 /// People who walk along their paths and step around each other and the robot.
 #pragma once
 
-#include "apps/simulation/body.hpp"
-#include "apps/simulation/floor_plan.hpp"
+#include <heel/apps/simulation/body.hpp>
+#include <heel/apps/simulation/floor_plan.hpp>
 
 #include <cstddef>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/simulation/yaml_map.hpp"
+#include <heel/apps/simulation/yaml_map.hpp>
 
 #include <cmath>
 #include <filesystem>

@@ -6,7 +6,7 @@
 /// ratio does not depend on the machine's mood.
 #pragma once
 
-#include "cloud/stereo_params.hpp"
+#include <heel/cloud/stereo_params.hpp>
 
 #include <benchmark/benchmark.h>
 #include <opencv2/calib3d.hpp>

@@ -5,9 +5,9 @@
 /// One decision of the local planner, in front of a doorway, with nobody and with three people,
 /// on a grid of distances as a robot has it; and the search for a map's doorways.
 
-#include "planning/doorways.hpp"
-#include "planning/local_planner.hpp"
 #include "tests/support/drive_loop.hpp"
+#include <heel/planning/doorways.hpp>
+#include <heel/planning/local_planner.hpp>
 
 #include <benchmark/benchmark.h>
 

@@ -5,8 +5,8 @@
 /// The appearance filter beside its peers in OpenCV and PCL, on one 640x480 frame and one thread.
 /// The frame is generated, or read from the file that the environment's HEEL_BENCHMARK_IMAGE names.
 
-#include "segmentation/appearance_filter.hpp"
-#include "segmentation/image_filter.hpp"
+#include <heel/segmentation/appearance_filter.hpp>
+#include <heel/segmentation/image_filter.hpp>
 
 #include <benchmark/benchmark.h>
 #include <opencv2/core.hpp>

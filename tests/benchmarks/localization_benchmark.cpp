@@ -6,8 +6,8 @@
 /// 180 beams, a likelihood field of the same deviation, systematic resampling below half of the
 /// effective size, one thread, and an estimate with covariance after every scan.
 
-#include "mapping/localization.hpp"
 #include "tests/mapping/drawn_rooms.hpp"
+#include <heel/mapping/localization.hpp>
 
 #include <benchmark/benchmark.h>
 #include <mrpt/bayes/CParticleFilter.h>

@@ -5,9 +5,9 @@
 /// One frame of the obstacle layer, its parts against OpenCV, and body checks against a walk over
 /// all obstacles in closed form.
 
-#include "mapping/body_check.hpp"
-#include "mapping/obstacle_layer.hpp"
 #include "tests/mapping/drawn_bodies.hpp"
+#include <heel/mapping/body_check.hpp>
+#include <heel/mapping/obstacle_layer.hpp>
 
 #include <benchmark/benchmark.h>
 #include <opencv2/core/utility.hpp>

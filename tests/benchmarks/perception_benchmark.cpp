@@ -5,9 +5,9 @@
 /// The whole perception step, from images to the target's place, against cv::StereoSGBM alone on
 /// the same pair: 640x480, one thread. `percent` counts the pixels of the target's colours.
 
-#include "apps/follower/perception.hpp"
 #include "tests/benchmarks/against_dense.hpp"
 #include "tests/support/target_scene.hpp"
+#include <heel/apps/follower/perception.hpp>
 
 #include <benchmark/benchmark.h>
 

@@ -5,10 +5,10 @@
 /// Plan view and world blobs against PCL's voxel grid and Euclidean clusters, on the same points,
 /// one thread each; and a whole frame of phase 1.
 
-#include "segmentation/background_model.hpp"
-#include "segmentation/height_crop.hpp"
-#include "segmentation/plan_view.hpp"
-#include "segmentation/world_blobs.hpp"
+#include <heel/segmentation/background_model.hpp>
+#include <heel/segmentation/height_crop.hpp>
+#include <heel/segmentation/plan_view.hpp>
+#include <heel/segmentation/world_blobs.hpp>
 
 #include <benchmark/benchmark.h>
 #include <pcl/filters/voxel_grid.h>

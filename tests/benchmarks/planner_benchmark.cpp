@@ -8,8 +8,8 @@
 /// OMPL the clearance map, for us also the look at all moves of the quick search ("prepare" is
 /// both). Usage: planner_benchmark [MAP.pgm CELL_SIZE_M]...; without maps, drawn ones.
 
-#include "planning/global_planner.hpp"
 #include "tests/planning/drawn_map.hpp"
+#include <heel/planning/global_planner.hpp>
 
 #include <ompl/base/MotionValidator.h>
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>

@@ -4,7 +4,7 @@
 // How fast the shipped scenes run: one iteration is a tenth of a second of the world, with a stereo
 // pair and a laser scan. `realtime` is how many times faster than the clock that is.
 
-#include "apps/simulation/simulator.hpp"
+#include <heel/apps/simulation/simulator.hpp>
 
 #include <benchmark/benchmark.h>
 

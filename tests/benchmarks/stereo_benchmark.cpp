@@ -7,11 +7,11 @@
 ///
 /// Masks are like a colour filter's: a person, patches of the room, and lone specks.
 
-#include "cloud/color_cloud.hpp"
-#include "cloud/stereo_matcher.hpp"
 #include "tests/benchmarks/against_dense.hpp"
 #include "tests/support/middlebury.hpp"
 #include "tests/support/stereo_scene.hpp"
+#include <heel/cloud/color_cloud.hpp>
+#include <heel/cloud/stereo_matcher.hpp>
 
 #include <benchmark/benchmark.h>
 #include <opencv2/imgproc.hpp>

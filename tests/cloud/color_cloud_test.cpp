@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud/color_cloud.hpp"
+#include <heel/cloud/color_cloud.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud/file_limits.hpp"
-
-#include "cloud/image_extent.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/cloud/file_limits.hpp>
+#include <heel/cloud/image_extent.hpp>
 
 #include <gmock/gmock.h>
 #include <opencv2/imgcodecs.hpp>

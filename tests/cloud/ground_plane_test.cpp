@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud/ground_plane.hpp"
+#include <heel/cloud/ground_plane.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

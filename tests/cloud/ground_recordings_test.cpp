@@ -4,8 +4,8 @@
 /// @file
 /// The floor of real rooms against the one that their sources give.
 
-#include "cloud/ground_plane.hpp"
 #include "tests/support/data.hpp"
+#include <heel/cloud/ground_plane.hpp>
 
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
@@ -30,7 +30,7 @@ void report(const char* name, const GroundPlane& floor, const Mounting& truth) {
       floor.inlier_share, floor.spread_m);
 }
 
-void expectNear(const Mounting& found, const Mounting& truth) {
+void expectMounting(const Mounting& found, const Mounting& truth) {
   EXPECT_NEAR(found.height_m, truth.height_m, 0.05);
   EXPECT_NEAR(found.pitch_rad, truth.pitch_rad, 0.02);
   EXPECT_NEAR(found.roll_rad, truth.roll_rad, 0.02);
@@ -65,7 +65,7 @@ TEST(RealFloors, TheLabOfSixPeople) {
   const auto floor = estimator.estimate();
   ASSERT_TRUE(floor);
   report("six_people", *floor, truth);
-  expectNear(floor->mounting, truth);
+  expectMounting(floor->mounting, truth);
   EXPECT_TRUE(floor->T_base_camera.isApprox(T_ground_camera, 0.05));
   EXPECT_EQ(mountingWarning(floor->mounting, truth), "");
 }
@@ -84,7 +84,7 @@ TEST(RealFloors, TheHallOfFivePeople) {
   const auto floor = estimator.estimate();
   ASSERT_TRUE(floor);
   report("five_people", *floor, truth);
-  expectNear(floor->mounting, truth);
+  expectMounting(floor->mounting, truth);
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud/masked_sgm.hpp"
-
 #include "tests/support/stereo_scene.hpp"
+#include <heel/cloud/masked_sgm.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

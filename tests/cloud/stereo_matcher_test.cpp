@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud/stereo_matcher.hpp"
-
 #include "tests/support/middlebury.hpp"
 #include "tests/support/stereo_scene.hpp"
+#include <heel/cloud/stereo_matcher.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

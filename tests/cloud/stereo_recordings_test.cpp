@@ -4,10 +4,10 @@
 /// @file
 /// Matching on the real pairs, against their truth and against dense matching.
 
-#include "cloud/setup_check.hpp"
-#include "cloud/stereo_matcher.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/middlebury.hpp"
+#include <heel/cloud/setup_check.hpp>
+#include <heel/cloud/stereo_matcher.hpp>
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>

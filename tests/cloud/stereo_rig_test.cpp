@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud/stereo_rig.hpp"
-
-#include "cloud/stereo_calibration.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/cloud/stereo_calibration.hpp>
+#include <heel/cloud/stereo_rig.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

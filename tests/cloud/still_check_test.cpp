@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "cloud/still_check.hpp"
-
-#include "cloud/mounting.hpp"
+#include <heel/cloud/ground_plane.hpp>
+#include <heel/cloud/still_check.hpp>
 
 #include <gtest/gtest.h>
 
@@ -16,7 +15,7 @@
 namespace heel {
 namespace {
 
-const PinholeCamera kCamera = {160, 120, 140.0, 140.0, 79.5, 59.5};
+const PinholeCamera kStillCamera = {160, 120, 140.0, 140.0, 79.5, 59.5};
 const Eigen::Isometry3d kMounted = baseFromCamera({1.1, 0.1, 0.0});
 
 /// Where the camera's robot stands, and a block as wide as a person before it.
@@ -42,10 +41,11 @@ double distanceTo(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& from,
 cv::Mat depthOf(const View& view) {
   const Eigen::Isometry3d T = Eigen::Translation3d(view.x_m, view.y_m, 0.0) *
                               Eigen::AngleAxisd(view.yaw_rad, Eigen::Vector3d::UnitZ()) * kMounted;
-  cv::Mat depth_m(kCamera.height, kCamera.width, CV_32FC1);
+  cv::Mat depth_m(kStillCamera.height, kStillCamera.width, CV_32FC1);
   for (int v = 0; v < depth_m.rows; ++v) {
     for (int u = 0; u < depth_m.cols; ++u) {
-      const Eigen::Vector3d ray((u - kCamera.cx) / kCamera.fx, (v - kCamera.cy) / kCamera.fy, 1.0);
+      const Eigen::Vector3d ray((u - kStillCamera.cx) / kStillCamera.fx,
+                                (v - kStillCamera.cy) / kStillCamera.fy, 1.0);
       const Eigen::Vector3d from = T.translation();
       const Eigen::Vector3d along = T.linear() * ray;
       double nearest =
@@ -62,7 +62,7 @@ cv::Mat depthOf(const View& view) {
 }
 
 std::optional<double> leavesAfter(const std::vector<View>& views, double sigma = 0.0) {
-  StillCheck check(kCamera, kMounted, sigma);
+  StillCheck check(kStillCamera, kMounted, sigma);
   for (std::size_t i = 0; i < views.size(); ++i) {
     check.add(static_cast<double>(i), depthOf(views[i]));
   }
@@ -108,7 +108,7 @@ TEST(StillCheck, WantsTheSceneToStayAnother) {
 }
 
 TEST(StillCheck, LooksOnceASecond) {
-  StillCheck check(kCamera, kMounted, 0.0);
+  StillCheck check(kStillCamera, kMounted, 0.0);
   EXPECT_TRUE(check.isDue(5.0));
   check.add(5.0, depthOf({}));
   EXPECT_FALSE(check.isDue(5.9));

@@ -4,14 +4,13 @@
 /// @file
 /// Bags, from one verb to the next.
 
-#include "apps/bag/bag.hpp"
-
-#include "apps/recording/sensor_bag.hpp"
 #include "tests/commands/hall_scene.hpp"
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_model.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/bag/bag.hpp>
+#include <heel/apps/recording/bags/sensor_bag.hpp>
 
 #include <gmock/gmock.h>
 
@@ -25,7 +24,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsSupersetOf;
 
-const std::string kScene =
+const std::string kBagScene =
     hallScene("2", R"({name: rosa, height_m: 1.8, start: [3, -0.5],
      outfit: {top: {color: red}, trousers: {color: charcoal}}, path: [{to: [3, 0.8]}]})",
               "{at: [0.05, 0.06, 1.13], pitch_deg: 5.7, width: 320, height: 240, view_deg: 60}");
@@ -42,7 +41,7 @@ std::map<std::string, std::size_t> countsOf(const std::filesystem::path& path) {
 class Bags : public testing::Test {
  protected:
   Bags() {
-    writeText(folder_ / "hall.yaml", kScene);
+    writeText(folder_ / "hall.yaml", kBagScene);
     writeSmallModel(folder_ / "person.yaml");
   }
 

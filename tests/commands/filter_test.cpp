@@ -4,11 +4,11 @@
 /// @file
 /// heel filter, on clouds that are written by hand.
 
-#include "apps/recording/pcd_file.hpp"
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_model.hpp"
 #include "tests/commands/small_recording.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/recording/clouds/pcd_file.hpp>
 
 #include <gmock/gmock.h>
 #include <pcl/common/io.h>

@@ -21,7 +21,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 /// A room in which somebody stands beside the robot.
-constexpr const char* kScene = R"(
+constexpr const char* kFollowScene = R"(
 name: room
 walls:
   - {from: [0, 0], to: [5, 0]}
@@ -42,7 +42,7 @@ robot:
 
 class Follow : public testing::Test {
  protected:
-  Follow() { writeText(folder_ / "room.yaml", kScene); }
+  Follow() { writeText(folder_ / "room.yaml", kFollowScene); }
   HeelRun follow(const std::string& scene, const std::vector<std::string>& more = {}) {
     std::vector<std::string> call = {"follow", scene, "--out", folder_ / "out"};
     call.insert(call.end(), more.begin(), more.end());
@@ -78,7 +78,7 @@ TEST_F(Follow, TakesAnotherImageSizeAndRate) {
 TEST_F(Follow, NamesASceneThatIsNone) {
   EXPECT_TRUE(failsWith(follow("attic"), {"attic", "no such scene"}));
   EXPECT_TRUE(failsWith(follow(folder_ / "none.yaml"), {"none.yaml", "no such scene"}));
-  writeText(folder_ / "odd.yaml", std::string(kScene) + "wals: []\n");
+  writeText(folder_ / "odd.yaml", std::string(kFollowScene) + "wals: []\n");
   EXPECT_TRUE(failsWith(follow(folder_ / "odd.yaml"), {"odd.yaml", "wals"}));
   writeText(folder_ / "binary.yaml", std::string("\0\1\2{", 4));
   EXPECT_TRUE(failsWith(follow(folder_ / "binary.yaml"), {"binary.yaml"}));
@@ -86,7 +86,7 @@ TEST_F(Follow, NamesASceneThatIsNone) {
 }
 
 TEST_F(Follow, NeedsSomebodyToFollow) {
-  std::string nobody = kScene;
+  std::string nobody = kFollowScene;
   nobody.replace(nobody.find("people:"), nobody.find("robot:") - nobody.find("people:"), "");
   writeText(folder_ / "empty.yaml", nobody);
   EXPECT_TRUE(failsWith(follow(folder_ / "empty.yaml", {"--no-film"}), {"nobody to follow"}));

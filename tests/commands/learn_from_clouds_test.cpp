@@ -4,11 +4,11 @@
 /// @file
 /// The main road on a folder of PCD files.
 
-#include "apps/recording/cloud_file.hpp"
-#include "apps/recording/recording.hpp"
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_recording.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/recording/clouds/cloud_file.hpp>
+#include <heel/apps/recording/recording.hpp>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

@@ -4,12 +4,12 @@
 /// @file
 /// heel filter, planview and inspect on many clouds at once.
 
-#include "apps/recording/cloud_file.hpp"
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_model.hpp"
 #include "tests/commands/small_recording.hpp"
 #include "tests/support/cloud_files.hpp"
 #include "tests/support/data.hpp"
+#include <heel/apps/recording/clouds/cloud_file.hpp>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

@@ -16,7 +16,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 /// A room of 4 x 3 m with an inner wall.
-constexpr const char* kScene = R"(
+constexpr const char* kMapScene = R"(
 name: room
 walls:
   - {from: [0, 0], to: [4, 0]}
@@ -38,7 +38,7 @@ robot:
 
 class Map : public testing::Test {
  protected:
-  Map() { writeText(folder_ / "room.yaml", kScene); }
+  Map() { writeText(folder_ / "room.yaml", kMapScene); }
   HeelRun map(const std::string& source, const std::vector<std::string>& more = {}) {
     std::vector<std::string> call = {"map", folder_ / source, "--out", folder_ / "out"};
     call.insert(call.end(), more.begin(), more.end());

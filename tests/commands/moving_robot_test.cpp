@@ -4,14 +4,14 @@
 /// @file
 /// Recordings of a robot that drives, from `simulate --drive` to tracks.
 
-#include "apps/recording/bag_poses.hpp"
-#include "apps/recording/recording.hpp"
-#include "apps/recording/sensor_bag.hpp"
-#include "apps/recording/stamps.hpp"
 #include "tests/commands/hall_scene.hpp"
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_model.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/recording/bags/bag_poses.hpp>
+#include <heel/apps/recording/bags/sensor_bag.hpp>
+#include <heel/apps/recording/recording.hpp>
+#include <heel/apps/recording/stamps.hpp>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

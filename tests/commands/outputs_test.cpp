@@ -4,13 +4,13 @@
 /// @file
 /// What the command may not do to its user's files, and how its runs end.
 
-#include "apps/report/output.hpp"
-#include "apps/report/result_files.hpp"
 #include "tests/commands/hall_scene.hpp"
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_model.hpp"
 #include "tests/commands/small_recording.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/output/output.hpp>
+#include <heel/apps/results/result_files.hpp>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -28,7 +28,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-const std::string kScene =
+const std::string kOutputScene =
     hallScene("1", R"({name: "Rosa, the \"first\"", height_m: 1.8, start: [3, -0.5],
      outfit: {top: {color: red}, trousers: {color: charcoal}}, path: [{to: [3, 0.8]}]})",
               "{at: [0.05, 0.06, 1.13], pitch_deg: 5.7, width: 160, height: 120, view_deg: 60}");
@@ -47,7 +47,7 @@ class Outputs : public testing::Test {
   Outputs() {
     SmallRecording().write(folder_ / "room");
     writeSmallModel(folder_ / "person.yaml");
-    writeText(folder_ / "hall.yaml", kScene);
+    writeText(folder_ / "hall.yaml", kOutputScene);
   }
 
   std::vector<std::string> trackCall(const std::string& out,

@@ -17,7 +17,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 /// Two rooms of 3 m x 3 m with a doorway between them, at y = 1.5.
-constexpr const char* kScene = R"(
+constexpr const char* kPlanScene = R"(
 name: rooms
 walls:
   - {from: [0, 0], to: [6, 0]}
@@ -33,7 +33,7 @@ robot:
 
 class Plan : public testing::Test {
  protected:
-  Plan() { writeText(folder_ / "rooms.yaml", kScene); }
+  Plan() { writeText(folder_ / "rooms.yaml", kPlanScene); }
   HeelRun plan(const std::string& map, const std::string& to = "5,0.6",
                const std::vector<std::string>& more = {}) {
     std::vector<std::string> call = {"plan", map, "--from", "1,0.6",

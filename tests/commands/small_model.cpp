@@ -3,8 +3,8 @@
 
 #include "tests/commands/small_model.hpp"
 
-#include "segmentation/appearance_model_io.hpp"
 #include "tests/commands/small_recording.hpp"
+#include <heel/segmentation/appearance_model_io.hpp>
 
 #include <opencv2/core.hpp>
 

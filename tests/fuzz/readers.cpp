@@ -3,28 +3,28 @@
 
 #include "tests/fuzz/readers.hpp"
 
-#include "apps/bag/bag.hpp"
-#include "apps/recording/bag_cloud.hpp"
-#include "apps/recording/bag_image_reader.hpp"
-#include "apps/recording/bag_survey.hpp"
-#include "apps/recording/camera_file.hpp"
-#include "apps/recording/cloud_file.hpp"
-#include "apps/recording/image_file.hpp"
-#include "apps/recording/laser_log.hpp"
-#include "apps/recording/recording.hpp"
-#include "apps/recording/sensor_bag.hpp"
-#include "apps/recording/stamps.hpp"
-#include "apps/report/result_files.hpp"
-#include "apps/simulation/scene.hpp"
-#include "cloud/stereo_calibration.hpp"
-#include "mapping/map_server_file.hpp"
-#include "mapping/wall_map_builder.hpp"
-#include "mapping/wall_map_file.hpp"
-#include "planning/following_plan.hpp"
-#include "planning/plan_file.hpp"
-#include "segmentation/appearance_model_io.hpp"
 #include "tests/support/cloud_files.hpp"
 #include "tests/support/filled_message.hpp"
+#include <heel/apps/bag/bag.hpp>
+#include <heel/apps/recording/bags/bag_cloud.hpp>
+#include <heel/apps/recording/bags/bag_image_reader.hpp>
+#include <heel/apps/recording/bags/bag_survey.hpp>
+#include <heel/apps/recording/bags/sensor_bag.hpp>
+#include <heel/apps/recording/camera_file.hpp>
+#include <heel/apps/recording/clouds/cloud_file.hpp>
+#include <heel/apps/recording/image_file.hpp>
+#include <heel/apps/recording/laser_log.hpp>
+#include <heel/apps/recording/recording.hpp>
+#include <heel/apps/recording/stamps.hpp>
+#include <heel/apps/results/result_files.hpp>
+#include <heel/apps/simulation/scene.hpp>
+#include <heel/cloud/stereo_calibration.hpp>
+#include <heel/mapping/map_server_file.hpp>
+#include <heel/mapping/wall_map_builder.hpp>
+#include <heel/mapping/wall_map_file.hpp>
+#include <heel/planning/following_plan.hpp>
+#include <heel/planning/plan_file.hpp>
+#include <heel/segmentation/appearance_model_io.hpp>
 
 #include <opencv2/imgcodecs.hpp>
 

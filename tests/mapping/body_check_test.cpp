@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/body_check.hpp"
-
-#include "mapping/obstacle_layer.hpp"
 #include "tests/mapping/drawn_bodies.hpp"
+#include <heel/mapping/body_check.hpp>
+#include <heel/mapping/obstacle_layer.hpp>
 
 #include <fcl/geometry/octree/octree.h>
 #include <fcl/geometry/shape/box.h>
@@ -22,7 +21,7 @@ using test::drawWall;
 using test::occupiedBoxes;
 
 constexpr double kTolerance_m = 1e-4;  // of FCL's iterations
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 RobotBody boxBody() {
   RobotBody body;
@@ -208,12 +207,12 @@ TEST(BodyCheck, RefusesWhatIsNoBodyAndNoPose) {
   RobotBody thin;
   thin.footprint = RoundFootprint{0.0};
   EXPECT_THROW(BodyCheck(thin, tree), std::invalid_argument);
-  thin.footprint = BoxFootprint{0.5, kInfinity, 0.0};
+  thin.footprint = BoxFootprint{0.5, kInfinite, 0.0};
   EXPECT_THROW(BodyCheck(thin, tree), std::invalid_argument);
   const BodyCheck check({}, tree);
   EXPECT_THROW(check.collides({{std::nan(""), 0.0}, 0.0}), std::invalid_argument);
   EXPECT_THROW(check.collides({}, -0.1), std::invalid_argument);
-  EXPECT_THROW(check.clearance({{0.0, 0.0}, kInfinity}), std::invalid_argument);
+  EXPECT_THROW(check.clearance({{0.0, 0.0}, kInfinite}), std::invalid_argument);
   EXPECT_THROW(check.clearance({}, std::nan("")), std::invalid_argument);
   EXPECT_THROW(check.firstCollision({{}}, nullptr, 0.0, 0.0), std::invalid_argument);
 }
@@ -224,19 +223,19 @@ TEST(BodyCheckTraps, AnEmptyTreeIsFreeInsteadOfANullPointer) {
   octomap::OcTree tree(0.1);
   const BodyCheck empty({}, tree);
   EXPECT_FALSE(empty.collides({}));
-  EXPECT_EQ(empty.clearance({}), kInfinity);
+  EXPECT_EQ(empty.clearance({}), kInfinite);
   EXPECT_EQ(empty.clearance({}, 2.0), 2.0);
   tree.updateNode(0.05, 0.05, 0.5, true);
   tree.clear();
-  EXPECT_EQ(BodyCheck({}, tree).clearance({}), kInfinity);
-  EXPECT_EQ(BodyCheck({}, tree).clearance({}, ObstacleLayer()), kInfinity);
+  EXPECT_EQ(BodyCheck({}, tree).clearance({}), kInfinite);
+  EXPECT_EQ(BodyCheck({}, tree).clearance({}, ObstacleLayer()), kInfinite);
 }
 
 TEST(BodyCheckTraps, ATreeOfFreeSpaceIsInfinitelyClear) {
   octomap::OcTree tree(0.1);
   tree.setNodeValue(0.05, 0.05, 0.5, tree.getClampingThresMinLog());
   EXPECT_FALSE(BodyCheck({}, tree).collides({}));
-  EXPECT_EQ(BodyCheck({}, tree).clearance({}), kInfinity);
+  EXPECT_EQ(BodyCheck({}, tree).clearance({}), kInfinite);
 }
 
 TEST(BodyCheckTraps, UnknownSpaceDoesNotCollide) {

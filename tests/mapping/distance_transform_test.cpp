@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/distance_transform.hpp"
+#include <heel/mapping/distance_transform.hpp>
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>

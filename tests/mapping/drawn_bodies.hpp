@@ -5,7 +5,7 @@
 /// Upright shapes over the floor in closed form, as the truth for body checks.
 #pragma once
 
-#include "mapping/body_check.hpp"
+#include <heel/mapping/body_check.hpp>
 
 #include <Eigen/Geometry>
 #include <octomap/OcTree.h>

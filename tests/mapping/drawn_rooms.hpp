@@ -5,9 +5,9 @@
 /// Rooms drawn as grids, and scans of them.
 #pragma once
 
-#include "mapping/floor_pose.hpp"
-#include "mapping/laser_scan.hpp"
-#include "mapping/occupancy_grid.hpp"
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/laser_scan.hpp>
+#include <heel/mapping/occupancy_grid.hpp>
 
 #include <cmath>
 #include <limits>

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/likelihood_field.hpp"
-
 #include "tests/mapping/drawn_rooms.hpp"
+#include <heel/mapping/likelihood_field.hpp>
 
 #include <gtest/gtest.h>
 

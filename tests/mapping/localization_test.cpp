@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/localization.hpp"
-
 #include "tests/mapping/drawn_rooms.hpp"
 #include "tests/support/allocation_count.hpp"
+#include <heel/mapping/localization.hpp>
 
 #include <gtest/gtest.h>
 
@@ -19,8 +18,8 @@ using test::kPi;
 using test::oddRoom;
 using test::scanOf;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoEcho = std::numeric_limits<float>::infinity();
+constexpr float kNoRange = std::numeric_limits<float>::quiet_NaN();
 
 /// A robot that drives in a circle of 0.8 m radius in the odd room.
 struct Driver {
@@ -155,9 +154,9 @@ TEST(Localization, LivesWithScansThatSayNothing) {
   LaserScan scan;
   EXPECT_FALSE(localization.update(scan)) << "no beams at all";
   scan = scanOf(driver.room, driver.truth);
-  for (float& range : scan.ranges_m) range = kInfinity;
+  for (float& range : scan.ranges_m) range = kNoEcho;
   EXPECT_FALSE(localization.update(scan));
-  for (float& range : scan.ranges_m) range = kNan;
+  for (float& range : scan.ranges_m) range = kNoRange;
   EXPECT_FALSE(localization.update(scan));
   for (float& range : scan.ranges_m) range = -1.0F;
   EXPECT_FALSE(localization.update(scan));
@@ -182,7 +181,7 @@ TEST(Localization, ScansWithHolesStillTrack) {
     driver.truth = driver.truth * driver.step;
     LaserScan scan = scanOf(driver.room, driver.truth);
     for (std::size_t b = 0; b < scan.ranges_m.size(); b += 2) {
-      scan.ranges_m[b] = b % 4 == 0 ? kNan : kInfinity;
+      scan.ranges_m[b] = b % 4 == 0 ? kNoRange : kNoEcho;
     }
     localization.predict(driver.step);
     localization.update(scan);

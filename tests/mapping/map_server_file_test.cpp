@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/map_server_file.hpp"
-
 #include "tests/support/data.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/mapping/map_server_file.hpp>
 
 #include <gmock/gmock.h>
 #include <opencv2/core/mat.hpp>

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/obstacle_layer.hpp"
-
 #include "tests/mapping/seen_obstacles.hpp"
 #include "tests/support/allocation_count.hpp"
+#include <heel/mapping/obstacle_layer.hpp>
 
 #include <gtest/gtest.h>
 #include <pcl/point_cloud.h>

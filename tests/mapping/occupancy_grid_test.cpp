@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/occupancy_grid.hpp"
+#include <heel/mapping/occupancy_grid.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/particle_set.hpp"
-
-#include "mapping/motion_model.hpp"
 #include "tests/mapping/drawn_rooms.hpp"
+#include <heel/mapping/motion_model.hpp>
+#include <heel/mapping/particle_set.hpp>
 
 #include <gtest/gtest.h>
 

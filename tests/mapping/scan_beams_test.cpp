@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/scan_beams.hpp"
-
-#include "mapping/scan_map.hpp"
 #include "tests/mapping/drawn_rooms.hpp"
+#include <heel/mapping/scan_beams.hpp>
+#include <heel/mapping/scan_map.hpp>
 
 #include <gtest/gtest.h>
 

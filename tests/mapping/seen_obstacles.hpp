@@ -5,7 +5,7 @@
 /// Small scans and points for tests of the obstacle layer.
 #pragma once
 
-#include "mapping/obstacle_layer.hpp"
+#include <heel/mapping/obstacle_layer.hpp>
 
 #include <cmath>
 #include <limits>

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/wall_map_file.hpp"
-
-#include "mapping/map_server_file.hpp"
-#include "mapping/wall_map_builder.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/mapping/map_server_file.hpp>
+#include <heel/mapping/wall_map_builder.hpp>
+#include <heel/mapping/wall_map_file.hpp>
 
 #include <gmock/gmock.h>
 #include <octomap/OcTree.h>

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "mapping/wall_map.hpp"
-
-#include "mapping/wall_map_builder.hpp"
+#include <heel/mapping/wall_map.hpp>
+#include <heel/mapping/wall_map_builder.hpp>
 
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>
@@ -19,8 +18,6 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// A wall along y at x = 2 to 2.2 from y = -2 to 2, 2.5 m high, with a doorway of 1 m and 2 m high
 /// around y = 0.5; free floor about it.
@@ -112,7 +109,7 @@ TEST(WallMap, ARayThatLeavesTheTreeEnds) {
 
 TEST(WallMap, NoRayFindsAHoleInAThinWallHoweverTurned) {
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> angle(0.0, kPi), along(-0.9, 0.9), turn(-0.6, 0.6);
+  std::uniform_real_distribution<double> angle(0.0, M_PI), along(-0.9, 0.9), turn(-0.6, 0.6);
   for (int i = 0; i < 100; ++i) {
     const double yaw = angle(random);
     WallMapBuilder builder;
@@ -168,13 +165,13 @@ TEST(WallMap, TheFirstWallIsWhereSmallStepsFindIt) {
 
 TEST(WallMapBuilder, ACellIsWallWhereItsMiddleIs) {
   WallMapBuilder builder(0.1);
-  builder.add(WallBox{{1.0, 1.0}, kPi / 6, {1.0, 0.5}, {0.0, 1.0}});
+  builder.add(WallBox{{1.0, 1.0}, M_PI / 6, {1.0, 0.5}, {0.0, 1.0}});
   builder.add(WallCylinder{{3.0, 1.0}, 0.4, {0.5, 1.0}});
   const WallMap map = builder.build();
   for (int y = 0; y < 30; ++y) {
     for (int x = 0; x < 50; ++x) {
       const Vector2d p(0.1 * (x + 0.5), 0.1 * (y + 0.5));
-      const Vector2d q = Eigen::Rotation2Dd(-kPi / 6) * (p - Vector2d(1.0, 1.0));
+      const Vector2d q = Eigen::Rotation2Dd(-M_PI / 6) * (p - Vector2d(1.0, 1.0));
       const bool in_box = std::abs(q.x()) <= 0.5 && std::abs(q.y()) <= 0.25;
       const bool in_disc = (p - Vector2d(3.0, 1.0)).norm() <= 0.4;
       EXPECT_EQ(map.isWall({p.x(), p.y(), 0.75}), in_box || in_disc) << p.transpose();

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/clearance_map.hpp"
-
 #include "tests/planning/drawn_map.hpp"
+#include <heel/planning/clearance_map.hpp>
 
 #include <gtest/gtest.h>
 

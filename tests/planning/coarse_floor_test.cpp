@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/coarse_floor.hpp"
-
 #include "tests/planning/map_lines.hpp"
+#include <heel/planning/coarse_floor.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/doorways.hpp"
+#include <heel/planning/doorways.hpp>
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 /// Drawn maps, and the shortest ways on them by brute force: nothing here uses the grid's code.
 #pragma once
 
-#include "mapping/occupancy_grid.hpp"
-#include "planning/path.hpp"
+#include <heel/mapping/occupancy_grid.hpp>
+#include <heel/planning/path.hpp>
 
 #include <Eigen/Core>
 

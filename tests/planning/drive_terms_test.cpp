@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/drive_terms.hpp"
+#include <heel/planning/drive_terms.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/following_plan.hpp"
-
-#include "planning/plan_checks.hpp"
-#include "planning/plan_file.hpp"
+#include <heel/planning/following_plan.hpp>
+#include <heel/planning/plan_checks.hpp>
+#include <heel/planning/plan_file.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/geodesic.hpp"
-
 #include "tests/planning/drawn_map.hpp"
 #include "tests/support/allocation_count.hpp"
+#include <heel/planning/geodesic.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/goal_chooser.hpp"
-
 #include "tests/support/drive_loop.hpp"
+#include <heel/planning/goal_chooser.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/local_planner.hpp"
-
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/drive_loop.hpp"
+#include <heel/planning/local_planner.hpp>
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 /// Maps drawn in the source.
 #pragma once
 
-#include "mapping/occupancy_grid.hpp"
+#include <heel/mapping/occupancy_grid.hpp>
 
 #include <string>
 #include <vector>

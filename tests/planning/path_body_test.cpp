@@ -4,10 +4,10 @@
 /// @file
 /// Planned paths before another judge: FCL's check of the body against the map as an octree.
 
-#include "mapping/body_check.hpp"
-#include "mapping/wall_map_builder.hpp"
-#include "planning/global_planner.hpp"
 #include "tests/planning/drawn_map.hpp"
+#include <heel/mapping/body_check.hpp>
+#include <heel/mapping/wall_map_builder.hpp>
+#include <heel/planning/global_planner.hpp>
 
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>
@@ -20,8 +20,8 @@ namespace {
 
 using test::DrawnMap;
 
-const GlobalPlannerParams kRobot;
-constexpr double kBody_m = 0.31;
+const GlobalPlannerParams kBodyRobot;
+constexpr double kWidth_m = 0.31;
 
 BodyCheck checkOn(const WallMap& walls, double radius_m) {
   RobotBody body;
@@ -59,11 +59,11 @@ TEST(PlannedPath, KeepsTheBodyOffTheWallsOfRandomMaps) {
   for (int i = 0; i < 25; ++i) {
     const DrawnMap map = test::randomMap(random, 18);
     const WallMap walls = wallsOf(map.grid());
-    const BodyCheck check = checkOn(walls, kRobot.robot_radius_m);
-    GlobalPlanner planner(map.grid(), kRobot);
+    const BodyCheck check = checkOn(walls, kBodyRobot.robot_radius_m);
+    GlobalPlanner planner(map.grid(), kBodyRobot);
     for (int k = 0; k < 3; ++k) {
-      const GlobalPlan plan = planner.plan(test::randomPlace(random, map, kBody_m),
-                                           test::randomPlace(random, map, kBody_m));
+      const GlobalPlan plan = planner.plan(test::randomPlace(random, map, kWidth_m),
+                                           test::randomPlace(random, map, kWidth_m));
       if (!plan.found()) continue;
       ++plans;
       EXPECT_EQ(collisionsOn(plan.path, check, map.cell_size_m), 0) << "map " << i;
@@ -88,9 +88,9 @@ TEST(PlannedPath, KeepsTheBodyOffTheWallsThatItsMapWasDrawnFrom) {
       builder.add(box);
     }
     const WallMap walls = builder.build();
-    const BodyCheck check = checkOn(walls, kRobot.robot_radius_m);
+    const BodyCheck check = checkOn(walls, kBodyRobot.robot_radius_m);
     const RobotBody body;
-    GlobalPlanner planner(walls.floorGrid({body.bottom_m, body.top_m}), kRobot);
+    GlobalPlanner planner(walls.floorGrid({body.bottom_m, body.top_m}), kBodyRobot);
     for (int k = 0; k < 6; ++k) {
       const GlobalPlan plan =
           planner.plan({place(random), place(random)}, {place(random), place(random)});
@@ -106,9 +106,9 @@ TEST(PlannedPath, IsFoundToTouchByABodyThatIsTooWide) {
   // So that the judge is known to judge.
   const DrawnMap map{{6.1, 4}, 0.05, {{{3, 0}, {3.1, 1.6}}, {{3, 2.4}, {3.1, 4}}}};
   const WallMap walls = wallsOf(map.grid());
-  const GlobalPlan plan = GlobalPlanner(map.grid(), kRobot).plan({1, 1}, {5, 1});
+  const GlobalPlan plan = GlobalPlanner(map.grid(), kBodyRobot).plan({1, 1}, {5, 1});
   ASSERT_TRUE(plan.found());
-  EXPECT_EQ(collisionsOn(plan.path, checkOn(walls, kRobot.robot_radius_m), 0.05), 0);
+  EXPECT_EQ(collisionsOn(plan.path, checkOn(walls, kBodyRobot.robot_radius_m), 0.05), 0);
   EXPECT_GT(collisionsOn(plan.path, checkOn(walls, 0.41), 0.05), 0);
 }
 

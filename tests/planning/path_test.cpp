@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/path.hpp"
+#include <heel/planning/path.hpp>
 
 #include <gtest/gtest.h>
 

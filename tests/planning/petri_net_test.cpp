@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/petri_net.hpp"
-
 #include "tests/planning/small_net.hpp"
+#include <heel/planning/petri_net.hpp>
 
 #include <gtest/gtest.h>
 

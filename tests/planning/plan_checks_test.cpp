@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/plan_checks.hpp"
-
 #include "tests/planning/small_net.hpp"
+#include <heel/planning/plan_checks.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

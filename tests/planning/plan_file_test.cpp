@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/plan_file.hpp"
-
-#include "planning/pnml_file.hpp"
 #include "tests/planning/small_net.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/planning/plan_file.hpp>
 
 #include <gtest/gtest.h>
 
@@ -14,14 +12,14 @@ namespace {
 
 using test::SmallNet;
 
-const PlanVocabulary kWords = {{"walk"}, {"near"}};
+const PlanVocabulary kFileWords = {{"walk"}, {"near"}};
 
 /// The error for a plan of one transition, from a place that has a token to another.
 std::string error(const std::string& from, const std::string& transition, const std::string& to) {
   const test::TempFolder folder;
   const PetriNet net = SmallNet().place(from, 1).place(to).transition(transition, {from}, {to});
   const auto file = folder.write("plan.pnml", toPnml(net));
-  const std::string message = test::messageOf([&] { loadPlan(file, kWords); });
+  const std::string message = test::messageOf([&] { loadPlan(file, kFileWords); });
   const std::string start = file.string() + ": ";
   EXPECT_TRUE(message.empty() || message.rfind(start, 0) == 0) << message;
   return message.substr(std::min(start.size(), message.size()));

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/plan_guard.hpp"
-
 #include "tests/support/temp_folder.hpp"
+#include <heel/planning/plan_guard.hpp>
 
 #include <gtest/gtest.h>
 

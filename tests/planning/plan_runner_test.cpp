@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/plan_runner.hpp"
-
 #include "tests/planning/small_net.hpp"
 #include "tests/support/allocation_count.hpp"
+#include <heel/planning/plan_runner.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,9 +20,9 @@ using testing::IsEmpty;
 
 enum Action { kWalk, kWave };
 enum Condition { kNear, kTired };
-const PlanVocabulary kWords = {{"walk", "wave"}, {"near", "tired"}};
+const PlanVocabulary kRunnerWords = {{"walk", "wave"}, {"near", "tired"}};
 
-PlanRunner runnerOf(const PetriNet& net) { return PlanRunner(makePlan(net, kWords)); }
+PlanRunner runnerOf(const PetriNet& net) { return PlanRunner(makePlan(net, kRunnerWords)); }
 
 /// Steps while exactly these conditions hold.
 const PlanStep& step(PlanRunner& runner, const std::set<int>& facts = {}) {
@@ -147,7 +146,7 @@ TEST(PlanRunner, AStepAllocatesNothing) {
 }
 
 TEST(PlanRunner, NeedsARoleForEachElement) {
-  PetriPlan plan = makePlan(walkAndWave(), kWords);
+  PetriPlan plan = makePlan(walkAndWave(), kRunnerWords);
   plan.places.pop_back();
   EXPECT_THROW(PlanRunner{plan}, std::invalid_argument);
 }

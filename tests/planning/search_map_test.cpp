@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/search_map.hpp"
-
 #include "tests/planning/map_lines.hpp"
 #include "tests/support/allocation_count.hpp"
+#include <heel/planning/search_map.hpp>
 
 #include <gtest/gtest.h>
 

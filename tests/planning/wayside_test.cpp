@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "planning/wayside.hpp"
+#include <heel/planning/wayside.hpp>
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 /// @file
 /// The filter on PCLPointCloud2. The typed filter, which its own tests hold to account, is the
 /// oracle.
-#include "segmentation/appearance_filter.hpp"
 #include "tests/support/pcl_filter_contract.hpp"
+#include <heel/segmentation/appearance_filter.hpp>
 
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>

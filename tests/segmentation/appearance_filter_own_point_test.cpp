@@ -5,10 +5,10 @@
 /// The filter on a point type that is not PCL's, with the bodies included as PCL's users do.
 #define PCL_NO_PRECOMPILE
 
-#include "cloud/color_cloud.hpp"
-#include "segmentation/appearance_filter.hpp"
-#include "segmentation/plan_view.hpp"
 #include "tests/support/pcl_filter_contract.hpp"
+#include <heel/cloud/color_cloud.hpp>
+#include <heel/segmentation/appearance_filter.hpp>
+#include <heel/segmentation/plan_view.hpp>
 
 #include <pcl/register_point_struct.h>
 

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/appearance_filter.hpp"
-
 #include "tests/support/pcl_filter_contract.hpp"
+#include <heel/segmentation/appearance_filter.hpp>
 
 #include <gtest/gtest.h>
 #include <pcl/filters/crop_box.h>

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/appearance_model_io.hpp"
-
 #include "tests/segmentation/painted_person.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/segmentation/appearance_model_io.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

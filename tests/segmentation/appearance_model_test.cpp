@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/appearance_model.hpp"
-
 #include "tests/segmentation/painted_person.hpp"
+#include <heel/segmentation/appearance_model.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

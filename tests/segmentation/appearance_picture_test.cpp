@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/appearance_picture.hpp"
-
 #include "tests/segmentation/painted_person.hpp"
+#include <heel/segmentation/appearance_picture.hpp>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>

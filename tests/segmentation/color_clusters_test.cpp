@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/color_clusters.hpp"
-
 #include "tests/segmentation/painted_person.hpp"
+#include <heel/segmentation/color_clusters.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/color_table.hpp"
+#include <heel/segmentation/color_table.hpp>
 
 #include <gtest/gtest.h>
 

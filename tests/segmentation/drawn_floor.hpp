@@ -5,7 +5,7 @@
 /// Clouds drawn as text, seen from above.
 #pragma once
 
-#include "cloud/color_cloud.hpp"
+#include <heel/cloud/color_cloud.hpp>
 
 #include <cstddef>
 #include <string>

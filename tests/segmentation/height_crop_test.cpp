@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/height_crop.hpp"
-
 #include "tests/segmentation/drawn_floor.hpp"
+#include <heel/segmentation/height_crop.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/image_filter.hpp"
-
-#include "segmentation/appearance_filter.hpp"
+#include <heel/segmentation/appearance_filter.hpp>
+#include <heel/segmentation/image_filter.hpp>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>

@@ -5,7 +5,7 @@
 /// Colours of a made-up person and room, for tests of appearance.
 #pragma once
 
-#include "segmentation/appearance_model.hpp"
+#include <heel/segmentation/appearance_model.hpp>
 
 #include <algorithm>
 #include <cstdint>

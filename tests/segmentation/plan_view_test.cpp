@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/plan_view.hpp"
-
 #include "tests/segmentation/drawn_floor.hpp"
+#include <heel/segmentation/plan_view.hpp>
 
 #include <gtest/gtest.h>
 
@@ -20,7 +19,7 @@ namespace {
 using test::allOf;
 using test::pointAt;
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNowhere = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
 
 TEST(PlanView, CountsEachPointOnceAndKeepsTheGreatestHeight) {
@@ -62,7 +61,7 @@ TEST(PlanView, GivesAPointTheSurfaceOfItsPixel) {
 
 TEST(PlanView, LeavesOutWhatHasNoPlaceOnTheGrid) {
   ColorCloud cloud;
-  for (const float bad : {kNan, kInf, -kInf}) {
+  for (const float bad : {kNowhere, kInf, -kInf}) {
     cloud.push_back(pointAt(bad, 0.0, 1.0));
     cloud.push_back(pointAt(1.0, bad, 1.0));
     cloud.push_back(pointAt(1.0, 0.0, bad));

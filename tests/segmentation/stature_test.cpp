@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/stature.hpp"
+#include <heel/segmentation/stature.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/world_blobs.hpp"
-
 #include "tests/segmentation/drawn_floor.hpp"
+#include <heel/segmentation/world_blobs.hpp>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>

@@ -5,7 +5,7 @@
 /// A floor drawn of exact shapes, people who walk on it, and a robot that drives there.
 #pragma once
 
-#include "planning/local_planner.hpp"
+#include <heel/planning/local_planner.hpp>
 
 #include <Eigen/Core>
 

@@ -5,7 +5,7 @@
 /// Messages with something in every field.
 #pragma once
 
-#include "apps/bag/message_archives.hpp"
+#include <heel/apps/bag/message_archives.hpp>
 
 #include <string>
 

@@ -3,7 +3,7 @@
 
 #include "tests/support/follow_run.hpp"
 
-#include "apps/report/state_tones.hpp"
+#include <heel/apps/pages/page_parts.hpp>
 
 #include <opencv2/imgproc.hpp>
 

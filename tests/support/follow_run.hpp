@@ -5,9 +5,9 @@
 /// A made-up run of following through a flat of five rooms, for the tests of reports.
 #pragma once
 
-#include "apps/report/follow_experiment_page.hpp"
-#include "apps/report/follow_log.hpp"
-#include "apps/report/follow_video.hpp"
+#include <heel/apps/film/follow_video.hpp>
+#include <heel/apps/pages/follow_experiment_page.hpp>
+#include <heel/apps/results/follow_log.hpp>
 
 namespace heel::test {
 

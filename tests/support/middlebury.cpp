@@ -3,7 +3,7 @@
 
 #include "tests/support/middlebury.hpp"
 
-#include "cloud/stereo_calibration.hpp"
+#include <heel/cloud/stereo_calibration.hpp>
 
 #include <opencv2/imgcodecs.hpp>
 

@@ -5,7 +5,7 @@
 /// The real stereo pairs (Scharstein et al., GCPR 2014) and how well disparities agree.
 #pragma once
 
-#include "cloud/pinhole_camera.hpp"
+#include <heel/cloud/pinhole_camera.hpp>
 
 #include <opencv2/core/mat.hpp>
 

@@ -5,7 +5,7 @@
 /// A room to follow somebody through, small and fast enough for tests of the whole loop.
 #pragma once
 
-#include "apps/simulation/scene.hpp"
+#include <heel/apps/simulation/scene.hpp>
 
 #include <tuple>
 

@@ -5,9 +5,9 @@
 /// A rendered stereo pair of a person to follow, with all that the perception step needs.
 #pragma once
 
-#include "cloud/pinhole_camera.hpp"
-#include "segmentation/appearance_model.hpp"
 #include "tests/support/stereo_scene.hpp"
+#include <heel/cloud/pinhole_camera.hpp>
+#include <heel/segmentation/appearance_model.hpp>
 
 #include <Eigen/Geometry>
 

@@ -5,7 +5,7 @@
 /// The tracker allocates nothing once it is warm.
 #include "tests/support/allocation_count.hpp"
 #include "tests/tracking/looks.hpp"
-#include "tracking/target.hpp"
+#include <heel/tracking/target.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "tracking/clear_mot.hpp"
+#include <heel/tracking/clear_mot.hpp>
 
 #include <gtest/gtest.h>
 

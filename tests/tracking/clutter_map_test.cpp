@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "tracking/clutter_map.hpp"
+#include <heel/tracking/clutter_map.hpp>
 
 #include <gtest/gtest.h>
 

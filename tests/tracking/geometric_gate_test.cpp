@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "tracking/geometric_gate.hpp"
+#include <heel/tracking/geometric_gate.hpp>
 
 #include <gtest/gtest.h>
 

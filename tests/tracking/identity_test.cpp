@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "tracking/identity.hpp"
-
 #include "tests/tracking/looks.hpp"
+#include <heel/tracking/identity.hpp>
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 /// Made-up looks: a few colours, an upper and a lower part.
 #pragma once
 
-#include "tracking/gallery.hpp"
+#include <heel/tracking/gallery.hpp>
 
 #include <Eigen/Core>
 

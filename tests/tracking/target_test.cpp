@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "tracking/target.hpp"
-
 #include "tests/tracking/looks.hpp"
+#include <heel/tracking/target.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

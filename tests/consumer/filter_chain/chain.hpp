@@ -6,9 +6,9 @@
 /// on a scene made so that what comes out of each is known exactly.
 #pragma once
 
-#include "segmentation/appearance_filter.hpp"
-#include "segmentation/plan_view.hpp"
-#include "segmentation/world_blobs.hpp"
+#include <heel/segmentation/appearance_filter.hpp>
+#include <heel/segmentation/plan_view.hpp>
+#include <heel/segmentation/world_blobs.hpp>
 
 #include <pcl/filters/statistical_outlier_removal.h>
 #include <pcl/filters/voxel_grid.h>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/appearance_learner.hpp"
-#include "segmentation/appearance_model_io.hpp"
+#include <heel/segmentation/appearance_learner.hpp>
+#include <heel/segmentation/appearance_model_io.hpp>
 
 #include <opencv2/core.hpp>
 #include <pcl/io/pcd_io.h>

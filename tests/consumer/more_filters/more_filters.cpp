@@ -17,11 +17,11 @@ struct EIGEN_ALIGN16 GradedPoint {
 POINT_CLOUD_REGISTER_POINT_STRUCT(GradedPoint,
     (float, x, x)(float, y, y)(float, z, z)(float, rgb, rgb)(float, confidence, confidence))
 
-#include "segmentation/appearance_filter.hpp"
+#include <heel/segmentation/appearance_filter.hpp>
 //! [own point]
 // clang-format on
 
-#include "segmentation/appearance_model_io.hpp"
+#include <heel/segmentation/appearance_model_io.hpp>
 
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/common/io.h>

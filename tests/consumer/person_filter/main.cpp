@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "segmentation/appearance_filter.hpp"
-#include "segmentation/appearance_model_io.hpp"
+#include <heel/segmentation/appearance_filter.hpp>
+#include <heel/segmentation/appearance_model_io.hpp>
 
 #include <pcl/filters/statistical_outlier_removal.h>
 #include <pcl/io/pcd_io.h>

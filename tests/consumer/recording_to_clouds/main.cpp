@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/follower/camera_setup.hpp"
-#include "apps/follower/depth_images.hpp"
-#include "apps/recording/recording.hpp"
-#include "cloud/color_cloud.hpp"
+#include <heel/apps/follower/camera_setup.hpp>
+#include <heel/apps/follower/depth_images.hpp>
+#include <heel/apps/recording/recording.hpp>
+#include <heel/cloud/color_cloud.hpp>
 
 #include <Eigen/Geometry>
 #include <pcl/io/pcd_io.h>

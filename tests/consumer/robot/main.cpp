@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "apps/follower/follower.hpp"
-#include "mapping/wall_map_builder.hpp"
-#include "planning/plan_file.hpp"
+#include <heel/apps/follower/follower.hpp>
+#include <heel/mapping/wall_map_builder.hpp>
+#include <heel/planning/plan_file.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <heel/apps/film/follow_video.hpp>
+#include <heel/apps/output/csv_file.hpp>
+#include <heel/apps/pictures/map_picture.hpp>
+#include <heel/apps/pictures/picture_parts.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kMargin = 12;
+constexpr int kHeader = 44;
+constexpr int kFooter = 30;
+constexpr double kPersonRadius_m = 0.22;
+
+const cv::Scalar kWall(196, 186, 176);
+const cv::Scalar kRobot(240, 170, 96);
+const cv::Scalar kPath(214, 200, 120);
+const cv::Scalar kObstacle(110, 90, 200);
+
+const std::vector<LegendEntry> kLegend = {
+    {"robot", kRobot},
+    {"its pose as it believes", kRobot, LegendEntry::Mark::kRing},
+    {"person", palette::kTarget},
+    {"where the robot takes them to be", palette::kTarget, LegendEntry::Mark::kRing},
+    {"others", palette::kInkSoft},
+    {"planned path", kPath, LegendEntry::Mark::kLine},
+    {"obstacles not in the map", kObstacle, LegendEntry::Mark::kSquare}};
+
+int even(int pixels) { return pixels + pixels % 2; }
+
+/// A trail that fades into the panel where it is old.
+void drawTrail(const Outline& trail, const cv::Scalar& color, cv::Mat& panel) {
+  const auto n = static_cast<double>(trail.size());
+  for (std::size_t i = 1; i < trail.size(); ++i) {
+    const double age = 1.0 - static_cast<double>(i) / n;
+    drawLine(panel, trail[i - 1], trail[i], mixed(color, palette::kPanel, 0.8 * age), 2);
+  }
+}
+
+}  // namespace
+
+FollowVideo::FollowVideo(const OccupancyGrid& map, double robot_radius_m,
+                         const FollowVideoParams& params)
+    : params_(params), grid_(map), robot_radius_m_(robot_radius_m), bounds_m_(occupiedBounds(map)) {
+  if (map.empty() || params.panel_height_px <= 0 || params.least_map_width_px <= 0 ||
+      params.most_map_width_px < params.least_map_width_px || !(params.image_aspect > 0.0)) {
+    throw std::invalid_argument("FollowVideo: the map is empty, or a size is not above 0");
+  }
+  if (bounds_m_.isEmpty()) {
+    const Vector2d size = map.cell_size_m() * Vector2d(map.width(), map.height());
+    bounds_m_ = {map.origin_m(), map.origin_m() + size};
+  }
+  bounds_m_.min() -= Vector2d::Constant(0.2);
+  bounds_m_.max() += Vector2d::Constant(0.2);
+  drawMap();
+}
+
+cv::Rect FollowVideo::imageArea() const {
+  const auto width = static_cast<int>(std::lround(params_.panel_height_px * params_.image_aspect));
+  return {kMargin, kHeader, width, params_.panel_height_px};
+}
+
+cv::Rect FollowVideo::mapArea() const {
+  return {imageArea().br().x + kMargin, kHeader, map_.cols, params_.panel_height_px};
+}
+
+cv::Size FollowVideo::size() const {
+  return {even(mapArea().br().x + kMargin), even(kHeader + params_.panel_height_px + kFooter)};
+}
+
+cv::Point2d FollowVideo::onMap(const Vector2d& place_m) const {
+  const Vector2d middle = bounds_m_.center();
+  return {map_.cols / 2.0 + scale_ * (place_m.x() - middle.x()),
+          map_.rows / 2.0 - scale_ * (place_m.y() - middle.y())};
+}
+
+std::vector<cv::Point2d> FollowVideo::onMap(const std::vector<Vector2d>& places_m) const {
+  Outline outline;
+  for (const Vector2d& place_m : places_m) {
+    if (place_m.allFinite()) outline.push_back(onMap(place_m));
+  }
+  return outline;
+}
+
+cv::Point2d FollowVideo::pixelOf(const Vector2d& place_m) const {
+  return onMap(place_m) + cv::Point2d(mapArea().tl());
+}
+
+void FollowVideo::drawMap() {
+  const Vector2d size_m = bounds_m_.sizes();
+  const auto fitting =
+      static_cast<int>(std::lround(params_.panel_height_px * size_m.x() / size_m.y()));
+  const int width = std::clamp(fitting, params_.least_map_width_px, params_.most_map_width_px);
+  map_.create(params_.panel_height_px, width, CV_8UC3);
+  map_.setTo(palette::kPanel);
+  scale_ = std::min(width / size_m.x(), params_.panel_height_px / size_m.y());
+  for (int row = 0; row < map_.rows; ++row) {
+    for (int column = 0; column < map_.cols; ++column) {
+      const Vector2d place =
+          bounds_m_.center() +
+          Vector2d(column + 0.5 - map_.cols / 2.0, map_.rows / 2.0 - row - 0.5) / scale_;
+      const Occupancy what = grid_.at(place);
+      if (what == Occupancy::kFree) continue;
+      const cv::Scalar& c = what == Occupancy::kOccupied ? kWall : palette::kPaper;
+      map_.at<cv::Vec3b>(row, column) = {cv::saturate_cast<uchar>(c[0]),
+                                         cv::saturate_cast<uchar>(c[1]),
+                                         cv::saturate_cast<uchar>(c[2])};
+    }
+  }
+}
+
+/// From the camera on along the rays of its columns, each up to a wall.
+std::vector<Vector2d> FollowVideo::seenArea(const DrawnFrame& view) const {
+  if (!(view.camera.fx > 0.0) || !view.T_floor_camera.matrix().allFinite()) return {};
+  constexpr int kRays = 96;
+  const Vector2d eye = view.T_floor_camera.translation().head<2>();
+  std::vector<Vector2d> area = {eye};
+  for (int i = 0; i <= kRays; ++i) {
+    const double column = view.camera.width * double(i) / kRays;
+    const Eigen::Vector3d ray =
+        view.T_floor_camera.linear() *
+        Eigen::Vector3d((column - view.camera.cx) / view.camera.fx, 0.0, 1.0);
+    const Vector2d along = ray.head<2>().normalized();
+    double reach_m = 0.0;
+    while (reach_m < params_.view_range_m &&
+           grid_.at(Vector2d(eye + reach_m * along)) != Occupancy::kOccupied) {
+      reach_m += grid_.cell_size_m();
+    }
+    area.emplace_back(eye + std::min(reach_m, params_.view_range_m) * along);
+  }
+  return area;
+}
+
+void FollowVideo::drawObstacles(const FollowVideoFrame& frame, cv::Mat& panel) const {
+  const double half = std::max(1.0, 0.5 * scale_ * frame.obstacle_cell_m);
+  const cv::Rect all(0, 0, panel.cols, panel.rows);
+  for (const cv::Point2d& at : onMap(frame.obstacles)) {
+    const cv::Rect cell(cvFloor(at.x - half), cvFloor(at.y - half), cvCeil(2 * half),
+                        cvCeil(2 * half));
+    if ((cell & all).area() > 0) panel(cell & all).setTo(kObstacle);
+  }
+}
+
+void FollowVideo::drawRobot(const FollowVideoFrame& frame, cv::Mat& panel) const {
+  const auto nose = [&](const FloorPose& pose) {
+    return onMap(pose * Vector2d(1.4 * robot_radius_m_, 0.0));
+  };
+  const double radius = scale_ * robot_radius_m_;
+  if (frame.robot_true.position.allFinite()) {
+    const cv::Point2d at = onMap(frame.robot_true.position);
+    fillCircle(panel, at, radius, kRobot, 0.75);
+    drawLine(panel, at, nose(frame.robot_true), palette::kInk, 2);
+  }
+  if (frame.robot_estimated.position.allFinite()) {
+    const cv::Point2d at = onMap(frame.robot_estimated.position);
+    drawCircle(panel, at, radius, kRobot);
+    if (frame.position_sigma_m > 0.0) {
+      drawCircle(panel, at, radius + scale_ * 2.0 * std::min(frame.position_sigma_m, 5.0), kRobot);
+    }
+  }
+}
+
+void FollowVideo::drawPeople(const FollowVideoFrame& frame, cv::Mat& panel) const {
+  const double radius = scale_ * kPersonRadius_m;
+  for (const cv::Point2d& at : onMap(frame.others_true)) {
+    fillCircle(panel, at, radius, palette::kInkSoft, 0.7);
+  }
+  if (frame.person_true && frame.person_true->allFinite()) {
+    fillCircle(panel, onMap(*frame.person_true), radius, palette::kTarget, 0.85);
+  }
+  if (frame.target_estimate && frame.target_estimate->allFinite()) {
+    drawCircle(panel, onMap(*frame.target_estimate), radius + 5.0, palette::kTarget, 2);
+  }
+}
+
+void FollowVideo::draw(const FollowVideoFrame& frame, cv::Mat& picture) const {
+  picture.create(size(), CV_8UC3);
+  picture.setTo(palette::kPaper);
+  cv::Mat image = picture(imageArea());
+  drawImage(frame.view, image);
+
+  cv::Mat panel = picture(mapArea());
+  map_.copyTo(panel);
+  fillOutline(panel, onMap(seenArea(frame.view)), palette::kInk, 0.12);
+  drawObstacles(frame, panel);
+  drawTrail(onMap(frame.person_trail), palette::kTarget, panel);
+  drawTrail(onMap(frame.robot_trail), kRobot, panel);
+  drawOutline(panel, onMap(frame.path), false, kPath, 2);
+  drawPeople(frame, panel);
+  drawRobot(frame, panel);
+
+  const int width = size().width - 2 * kMargin;
+  cv::Mat header = picture(cv::Rect(kMargin, 0, width, kHeader));
+  drawHeader(frame.view.state, frame.view.tone, frame.view.reason,
+             fixedText(frame.view.stamp_s, 1) + " s", header);
+  cv::Mat footer = picture(cv::Rect(kMargin, imageArea().br().y, width, kFooter));
+  drawLegend(kLegend, footer);
+}
+
+}  // namespace heel

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Annotated frames as a film and as stills.
+#pragma once
+
+#include <heel/apps/output/output.hpp>
+
+#include <opencv2/core/mat.hpp>
+
+#include <filesystem>
+#include <memory>
+
+namespace cv {
+class VideoWriter;
+}
+
+namespace heel {
+
+/// What a film in MP4 is for.
+enum class FilmUse {
+  kArchive,  ///< MPEG-4: the same frames give the same bytes.
+  kBrowser,  ///< H.264, which browsers play, where there is an encoder; its bytes may differ.
+};
+
+/// Writes a film.
+///
+/// MP4 for a path that ends in .mp4, else Motion JPEG in AVI, which OpenCV can always write. Where
+/// MP4 can't be written, `path()` ends in .avi instead.
+class FilmWriter {
+ public:
+  /// @param rate_hz  Frames per second of the film, > 0.
+  /// @throws OutputError  if no film can be written there: one sentence.
+  FilmWriter(OutputPath path, double rate_hz, cv::Size size, FilmUse use = FilmUse::kArchive);
+  ~FilmWriter();
+  FilmWriter(const FilmWriter&) = delete;
+  FilmWriter& operator=(const FilmWriter&) = delete;
+
+  /// What it is called.
+  const std::filesystem::path& path() const { return path_.named; }
+
+  /// @param picture  CV_8UC3 of the film's size.
+  /// @throws std::invalid_argument  if it is not.
+  void write(const cv::Mat& picture);
+
+  /// Ends the film. One without a frame, and one that was not ended, is no file.
+  /// @throws OutputError  if the film could not be written whole, for instance because the disk is
+  ///         full.
+  void close();
+
+ private:
+  enum class Format { kH264, kMpeg4, kMotionJpeg };
+
+  bool open(const char* ending, Format format);
+  void discard();
+
+  /// OpenCV does not tell when a frame could not be written; the finished film's own count does.
+  bool isWhole() const;
+
+  OutputPath path_;
+  double rate_hz_;
+  cv::Size size_;
+  std::size_t frames_ = 0;
+  std::unique_ptr<cv::VideoWriter> film_;  ///< Null once closed.
+};
+
+/// Writes a picture in the format of its name (.png).
+/// @throws std::invalid_argument  if there is no such format.
+/// @throws OutputError  with one sentence that names the file and the reason.
+void writePicture(const OutputPath& file, const cv::Mat& picture);
+
+}  // namespace heel

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <heel/apps/heel/commands.hpp>
+#include <heel/apps/heel/evaluate/evaluation.hpp>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace heel {
+namespace {
+
+struct EvaluateOptions {
+  std::filesystem::path tracks;
+  std::filesystem::path truth;
+  std::filesystem::path out;
+  EvaluationParams params;
+};
+
+nlohmann::ordered_json toJson(const Evaluation& result) {
+  const ClearMot& people = result.people;
+  const TargetMetrics& person = result.person;
+  return {{"people",
+           {{"frames", people.frames},
+            {"truths", people.truths},
+            {"matches", people.matches},
+            {"misses", people.misses},
+            {"false_positives", people.false_positives},
+            {"switches", people.mismatches},
+            {"mota", people.mota()},
+            {"motp_m", people.motp_m()}}},
+          {"target",
+           {{"name", result.target},
+            {"frames_in_view", person.frames_in_view},
+            {"recall", person.recall()},
+            {"wrong_person_share", person.wrongPersonShare()},
+            {"wrong_target_s", person.wrong_target_s},
+            {"frames_not_in_view", person.frames - person.frames_in_view},
+            {"claimed_share", person.claimedShare()},
+            {"right_answer_share", person.rightAnswerShare()},
+            {"mean_error_m", person.meanError_m()},
+            {"mean_reacquisition_delay_s", person.meanReacquisitionDelay_s()},
+            {"longest_reacquisition_delay_s", person.longestReacquisitionDelay_s()}}}};
+}
+
+void print(const Evaluation& result) {
+  const ClearMot& people = result.people;
+  const TargetMetrics& person = result.person;
+  std::printf("the target, %s, in %d frames\n", result.target.c_str(), person.frames_in_view);
+  std::printf("  recall                %6.3f\n", person.recall());
+  std::printf("  wrong person          %6.3f   for %.1f s in all\n", person.wrongPersonShare(),
+              person.wrong_target_s);
+  if (person.frames > person.frames_in_view) {
+    std::printf("  claimed when absent   %6.3f   in %d frames\n", person.claimedShare(),
+                person.frames - person.frames_in_view);
+  }
+  std::printf("  right answers         %6.3f\n", person.rightAnswerShare());
+  std::printf("  mean error            %6.3f m\n", person.meanError_m());
+  if (person.reacquisition_delays_s.empty()) {
+    std::printf("  never lost and found again\n");
+  } else {
+    std::printf("  found again           %6zu   times, after %.1f s on average\n",
+                person.reacquisition_delays_s.size(), person.meanReacquisitionDelay_s());
+  }
+  std::printf("all tracks against all people (CLEAR MOT)\n");
+  std::printf("  MOTA                  %6.3f   %d of %d found, %d false, %d switches\n",
+              people.mota(), people.matches, people.truths, people.false_positives,
+              people.mismatches);
+  std::printf("  MOTP                  %6.3f m\n", people.motp_m());
+}
+
+void run(const EvaluateOptions& options) {
+  const Evaluation result =
+      evaluate(alignByStamp(readTracks(options.tracks), readTruth(options.truth)), options.params);
+  print(result);
+  if (options.out.empty()) return;
+  Output output({"evaluate", OutputKind::kFile, options.out, {options.tracks, options.truth}});
+  writeJson(output.file(), toJson(result));
+  output.commit();
+}
+
+}  // namespace
+
+void addEvaluate(CLI::App& app) {
+  auto options = std::make_shared<EvaluateOptions>();
+  CLI::App* verb = app.add_subcommand("evaluate", "Compare tracks with where people really were");
+  verb->footer(
+      "Example:\n"
+      "  heel evaluate out/tracks.csv recording/truth.csv --target navy_jumper\n"
+      "TRUTH is a table with the columns stamp_s,frame,person,x_m,y_m,exact.");
+  verb->add_option("TRACKS", options->tracks, "tracks.csv, as 'heel track' writes it")->required();
+  verb->add_option("TRUTH", options->truth, "truth.csv")->required();
+  verb->add_option("--target", options->params.target,
+                   "who was to be followed (default: the first person of the truth)");
+  verb->add_option("--distance", options->params.match_distance_m,
+                   "how far an estimate may be from a person to count [m]")
+      ->capture_default_str();
+  verb->add_option("--from", options->params.from_s, "leave out what is before this stamp [s]");
+  verb->add_option("--to", options->params.to_s, "leave out what is after this stamp [s]");
+  verb->add_option("--out", options->out, "write the figures as JSON to this file");
+  verb->callback([options] { run(*options); });
+}
+
+}  // namespace heel

@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <heel/apps/experiment/random_episode.hpp>
+#include <heel/apps/heel/commands.hpp>
+#include <heel/apps/heel/follow/follow_output.hpp>
+#include <heel/apps/heel/shared/arguments.hpp>
+#include <heel/apps/heel/shared/lap_clock.hpp>
+#include <heel/apps/heel/shared/terminal.hpp>
+#include <heel/apps/output/run_end.hpp>
+#include <heel/planning/plan_file.hpp>
+
+#include <CLI/CLI.hpp>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace heel {
+namespace {
+
+/// Resident memory of this process [MiB]; 0 where the system does not tell.
+double residentMemory_MiB() {
+  std::ifstream statm("/proc/self/statm");
+  double all = 0.0, resident = 0.0;  // in pages
+  if (!(statm >> all >> resident)) return 0.0;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
+
+struct FollowOptions {
+  std::string scene = "home";
+  std::string plan = "search";
+  std::filesystem::path out = "out/follow";
+  std::filesystem::path bag;
+  ClosedLoopParams loop;
+  std::string image_size;  // empty: the scene's
+  std::string light;       // the same
+  double rate_hz = 0.0;    // 0: the scene's camera's, and ten commands a second
+  bool random = false;
+  RandomEpisodeParams episode;
+  bool alone = false;
+  bool no_film = false;
+};
+
+Scene sceneOf(const FollowOptions& options) {
+  Scene scene = options.random ? randomEpisode(options.loop.seed, sceneFolder(), options.episode)
+                               : loadScene(sceneFile(options.scene).string());
+  if (options.alone && !scene.people.empty()) scene.people.resize(1);
+  setLight(scene, options.light);
+  CameraParams& camera = scene.robot.camera;
+  char end = '\0';
+  if (!options.image_size.empty() && (std::sscanf(options.image_size.c_str(), "%dx%d%c",
+                                                  &camera.width, &camera.height, &end) != 2 ||
+                                      std::min(camera.width, camera.height) < 64 ||
+                                      std::max(camera.width, camera.height) > 4096)) {
+    throw std::invalid_argument("--image-size must be WIDTHxHEIGHT, from 64 to 4096 pixels each");
+  }
+  if (options.rate_hz > 0.0) camera.rate_hz = 1.0 / options.loop.period_s;
+  return scene;
+}
+
+std::string commandOf(const FollowOptions& options) {
+  const FollowOptions shortest;
+  std::ostringstream command;
+  command << "heel follow " << (options.random ? "--random" : options.scene);
+  if (options.episode.visits != shortest.episode.visits) {
+    command << " --visits " << options.episode.visits;
+  }
+  if (options.alone) command << " --alone";
+  if (!options.image_size.empty()) command << " --image-size " << options.image_size;
+  if (!options.light.empty()) command << " --light " << options.light;
+  if (options.rate_hz > 0.0) command << " --rate " << options.rate_hz;
+  command << " --plan " << options.plan << " --seed " << options.loop.seed;
+  if (options.loop.limit_s != shortest.loop.limit_s) {
+    command << " --limit " << options.loop.limit_s;
+  }
+  return command.str();
+}
+
+/// Memory from minute to minute of a long run: it must not grow, but for the log of the run.
+class MemoryWatch {
+ public:
+  void at(double stamp_s) {
+    if (stamp_s < 60.0 * (minutes_ + 1)) return;
+    last_MiB_ = residentMemory_MiB();
+    if (++minutes_ == 1) first_MiB_ = last_MiB_;
+  }
+  void print() const {
+    if (minutes_ < 2) return;
+    std::printf("  memory %.1f MiB after a minute, %.1f MiB after %d\n", first_MiB_, last_MiB_,
+                minutes_);
+  }
+
+ private:
+  int minutes_ = 0;
+  double first_MiB_ = 0.0;
+  double last_MiB_ = 0.0;
+};
+
+void print(const FollowSummary& summary, const FollowOutput& output) {
+  std::printf("%s after %.1f s: %.2f m", summary.outcome.c_str(), summary.elapsed_s,
+              summary.distance_m);
+  if (std::isfinite(summary.moving_speed_mps)) {
+    std::printf(" at %.2f m/s (not counting %.1f s of seeking)", summary.moving_speed_mps,
+                summary.seek_s);
+  }
+  std::printf("\n");
+  std::printf("  contacts %d, wrong person %.1f s", summary.contacts, summary.wrong_person_s);
+  if (std::isfinite(summary.min_clearance_m)) {
+    std::printf(", least clearance %.2f m", summary.min_clearance_m);
+  }
+  std::printf("\n");
+  std::printf("results in %s: %s\n", output.folder().c_str(), output.fileNames().c_str());
+}
+
+void run(FollowOptions& options) {
+  if (!(options.loop.limit_s > 0.0 && std::isfinite(options.loop.limit_s))) {
+    throw std::invalid_argument("--limit must be positive");
+  }
+  if (options.rate_hz > 0.0) {  // The simulator's clock ticks in hundredths of a second.
+    options.loop.period_s = std::max(1.0, std::round(100.0 / options.rate_hz)) / 100.0;
+  }
+  const Scene scene = sceneOf(options);
+  const std::filesystem::path plan_file = planFile(options.plan);
+  const PetriPlan plan = loadPlan(plan_file, followingVocabulary());
+  std::vector<std::filesystem::path> inputs = {plan_file};
+  if (!options.random) inputs.push_back(sceneFile(options.scene));
+  FollowOutput output(options.out, !options.no_film, options.bag, inputs);
+  ProgressBar progress("following", static_cast<std::size_t>(options.loop.limit_s));
+  MemoryWatch memory;
+  LapClock clock;
+  FollowLog log = runClosedLoop(
+      scene, plan, options.loop,
+      [&](const Readings& readings, const FollowStep& step, const Follower& follower,
+          const FollowSample& sample) {
+        output.add(readings, step, follower, sample);
+        progress.show(static_cast<std::size_t>(readings.stamp_s));
+        memory.at(readings.stamp_s);
+      },
+      [&](FollowStage stage) {
+        // The time since the last stage; before the first stage the world moved, not the robot.
+        const double ms = clock.lap_ms();
+        if (stage != FollowStage::kBegin) output.addTime(stage, ms);
+      });
+  log.command = commandOf(options);
+  const FollowSummary summary = summarize(log);
+  output.commit(log, summary);
+  print(summary, output);
+  memory.print();
+  if (log.outcome == kStoppedRun) throw Stopped("stopped: the results are those of the run so far");
+  if (log.outcome == "nobody learned") throw NothingFound("nobody was learned");
+}
+
+}  // namespace
+
+void addFollow(CLI::App& app) {
+  auto options = std::make_shared<FollowOptions>();
+  CLI::App* verb =
+      app.add_subcommand("follow", "Let a simulated robot learn a person and follow them");
+  verb->footer(
+      "Example:\n"
+      "  heel follow home --out out/home\n"
+      "Writes report.html (open it in a browser), the film follow.mp4, summary.json, follow.csv\n"
+      "(one row a step, with the truth) and timing.csv.");
+  verb->add_option("SCENE", options->scene, "a scene's name (home, office, ...) or its YAML file")
+      ->capture_default_str();
+  CLI::Option* random =
+      verb->add_flag("--random", options->random,
+                     "a home, people, ways and the camera's light drawn from the seed");
+  verb->add_option("--visits", options->episode.visits, "rooms that the person goes to")
+      ->check(CLI::Range(1, 1000))
+      ->needs(random)
+      ->capture_default_str();
+  verb->add_flag("--alone", options->alone, "nobody is there but the person to follow");
+  verb->add_option("--plan", options->plan,
+                   "what to do when the person is lost: 'paper', 'search', or a PNML file")
+      ->capture_default_str();
+  verb->add_option("--out", options->out, "folder for the results")->capture_default_str();
+  verb->add_option("--seed", options->loop.seed, "of all noise; with --random, of the home too")
+      ->capture_default_str();
+  verb->add_option("--limit", options->loop.limit_s, "the run ends after so long [s]")
+      ->capture_default_str();
+  verb->add_option("--image-size", options->image_size,
+                   "of the camera [px], for instance 640x480 (default: the scene's)");
+  verb->add_option("--rate", options->rate_hz,
+                   "pictures and commands [Hz]; the period is rounded to 0.01 s (default: the "
+                   "scene's pictures, 10 commands)")
+      ->check(CLI::Range(1.0, 100.0));
+  addLight(*verb, options->light);
+  verb->add_flag("--no-film", options->no_film, "write no film");
+  addResultBag(*verb, options->bag);
+  verb->callback([options] { run(*options); });
+}
+
+}  // namespace heel

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <heel/apps/heel/shared/arguments.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path find(const std::string& name, const fs::path& folder, const std::string& extension,
+              const std::string& what) {
+  if (fs::is_regular_file(name)) return name;  // a folder of this name is none
+  const fs::path shipped = folder / (name + extension);
+  if (fs::exists(shipped)) return shipped;
+  throw std::runtime_error(name + ": there is no such " + what + ", neither as a file nor in " +
+                           folder.string());
+}
+
+/// What comes with Heel lies at the same place seen from the command, wherever that is.
+fs::path shippedFolder(const std::string& name) {
+  const fs::path command = fs::read_symlink("/proc/self/exe");
+  return fs::weakly_canonical(command.parent_path() / HEEL_DATA_FOLDER / name);
+}
+
+}  // namespace
+
+fs::path sceneFolder() { return shippedFolder("scenes"); }
+
+fs::path sceneFile(const std::string& scene) {
+  return find(scene, sceneFolder(), ".yaml", "scene");
+}
+
+void addLight(CLI::App& verb, std::string& light) {
+  verb.add_option("--light", light,
+                  "exposure, white balance, gamma, motion blur and flicker: 'fixed', or 'drawn' "
+                  "from the seed (default: as the scene says)")
+      ->check(CLI::IsMember({"fixed", "drawn"}));
+}
+
+void setLight(Scene& scene, const std::string& light) {
+  if (!light.empty()) scene.robot.camera.drawn_light = light == "drawn";
+}
+
+fs::path mapSource(const std::string& map) {
+  const bool is_path = fs::path(map).has_extension() || fs::path(map).has_parent_path();
+  return is_path || fs::exists(map) ? fs::path(map) : sceneFile(map);
+}
+
+fs::path planFolder() { return shippedFolder("plans"); }
+
+fs::path planFile(const std::string& plan) { return find(plan, planFolder(), ".pnml", "plan"); }
+
+namespace {
+
+constexpr const char* kGroup = "Topics of a bag (found by type and name if not given)";
+
+void add(CLI::App& verb, const char* option, std::string& topic, const char* what) {
+  verb.add_option(option, topic, what)->group(kGroup)->type_name("TOPIC");
+}
+
+void addBaseFrame(CLI::App& verb, BagTopics& topics) {
+  verb.add_option("--base-frame", topics.base_frame,
+                  "the robot's frame in tf; else base_footprint or base_link")
+      ->group(kGroup)
+      ->type_name("FRAME");
+}
+
+}  // namespace
+
+void addCameraTopics(CLI::App& verb, BagTopics& topics) {
+  add(verb, "--left-topic", topics.left, "stereo: the left images");
+  add(verb, "--right-topic", topics.right, "stereo: the right images");
+  add(verb, "--color-topic", topics.color, "RGB-D: the colour images");
+  add(verb, "--depth-topic", topics.depth, "RGB-D: the depth images, registered to colour");
+  add(verb, "--cloud-topic", topics.cloud, "coloured clouds");
+  addBaseFrame(verb, topics);
+}
+
+void addOdometryTopic(CLI::App& verb, BagTopics& topics) {
+  add(verb, "--odometry-topic", topics.odometry, "odometry");
+}
+
+void addPoseTopics(CLI::App& verb, BagTopics& topics) {
+  addOdometryTopic(verb, topics);
+  add(verb, "--truth-topic", topics.truth, "odometry that tells the truth");
+}
+
+void addLaserTopics(CLI::App& verb, BagTopics& topics) {
+  add(verb, "--scan-topic", topics.scan, "laser scans");
+  addPoseTopics(verb, topics);
+  addBaseFrame(verb, topics);
+}
+
+void addResultBag(CLI::App& verb, std::filesystem::path& bag) {
+  verb.add_option("--bag", bag,
+                  "also write a bag of the results, for RViz and the like: NAME.bag for ROS 1; "
+                  "NAME.db3, or a folder, for ROS 2");
+}
+
+}  // namespace heel

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// What several verbs are called with: scenes, maps and plans, and the topics of a bag.
+#pragma once
+
+#include <heel/apps/recording/bags/bag_topics.hpp>
+#include <heel/apps/simulation/scene.hpp>
+
+#include <filesystem>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace heel {
+
+/// The folder of the scenes that come with Heel.
+std::filesystem::path sceneFolder();
+
+/// A scene's file: the path itself, or the name of a scene that comes with Heel.
+/// @throws std::runtime_error  if there is neither.
+std::filesystem::path sceneFile(const std::string& scene);
+
+/// Adds --light: 'fixed' or 'drawn'; empty is as the scene says.
+void addLight(CLI::App& verb, std::string& light);
+
+/// Gives the scene's camera that light.
+void setLight(Scene& scene, const std::string& light);
+
+/// What a map is made of: a path, or the name of a scene that comes with Heel; see openMap().
+/// @throws std::runtime_error  if it is a name, and there is no such scene.
+std::filesystem::path mapSource(const std::string& map);
+
+/// The folder of the plans that come with Heel.
+std::filesystem::path planFolder();
+
+/// A plan's PNML file: the path itself, or the name of a plan that comes with Heel.
+/// @throws std::runtime_error  if there is neither.
+std::filesystem::path planFile(const std::string& plan);
+
+/// Topics of images and clouds, and the base frame.
+void addCameraTopics(CLI::App& verb, BagTopics& topics);
+
+/// The topic of odometry.
+void addOdometryTopic(CLI::App& verb, BagTopics& topics);
+
+/// Topics of odometry and truth.
+void addPoseTopics(CLI::App& verb, BagTopics& topics);
+
+/// Topics of scans, odometry and truth, and the base frame.
+void addLaserTopics(CLI::App& verb, BagTopics& topics);
+
+/// The bag to write the results to.
+void addResultBag(CLI::App& verb, std::filesystem::path& bag);
+
+}  // namespace heel

@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <heel/apps/follower/perception.hpp>
+#include <heel/apps/heel/commands.hpp>
+#include <heel/apps/heel/shared/arguments.hpp>
+#include <heel/apps/heel/shared/lap_clock.hpp>
+#include <heel/apps/heel/shared/robot_places.hpp>
+#include <heel/apps/heel/shared/terminal.hpp>
+#include <heel/apps/heel/track/track_output.hpp>
+#include <heel/apps/output/run_end.hpp>
+#include <heel/segmentation/appearance_model_io.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace heel {
+namespace {
+
+struct TrackOptions {
+  std::filesystem::path recording;
+  std::filesystem::path model;
+  std::filesystem::path out = "out";
+  std::filesystem::path bag;
+  RecordingParams opening;
+  std::vector<double> start_m;
+  std::vector<double> bounds_m;
+  bool no_film = false;
+};
+
+void print(const TrackOutput& output, std::size_t skipped) {
+  std::printf("%zu frames, the target seen or predicted in %zu", output.frames(),
+              output.framesWithTarget());
+  if (skipped > 0) std::printf("; %zu frame%s could not be read", skipped, skipped == 1 ? "" : "s");
+  std::printf("\n");
+  for (const auto& [state, frames] : output.framesByState()) {
+    std::printf("  %-10s %6zu\n", state.c_str(), frames);
+  }
+  std::printf("results in %s: %s\n", output.folder().c_str(), output.fileNames().c_str());
+}
+
+std::vector<std::string> motionWarnings(const RobotPlaces& robot, const MotionWatch& watch,
+                                        const Recording& recording) {
+  std::vector<std::string> warnings;
+  if (!robot.warning().empty()) warnings.push_back(robot.warning());
+  if (const auto leaves_s = watch.leaves_s()) {
+    char text[200];
+    std::snprintf(
+        text, sizeof text,
+        "the camera seems to move from %.1f s on, and no odometry or tf tells how: places "
+        "are as seen from it at each moment, so who stands seems to move",
+        *leaves_s - recording.info().first_s);
+    warnings.emplace_back(text);
+  }
+  return warnings;
+}
+
+void run(const TrackOptions& options) {
+  const AppearanceModel model = loadAppearance(options.model);
+  const auto recording = openRecording(options.recording, options.opening);
+  const CameraSetup setup = findCameraSetup(*openRecording(options.recording, options.opening));
+  for (const std::string& warning : setup.warnings) warn(warning);
+  RobotPlaces robot(*recording, setup);
+
+  PerceptionParams params;
+  TrackOutputParams output_params;
+  output_params.film = !options.no_film;
+  output_params.bag = options.bag;
+  output_params.inputs = {options.recording, options.model};
+  output_params.odometry_frame = robot.odometryFrame();
+  if (!options.bounds_m.empty()) {
+    const Eigen::Vector2d lowest(options.bounds_m[0], options.bounds_m[1]);
+    const Eigen::Vector2d highest(options.bounds_m[2], options.bounds_m[3]);
+    params.gate = insideBounds(lowest, highest);
+    output_params.bounds_m = Eigen::AlignedBox2d(lowest, highest);
+  }
+  Perception perception(setup, model, params);
+  if (!options.start_m.empty()) perception.startAt({options.start_m[0], options.start_m[1]});
+
+  MotionWatch watch(robot, setup);
+  TrackOutput output(options.out, recording->info(), setup, output_params);
+  ProgressBar progress("tracking", recording->info().frame_count);
+  TrackEnd end;
+  end.warnings = setup.warnings;
+  Frame frame;
+  StageTimes times_ms{};
+  while (!isStopRequested() && recording->next(frame)) {
+    const auto place = robot.at(frame.stamp_s);
+    if (!place) {
+      end.skipped.push_back({frame.number, frame.name + ": the odometry has a gap there"});
+      continue;
+    }
+    LapClock clock;
+    try {
+      const PerceptionStep& step = perception.step(frame, {*place}, nullptr, [&](Stage stage) {
+        times_ms[static_cast<std::size_t>(stage)] = clock.lap_ms();
+      });
+      watch.look(frame);
+      output.add(frame, *place, perception, step, times_ms);
+    } catch (const std::invalid_argument& error) {
+      end.skipped.push_back({frame.number, frame.name + ": " + error.what()});
+    }
+    progress.show(frame.number);
+  }
+  end.complete = !isStopRequested();
+  end.skipped.insert(end.skipped.end(), recording->skipped().begin(), recording->skipped().end());
+  if (output.frames() == 0) {
+    if (!end.complete) throw Stopped("stopped before the first frame; nothing is written");
+    throw std::runtime_error(nothingReadMessage(*recording, end.skipped));
+  }
+  for (const SkippedFrame& frame_left_out : end.skipped) warn(frame_left_out.reason);
+  for (const std::string& warning : motionWarnings(robot, watch, *recording)) {
+    warn(warning);
+    end.warnings.push_back(warning);
+  }
+  output.commit(end);
+  print(output, end.skipped.size());
+  if (!end.complete) {
+    throw Stopped("stopped: the results are those of " + std::to_string(output.frames()) +
+                  " frames");
+  }
+  if (output.framesWithTarget() == 0) {
+    throw NothingFound(options.recording.string() + ": the person is in no frame");
+  }
+}
+
+}  // namespace
+
+void addTrack(CLI::App& app) {
+  auto options = std::make_shared<TrackOptions>();
+  CLI::App* verb = app.add_subcommand("track", "Follow a learned person through a recording");
+  verb->footer(
+      "Example:\n"
+      "  heel track recordings/kitchen --model person.yaml --out out/kitchen\n"
+      "Writes tracks.csv (who is where), frames.csv (what every stage left of each frame, and why\n"
+      "there is no target), timing.csv, summary.json, and the film tracks.mp4 with stills.\n"
+      "Places are in the base frame; if the robot moves, as the tf or odometry of a bag tells, or\n"
+      "the odometry.csv or groundtruth.txt of a folder, in the odometry's: see summary.json.");
+  verb->add_option("RECORDING", options->recording, "folder of a recording, or a bag")->required();
+  verb->add_option("--model", options->model, "the person, as 'heel learn' wrote it")->required();
+  verb->add_option("--out", options->out, "folder for the results")->capture_default_str();
+  verb->add_option("--start", options->start_m,
+                   "where the person stands in the first frame [m] (default: found by their looks)")
+      ->expected(2)
+      ->option_text("X Y");
+  verb->add_option("--bounds", options->bounds_m,
+                   "the room: nobody outside of it is taken for the person [m]")
+      ->expected(4)
+      ->option_text("X0 Y0 X1 Y1");
+  verb->add_flag("--no-film", options->no_film, "write the tables only");
+  addResultBag(*verb, options->bag);
+  addCameraTopics(*verb, options->opening.topics);
+  addOdometryTopic(*verb, options->opening.topics);
+  verb->callback([options] { run(*options); });
+}
+
+}  // namespace heel

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Parts that Heel's pages share, and the tones of a plan's states.
+#pragma once
+
+#include <heel/apps/pictures/annotate.hpp>
+#include <heel/apps/results/follow_summary.hpp>
+
+#include <opencv2/core/types.hpp>
+
+#include <string>
+#include <vector>
+
+namespace heel {
+
+/// The tone's class in page.css.
+const char* classOf(Tone tone);
+
+/// A headline figure. The texts are put in as they are.
+std::string tile(const std::string& name, const std::string& figure, const std::string& note,
+                 Tone tone = Tone::kNeutral);
+
+/// A bar of a table: `share` of its width, in [0, 1].
+std::string bar(double share, const std::string& of_class = {});
+
+/// A row of the paper's Table 1. `name` is put in as it is.
+/// @param with_bar  Ends with the share of seeking as a bar.
+std::string runRow(const std::string& name, const PaperRow& row, const std::string& of_class = {},
+                   bool with_bar = false);
+
+/// Milliseconds of each stage and of a whole step, and whether that keeps up with the camera.
+std::string timingTable(const std::vector<StageTime>& stages, const StageTime& step,
+                        double camera_rate_hz);
+
+/// The command line as a sentence; empty for none.
+std::string howToRepeat(const std::string& command);
+
+/// A state's name as words: "goToLastSeen" is "go to last seen".
+std::string wordsOf(const std::string& state);
+
+/// The tones of states on one page: those of the shipped plans have their own, others get the next
+/// of a few more.
+class StateTones {
+ public:
+  /// Name of the tone's variable in page.css, for instance "--s-follow".
+  std::string of(const std::string& state);
+
+  /// All states that were asked for, in that order.
+  const std::vector<std::string>& states() const { return states_; }
+
+ private:
+  std::vector<std::string> states_;
+  std::vector<std::string> tones_;
+  std::size_t others_ = 0;
+};
+
+}  // namespace heel

@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <heel/apps/recording/bags/bag_camera.hpp>
+#include <heel/apps/recording/bags/bag_image_reader.hpp>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+namespace heel {
+namespace {
+
+using Words = std::pair<const char*, const char*>;
+
+bool has(const std::string& text, const std::string& word) {
+  return text.find(word) != std::string::npos;
+}
+
+/// A topic's name without what image_transport adds to it.
+std::string plainName(std::string name) {
+  for (const std::string end : {"/compressedDepth", "/compressed"}) {
+    if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0) {
+      name.resize(name.size() - end.size());
+    }
+  }
+  return name;
+}
+
+bool isImage(const BagTopicSummary& t) {
+  return t.count > 0 && (t.topic.holds<ImageMsg>() || t.topic.holds<CompressedImageMsg>());
+}
+
+bool isDepthImage(const BagTopicSummary& t) {
+  return isImage(t) &&
+         (isDepthEncoding(t.encoding) || (t.encoding == "mono16" && has(t.topic.name, "depth")));
+}
+
+bool isColorImage(const BagTopicSummary& t) {
+  // Depth that was made a JPEG, to look at, is neither.
+  return isImage(t) && !isDepthImage(t) && !has(t.topic.name, "depth/");
+}
+
+/// The lower the better.
+int rankOf(const BagTopicSummary& t) {
+  const std::string name = plainName(t.topic.name);
+  const std::array kinds = {"image_rect_color", "image_rect", "image_color", "image_raw", "image"};
+  int rank = 0;
+  while (rank < 5 && !has(name, kinds[static_cast<std::size_t>(rank)])) ++rank;
+  return 2 * rank + (t.topic.holds<CompressedImageMsg>() ? 1 : 0);
+}
+
+int depthRankOf(const BagTopicSummary& t) {
+  const bool fits_color = has(t.topic.name, "aligned") || has(t.topic.name, "registered");
+  return rankOf(t) + (fits_color ? 0 : 100);
+}
+
+template <class Is, class Rank>
+const BagTopicSummary* best(const BagSurvey& survey, const Is& is, const Rank& rank) {
+  const BagTopicSummary* found = nullptr;
+  for (const BagTopicSummary& t : survey.topics) {
+    if (is(t) && (found == nullptr || rank(t) < rank(*found))) found = &t;
+  }
+  return found;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) {
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
+/// The best pair whose names differ by these words.
+std::optional<BagCamera> findPair(const BagSurvey& survey, const Words& words) {
+  BagCamera found;
+  for (const BagTopicSummary& left : survey.topics) {
+    if (!isColorImage(left) || !has(left.topic.name, words.first)) continue;
+    const auto* right = survey.find(replaced(left.topic.name, words.first, words.second));
+    if (right == nullptr || !isColorImage(*right)) continue;
+    if (found.first == nullptr || rankOf(left) < rankOf(*found.first)) {
+      found.first = &left;
+      found.second = right;
+    }
+  }
+  if (found.first == nullptr) return std::nullopt;
+  return found;
+}
+
+std::optional<BagCamera> findRgbd(const BagSurvey& survey) {
+  BagCamera found;
+  found.sensor = SensorKind::kRgbd;
+  found.second = best(survey, isDepthImage, depthRankOf);
+  // Depth has the colour camera's size where it was made to fit it.
+  const auto fits = [&](const BagTopicSummary& t) {
+    return isColorImage(t) && t.width == found.second->width && t.height == found.second->height &&
+           !has(t.topic.name, "infra") && !has(t.topic.name, "/ir/");
+  };
+  if (found.second == nullptr) return std::nullopt;
+  found.first = best(survey, fits, rankOf);
+  if (found.first == nullptr) return std::nullopt;
+  return found;
+}
+
+const BagTopicSummary* named(const BagSurvey& survey, const std::string& name,
+                             bool (*is)(const BagTopicSummary&), const char* what) {
+  const BagTopicSummary* topic = survey.find(name);
+  if (topic == nullptr) failWithTopics(survey, "has no messages of the topic '" + name + "'");
+  if (!is(*topic)) failWithTopics(survey, std::string("holds no ") + what + " on '" + name + "'");
+  return topic;
+}
+
+bool isColoredCloud(const BagTopicSummary& t) {
+  return t.count > 0 && t.topic.holds<PointCloud2Msg>() && has(t.encoding, "rgb");
+}
+
+/// The topics that the options name; nothing if they name none.
+std::optional<BagCamera> namedCamera(const BagSurvey& survey, const BagTopics& topics) {
+  const auto both = [&](const std::string& a, const std::string& b, const char* what) {
+    if (a.empty() != b.empty()) {
+      throw std::runtime_error(survey.path.string() + ": name both topics, of the " + what);
+    }
+    return !a.empty();
+  };
+  BagCamera camera;
+  if (both(topics.left, topics.right, "left and the right images")) {
+    camera.first = named(survey, topics.left, isImage, "images");
+    camera.second = named(survey, topics.right, isImage, "images");
+    return camera;
+  }
+  if (both(topics.color, topics.depth, "colour and the depth images")) {
+    camera.sensor = SensorKind::kRgbd;
+    camera.first = named(survey, topics.color, isImage, "images");
+    camera.second = named(survey, topics.depth, isDepthImage, "depth images (16UC1, 32FC1)");
+    return camera;
+  }
+  if (topics.cloud.empty()) return std::nullopt;
+  camera.sensor = SensorKind::kCloud;
+  camera.first = named(survey, topics.cloud, isColoredCloud, "clouds with colours (a field rgb)");
+  return camera;
+}
+
+}  // namespace
+
+void failWithTopics(const BagSurvey& survey, const std::string& what) {
+  throw std::runtime_error(survey.path.string() + " " + what + "; its topics are " +
+                           survey.topicNames());
+}
+
+BagCamera findBagCamera(const BagSurvey& survey, const BagTopics& topics) {
+  if (const auto camera = namedCamera(survey, topics)) return *camera;
+  if (const auto camera = findPair(survey, {"left", "right"})) return *camera;
+  if (const auto camera = findRgbd(survey)) return *camera;
+  for (const Words& words : {Words("infra1", "infra2"), Words("cam0", "cam1"),
+                             Words("image_0", "image_1"), Words("camera0", "camera1")}) {
+    if (const auto camera = findPair(survey, words)) return *camera;
+  }
+  BagCamera clouds;
+  clouds.sensor = SensorKind::kCloud;
+  clouds.first = best(survey, isColoredCloud, [](const BagTopicSummary& t) {
+    return t.height > 1 ? 0 : 1;  // organized ones have a picture, too
+  });
+  if (clouds.first != nullptr) return clouds;
+  failWithTopics(survey,
+                 "has no stereo images, no colour with depth images, and no coloured clouds");
+}
+
+bool isRectified(const BagTopicSummary& images) { return has(images.topic.name, "rect"); }
+
+const CameraInfoMsg& cameraInfoOf(const BagSurvey& survey, const BagTopicSummary& images) {
+  const std::string name = plainName(images.topic.name);
+  const auto beside = survey.camera_infos.find(name.substr(0, name.rfind('/')) + "/camera_info");
+  if (beside != survey.camera_infos.end()) return beside->second;
+  for (const auto& [topic, info] : survey.camera_infos) {
+    if (frameName(info.header.frame_id) == images.frame_id) return info;
+  }
+  failWithTopics(survey, "has no camera_info of the images on '" + images.topic.name + "'");
+}
+
+std::optional<std::string> baseFrameOf(const BagSurvey& survey, const BagTopics& topics,
+                                       const std::string& frame) {
+  if (!topics.base_frame.empty()) {
+    if (survey.transform(frameName(topics.base_frame), frame)) return frameName(topics.base_frame);
+    throw std::runtime_error(survey.path.string() + ": tf does not tell where '" + frame +
+                             "' is on '" + topics.base_frame + "'");
+  }
+  for (const char* base : {"base_footprint", "base_link"}) {
+    if (survey.transform(base, frame)) return base;
+  }
+  return std::nullopt;
+}
+
+std::optional<Eigen::Isometry3d> placeOnRobot(const BagSurvey& survey, const BagTopics& topics,
+                                              const std::string& frame) {
+  const auto base = baseFrameOf(survey, topics, frame);
+  return base ? survey.transform(*base, frame) : std::nullopt;
+}
+
+}  // namespace heel

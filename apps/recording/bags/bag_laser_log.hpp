@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// The laser scans of a bag.
+#pragma once
+
+#include <heel/apps/recording/bags/bag_odometry.hpp>
+#include <heel/apps/recording/laser_log.hpp>
+
+#include <memory>
+
+namespace heel {
+
+/// Reads the LaserScan messages of one topic, with the latest odometry and truth at each.
+class BagLaserLog : public LaserLog {
+ public:
+  /// @throws std::runtime_error  one sentence that names the topics, if scans or odometry are
+  ///         missing.
+  BagLaserLog(const std::filesystem::path& path, const BagTopics& topics);
+
+  bool next(LaserReading& reading) override;
+  std::optional<FloorPose> T_base_scanner() const override { return T_base_scanner_; }
+  std::string lost() const override { return lost_; }
+
+ private:
+  std::unique_ptr<BagReader> bag_;
+  std::optional<BagPoses> poses_;
+  std::optional<FloorPose> T_base_scanner_;
+  std::string scan_topic_, lost_;
+  bool has_stamps_ = true;
+  LaserScanMsg scan_;
+};
+
+}  // namespace heel

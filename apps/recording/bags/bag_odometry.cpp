@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <heel/apps/recording/bags/bag_camera.hpp>
+#include <heel/apps/recording/bags/bag_odometry.hpp>
+#include <heel/apps/recording/bags/bag_poses.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+constexpr std::size_t kMostPoses = 200;  // seconds of odometry
+
+bool tellsTruth(const BagTopicSummary& t) {
+  return t.topic.name.find("truth") != std::string::npos;
+}
+
+/// The base frame that tf moves, if any.
+std::string movingBase(const BagSurvey& survey, const BagTopics& topics) {
+  for (const std::string& base :
+       {frameName(topics.base_frame), std::string("base_footprint"), std::string("base_link")}) {
+    const auto link = survey.frames.find(base);
+    if (link != survey.frames.end() && link->second.moves) return base;
+  }
+  return {};
+}
+
+/// The topic that is named, else the first that tells the truth, or that does not.
+const BagTopicSummary* findPoses(const BagSurvey& survey, const std::string& name, bool of_truth) {
+  if (!name.empty()) return findBagTopic<OdometryMsg>(survey, name);
+  for (const BagTopicSummary& t : survey.topics) {
+    if (t.topic.holds<OdometryMsg>() && t.count > 0 && tellsTruth(t) == of_truth) return &t;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+const BagTopicSummary* findOdometry(const BagSurvey& survey, const BagTopics& topics) {
+  return findPoses(survey, topics.odometry, false);
+}
+
+BagPoses::BagPoses(const BagSurvey& survey, const BagTopics& topics) {
+  const BagTopicSummary* odometry = findOdometry(survey, topics);
+  const BagTopicSummary* truth = findPoses(survey, topics.truth, true);
+  if (odometry != nullptr) odometry_topic_ = odometry->topic.name;
+  if (truth != nullptr) truth_topic_ = truth->topic.name;
+  if (odometry == nullptr) odometry_frame_ = movingBase(survey, topics);
+}
+
+void BagPoses::add(Poses& poses, const StampedPose& pose) {
+  poses.push_back(pose);
+  if (poses.size() > kMostPoses) poses.pop_front();
+}
+
+std::optional<FloorPose> BagPoses::at(const Poses& poses, double stamp_s) {
+  if (poses.empty()) return std::nullopt;
+  const auto latest = std::find_if(poses.rbegin(), poses.rend(), [&](const StampedPose& p) {
+    return p.stamp_s <= stamp_s + 1e-6;
+  });
+  return latest == poses.rend() ? poses.front().pose : latest->pose;
+}
+
+void BagPoses::takeOdometry(const BagReader& bag, const BagMessage& raw, Poses& poses) {
+  bag.read(raw, message_);
+  add(poses, {secondsOf(message_.header.stamp.ns), floorPoseOf(message_.pose.pose)});
+}
+
+void BagPoses::take(const BagReader& bag, const BagMessage& raw) {
+  const BagTopic& topic = bag.topics()[raw.topic];
+  try {
+    if (topic.name == odometry_topic_) {
+      takeOdometry(bag, raw, odometry_);
+    } else if (topic.name == truth_topic_) {
+      takeOdometry(bag, raw, truth_);
+    } else if (!odometry_frame_.empty() && topic.holds<TFMessageMsg>()) {
+      bag.read(raw, transforms_);
+      for (const TransformStampedMsg& t : transforms_.transforms) {
+        if (frameName(t.child_frame_id) != odometry_frame_) continue;
+        PoseMsg pose;
+        setPoint(pose.position, {t.transform.translation.x, t.transform.translation.y, 0.0});
+        pose.orientation = t.transform.rotation;
+        add(odometry_, {secondsOf(t.header.stamp.ns), floorPoseOf(pose)});
+      }
+    }
+  } catch (const std::runtime_error&) {
+    // One pose fewer; the others go on.
+  }
+}
+
+std::vector<StampedPose> readBagPoses(const std::filesystem::path& path, const BagTopics& topics) {
+  const BagSurvey survey = surveyBag(path);
+  BagPoses poses(survey, topics);
+  if (!poses.hasTruth() && !poses.hasOdometry()) {
+    failWithTopics(survey, "does not tell where the robot was (no Odometry, no tf that moves it)");
+  }
+  const auto bag = openBag(path);
+  std::vector<StampedPose> all;
+  BagMessage raw;
+  while (bag->next(raw)) {
+    poses.take(*bag, raw);
+    const StampedPose* last = poses.hasTruth() ? poses.lastTruth() : poses.lastOdometry();
+    if (last != nullptr && (all.empty() || all.back().stamp_s != last->stamp_s)) {
+      all.push_back(*last);
+    }
+  }
+  return all;
+}
+
+}  // namespace heel

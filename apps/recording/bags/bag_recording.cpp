@@ -1,0 +1,267 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <heel/apps/recording/bags/bag_cloud.hpp>
+#include <heel/apps/recording/bags/bag_poses.hpp>
+#include <heel/apps/recording/bags/bag_recording.hpp>
+#include <heel/apps/recording/clouds/pcd_file.hpp>
+#include <heel/cloud/image_extent.hpp>
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace heel {
+namespace {
+
+/// So many messages wait for a partner at the most.
+constexpr std::size_t kMostWaiting = 64;
+
+template <std::size_t N>
+cv::Mat matrixOf(const std::array<double, N>& values) {
+  return cv::Mat(3, static_cast<int>(N) / 3, CV_64F, const_cast<double*>(values.data())).clone();
+}
+
+/// A camera as camera_info tells; what is rectified already has neither distortion nor rotation.
+RawCamera cameraOf(const CameraInfoMsg& info, bool is_rectified) {
+  RawCamera camera;
+  camera.P = matrixOf(info.P);
+  camera.K = is_rectified ? camera.P.colRange(0, 3).clone() : matrixOf(info.K);
+  camera.R = is_rectified ? cv::Mat(cv::Mat::eye(3, 3, CV_64F)) : matrixOf(info.R);
+  if (!is_rectified && !info.D.empty()) camera.distortion = cv::Mat(info.D).reshape(1, 1).clone();
+  return camera;
+}
+
+std::string layoutOf(const BagSurvey& survey, const BagCamera& camera) {
+  std::string text = survey.form == BagForm::kRos1 ? "ROS 1 bag, " : "ROS 2 bag, ";
+  text += camera.first->topic.name;
+  if (camera.second != nullptr) text += " and " + camera.second->topic.name;
+  return text;
+}
+
+}  // namespace
+
+std::unique_ptr<Recording> BagRecording::open(const std::filesystem::path& path,
+                                              const RecordingParams& params) {
+  const BagSurvey survey = surveyBag(path);
+  const BagCamera camera = findBagCamera(survey, params.topics);
+  RecordingInfo info;
+  info.name = std::filesystem::canonical(path).filename().string();
+  info.layout = layoutOf(survey, camera);
+  info.sensor = camera.sensor;
+  info.frame_count = camera.first->count;
+  info.lost = survey.lost;
+  info.T_base_camera = placeOnRobot(survey, params.topics, camera.first->frame_id);
+  BagMotion motion(survey, params.topics, camera.first->frame_id);
+  return std::unique_ptr<Recording>(
+      new BagRecording(survey, camera, std::move(motion), std::move(info)));
+}
+
+BagRecording::BagRecording(const BagSurvey& survey, const BagCamera& camera, BagMotion motion,
+                           RecordingInfo info)
+    : path_(survey.path.string()), bag_(openBag(survey.path)), bag_motion_(std::move(motion)) {
+  info_ = std::move(info);
+  const auto queueOf = [](const BagTopicSummary& topic) {
+    Queue queue;
+    queue.topic = topic.topic.name;
+    queue.is_compressed = topic.topic.holds<CompressedImageMsg>();
+    queue.has_stamps = topic.has_stamps;
+    queue.order = StampOrder(topic.stamps_s);
+    return queue;
+  };
+  first_ = queueOf(*camera.first);
+  if (camera.second != nullptr) second_ = queueOf(*camera.second);
+  info_.first_s = first_.order.first_s();
+  info_.duration_s = first_.order.duration_s();
+  const double rate_hz = first_.order.rate_hz();
+  limit_s_ = rate_hz > 0.0 ? 0.5 / rate_hz : 0.02;
+  if (camera.sensor == SensorKind::kStereo) setUpStereo(survey, camera);
+  if (camera.sensor == SensorKind::kRgbd) setUpRgbd(survey, camera);
+}
+
+void BagRecording::setUpStereo(const BagSurvey& survey, const BagCamera& camera) {
+  const CameraInfoMsg& left = cameraInfoOf(survey, *camera.first);
+  const CameraInfoMsg& right = cameraInfoOf(survey, *camera.second);
+  const bool is_rectified = isRectified(*camera.first);
+  rig_.emplace(cameraOf(left, is_rectified), cameraOf(right, is_rectified),
+               cv::Size(static_cast<int>(left.width), static_cast<int>(left.height)),
+               path_ + ", camera_info of " + first_.topic);
+  info_.camera = rig_->camera();
+}
+
+void BagRecording::setUpRgbd(const BagSurvey& survey, const BagCamera& camera) {
+  const CameraInfoMsg& info = cameraInfoOf(survey, *camera.first);
+  const bool is_rectified = isRectified(*camera.first) && info.P[0] > 0.0;
+  const double fx = is_rectified ? info.P[0] : info.K[0], fy = is_rectified ? info.P[5] : info.K[4];
+  const double cx = is_rectified ? info.P[2] : info.K[2], cy = is_rectified ? info.P[6] : info.K[5];
+  info_.camera.left = {static_cast<int>(info.width), static_cast<int>(info.height), fx, fy, cx, cy};
+  if (!(fx > 0.0) || !(fy > 0.0) || info.width == 0 || info.height == 0) {
+    throw std::runtime_error(path_ + ": the camera_info of " + first_.topic +
+                             " is empty: the camera was not calibrated");
+  }
+  const bool is_distorted =
+      std::any_of(info.D.begin(), info.D.end(), [](double d) { return std::abs(d) > 1e-12; });
+  if (is_rectified || !is_distorted) return;
+  checkCameraMemory(path_ + ", camera_info of " + first_.topic, info.width, info.height);
+  checkDistortion(path_ + ", camera_info of " + first_.topic, info.D.size());
+  const cv::Mat K = matrixOf(info.K);
+  cv::initUndistortRectifyMap(K, cv::Mat(info.D), cv::noArray(), K,
+                              {info_.camera.left.width, info_.camera.left.height}, CV_32FC1,
+                              undistort_x_, undistort_y_);
+}
+
+std::string BagRecording::nameOf(const Waiting& message) const {
+  return path_ + ", " + first_.topic + " message " + std::to_string(message.number);
+}
+
+void BagRecording::take(const BagMessage& raw, Queue& queue) {
+  Waiting message;
+  message.number = ++queue.count;
+  message.stamp_s = secondsOf(raw.stamp_ns);
+  if (queue.has_stamps) {
+    HeaderMsg header;
+    try {
+      bag_->read(raw, header);
+    } catch (const std::runtime_error&) {
+      return;  // it is told of where the frame is missed
+    }
+    message.stamp_s = secondsOf(header.stamp.ns);
+  }
+  message.index = queue.stamped++;
+  if (message.index >= queue.order.size()) return;  // the bag has grown meanwhile
+  message.bytes.assign(raw.data, raw.data + raw.size);
+  queue.waiting.push_back(std::move(message));
+}
+
+bool BagRecording::readMessage() {
+  BagMessage raw;
+  while (bag_->next(raw)) {
+    const std::string& topic = bag_->topics()[raw.topic].name;
+    if (topic != first_.topic && topic != second_.topic) continue;
+    take(raw, topic == first_.topic ? first_ : second_);
+    if (second_.waiting.size() > kMostWaiting) second_.waiting.pop_front();
+    return true;
+  }
+  at_end_ = true;
+  return false;
+}
+
+/// Whether the partner of the first that waits can be told, if it has one.
+bool BagRecording::isDecided() const {
+  if (first_.waiting.empty()) return false;
+  const Waiting& first = first_.waiting.front();
+  return info_.sensor == SensorKind::kCloud || at_end_ || first_.waiting.size() > kMostWaiting ||
+         first_.order.isAhead(first.index) ||
+         std::any_of(second_.waiting.begin(), second_.waiting.end(), [&](const Waiting& other) {
+           return other.stamp_s >= first.stamp_s && !second_.order.isAhead(other.index);
+         });
+}
+
+std::optional<BagRecording::Waiting> BagRecording::takePartner(double stamp_s) {
+  const auto apart = [&](const Waiting& m) { return std::abs(m.stamp_s - stamp_s); };
+  const auto nearest =
+      std::min_element(second_.waiting.begin(), second_.waiting.end(),
+                       [&](const Waiting& a, const Waiting& b) { return apart(a) < apart(b); });
+  if (nearest == second_.waiting.end() || apart(*nearest) > limit_s_) return std::nullopt;
+  Waiting partner = std::move(*nearest);
+  second_.waiting.erase(second_.waiting.begin(), nearest + 1);
+  return partner;
+}
+
+bool BagRecording::next(Frame& frame) {
+  while (true) {
+    while (!isDecided() && !at_end_) readMessage();
+    if (first_.waiting.empty()) return false;
+    const Waiting first = std::move(first_.waiting.front());
+    first_.waiting.pop_front();
+    try {
+      first_.order.check(first.index);
+      std::optional<Waiting> second;
+      if (info_.sensor != SensorKind::kCloud) {
+        second = takePartner(first.stamp_s);
+        if (!second) {
+          throw std::runtime_error("there is no image on " + second_.topic + " within " +
+                                   std::to_string(limit_s_) + " s of it");
+        }
+      }
+      makeFrame(first, second ? &*second : nullptr, frame);
+    } catch (const std::runtime_error& error) {
+      skipped_.push_back({first.number, nameOf(first) + ": " + error.what()});
+      continue;
+    }
+    frame.number = first.number;
+    frame.stamp_s = first.stamp_s;
+    frame.name = nameOf(first);
+    return true;
+  }
+}
+
+void BagRecording::makeFrame(const Waiting& first, const Waiting* second, Frame& frame) {
+  frame.right_bgr.release();
+  frame.depth_m.release();
+  frame.cloud.reset();
+  if (info_.sensor == SensorKind::kCloud) {
+    readCloud(first, frame);
+  } else if (info_.sensor == SensorKind::kStereo) {
+    // What the rig hands on as it is must not be overwritten while the frame is in use.
+    readColor(first_, first, rig_->isRectified() ? frame.image_bgr : raw_left_);
+    readColor(second_, *second, rig_->isRectified() ? frame.right_bgr : raw_right_);
+    if (!rig_->isRectified()) {
+      rig_->rectify(raw_left_, raw_right_, frame.image_bgr, frame.right_bgr);
+    }
+  } else {
+    const bool undistort = !undistort_x_.empty();
+    readColor(first_, first, undistort ? raw_left_ : frame.image_bgr);
+    readDepth(*second, undistort ? raw_right_ : frame.depth_m);
+    if (!undistort) return;
+    cv::remap(raw_left_, frame.image_bgr, undistort_x_, undistort_y_, cv::INTER_LINEAR);
+    cv::remap(raw_right_, frame.depth_m, undistort_x_, undistort_y_, cv::INTER_NEAREST,
+              cv::BORDER_CONSTANT, cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
+  }
+}
+
+void BagRecording::checkSize(const cv::Mat& image, const char* what) const {
+  const PinholeCamera& camera = info_.camera.left;
+  if (image.cols == camera.width && image.rows == camera.height) return;
+  throw std::runtime_error(std::string(what) + " is " + std::to_string(image.cols) + "x" +
+                           std::to_string(image.rows) + ", but camera_info says " +
+                           std::to_string(camera.width) + "x" + std::to_string(camera.height));
+}
+
+void BagRecording::readColor(const Queue& queue, const Waiting& message, cv::Mat& image_bgr) {
+  if (queue.is_compressed) {
+    heel::readMessage(bag_->form(), message.bytes.data(), message.bytes.size(), compressed_);
+    images_.readColor(compressed_, image_bgr);
+  } else {
+    heel::readMessage(bag_->form(), message.bytes.data(), message.bytes.size(), image_);
+    images_.readColor(image_, image_bgr);
+  }
+  checkSize(image_bgr, "the image");
+}
+
+void BagRecording::readDepth(const Waiting& message, cv::Mat& depth_m) {
+  if (second_.is_compressed) {
+    heel::readMessage(bag_->form(), message.bytes.data(), message.bytes.size(), compressed_);
+    images_.readDepth(compressed_, depth_m);
+  } else {
+    heel::readMessage(bag_->form(), message.bytes.data(), message.bytes.size(), image_);
+    images_.readDepth(image_, depth_m);
+  }
+  checkSize(depth_m, "the depth image");
+}
+
+void BagRecording::readCloud(const Waiting& message, Frame& frame) {
+  heel::readMessage(bag_->form(), message.bytes.data(), message.bytes.size(), cloud_);
+  frame.cloud = toColorCloud(cloud_);
+  if (frame.cloud->isOrganized()) {
+    colorsOf(*frame.cloud, frame.image_bgr);
+  } else {
+    frame.image_bgr.release();
+  }
+}
+
+}  // namespace heel

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// What all recordings share whose frames are files of their own.
+#pragma once
+
+#include <heel/apps/recording/recording.hpp>
+#include <heel/apps/recording/stamp_order.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace heel {
+
+/// A recording whose frames and stamps are known when it is opened.
+class IndexedRecording : public Recording {
+ public:
+  bool next(Frame& frame) final;
+
+  std::optional<RobotMotion> readMotion() const final;
+
+ protected:
+  /// Completes `info` with the name of `path`, the number of frames and the duration.
+  IndexedRecording(const std::filesystem::path& path, RecordingInfo info,
+                   std::vector<double> stamps_s);
+
+  /// The file that frame `index` (from 0) is known by.
+  virtual std::string frameName(std::size_t index) const = 0;
+
+  /// Reads frame `index` (from 0); number, stamp and name are filled by the caller.
+  /// @throws std::runtime_error  if it can't be read: one sentence that names the file.
+  virtual void read(std::size_t index, Frame& frame) = 0;
+
+ private:
+  void checkStamp(std::size_t index);
+
+  std::filesystem::path path_;
+  StampOrder order_;
+  std::size_t next_index_ = 0;
+};
+
+}  // namespace heel

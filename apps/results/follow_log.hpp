@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// All that a run of following leaves to be told: one sample a control step, with the truth.
+#pragma once
+
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/occupancy_grid.hpp>
+#include <heel/planning/trajectory.hpp>
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace heel {
+
+constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+
+/// One control step. Places are in the map's frame; NaN stands for what is not known.
+struct FollowSample {
+  double stamp_s = 0.0;
+  FloorPose robot_true;
+  FloorPose robot_estimated;
+  double position_sigma_m = kNotKnown;  ///< Standard deviation that the localization states.
+  bool is_localized = false;            ///< The localization does not say that it is lost.
+  VelocityCommand command;
+  VelocityCommand speed_true;
+  std::string state;  ///< The plan's active action: "learn", "follow", "face", "seek", ...
+  std::string reason;
+  std::string target_status;                       ///< For instance "followed", "lost".
+  std::optional<Eigen::Vector2d> person_true;      ///< Absent while they are not in the scene.
+  std::optional<Eigen::Vector2d> target_estimate;  ///< Absent while the target is lost.
+  std::vector<Eigen::Vector2d> others_true;
+  double person_distance_m = kNotKnown;  ///< True distance of the person from the robot's middle.
+  double clearance_m = kNotKnown;        ///< True gap between the robot and the nearest thing.
+  double candidate_share = kNotKnown;    ///< Of the picture's pixels: with the target's colours.
+  bool contact = false;
+  bool wrong_person = false;  ///< See isWrongPerson().
+};
+
+/// Whether the estimate is somebody else's place: further than `apart_m` from the person (or the
+/// person is not there), and nearer to one of the others.
+bool isWrongPerson(const Eigen::Vector2d& estimate, const std::optional<Eigen::Vector2d>& person,
+                   const std::vector<Eigen::Vector2d>& others, double apart_m = 0.5);
+
+/// A picture taken on the way.
+struct FollowSnapshot {
+  double stamp_s = 0.0;
+  std::string caption;
+  cv::Mat picture_bgr;
+};
+
+/// Milliseconds of one stage of a step.
+struct StageTime {
+  std::string name;
+  double mean_ms = 0.0;
+  double p95_ms = 0.0;
+};
+
+/// The outcome of a run that a signal ended.
+inline constexpr const char* kStoppedRun = "stopped";
+
+/// A whole run.
+struct FollowLog {
+  std::string scene;
+  unsigned long seed = 0;
+  std::string plan;     ///< Name of the Petri net plan.
+  std::string command;  ///< The command line that repeats the run; may be empty.
+  std::string outcome;  ///< The follower's own word: "reached", "failed", "done", "timeout", ...
+  std::string person;   ///< Whom to follow.
+  OccupancyGrid map;
+  double robot_radius_m = 0.26;
+  double max_speed_mps = 0.3;
+  std::vector<FollowSample> samples;  ///< In order of time.
+  std::vector<FollowSnapshot> snapshots;
+  std::vector<StageTime> stages;
+  StageTime step;               ///< All stages of a step together, once the person is learned.
+  double camera_rate_hz = 0.0;  ///< What the stages must keep up with; 0 = not told.
+};
+
+/// The moment when the target was lost, or found again.
+struct TargetEvent {
+  double stamp_s = 0.0;
+  bool is_found = false;
+  Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  ///< Where the target was taken to be.
+};
+
+/// Losses of the target and its recoveries, in order. A gap of up to `tolerance_s` is no loss. The
+/// first time that there is a target is no event.
+std::vector<TargetEvent> targetEvents(const std::vector<FollowSample>& samples,
+                                      double tolerance_s = 0.5);
+
+/// A stretch of time in one state.
+struct StateSpan {
+  std::string state;
+  double from_s = 0.0;
+  double to_s = 0.0;
+};
+
+/// The states in order; a state lasts until the first sample of the next.
+std::vector<StateSpan> stateSpans(const std::vector<FollowSample>& samples);
+
+}  // namespace heel

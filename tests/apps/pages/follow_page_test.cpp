@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tests/support/follow_run.hpp"
+#include "tests/support/temp_folder.hpp"
+#include <heel/apps/pages/follow_experiment_page.hpp>
+#include <heel/apps/pages/follow_page.hpp>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+#include <pugixml.hpp>
+
+#include <limits>
+#include <string>
+
+namespace {
+
+using heel::followExperimentPage;
+using heel::FollowLog;
+using heel::followPage;
+using heel::summarize;
+using heel::test::flatRun;
+using testing::HasSubstr;
+using testing::Not;
+
+const char* const kHostile = "<script>alert('x')</script>\"&]]>{{style}}\x01";
+
+std::string pageOf(const FollowLog& log) { return followPage(log, summarize(log)); }
+
+/// The page as a tree; fails the test if it is not well-formed.
+void parse(const std::string& page, pugi::xml_document& document) {
+  const auto result = document.load_string(page.c_str(), pugi::parse_default | pugi::parse_doctype);
+  ASSERT_TRUE(result) << result.description() << " at " << page.substr(result.offset, 80);
+  ASSERT_TRUE(document.child("html").child("body"));
+}
+
+std::size_t countOf(const pugi::xml_document& document, const char* xpath) {
+  return document.select_nodes(xpath).size();
+}
+
+void expectSelfContained(const std::string& page) {
+  EXPECT_THAT(page, Not(HasSubstr("http")));
+  EXPECT_THAT(page, Not(HasSubstr("url(")));
+  EXPECT_THAT(page, Not(HasSubstr("@import")));
+  pugi::xml_document document;
+  parse(page, document);
+  for (const auto& node : document.select_nodes("//@src | //@href")) {
+    EXPECT_THAT(std::string(node.attribute().value()), testing::StartsWith("data:"));
+  }
+}
+
+nlohmann::json dataOf(const pugi::xml_document& document) {
+  return nlohmann::json::parse(
+      document.select_node("//script[@id='run']").node().text().as_string());
+}
+
+TEST(FollowPage, IsWellFormedAndSelfContained) {
+  const std::string page = pageOf(flatRun());
+  expectSelfContained(page);
+  EXPECT_THAT(page, Not(HasSubstr("{{")));
+  EXPECT_THAT(page, Not(HasSubstr("nan")));
+  EXPECT_LT(page.size(), 400000U);
+}
+
+TEST(FollowPage, ShowsTheRun) {
+  pugi::xml_document document;
+  parse(pageOf(flatRun()), document);
+  EXPECT_EQ(countOf(document, "//path[@class='walls']"), 1U);
+  EXPECT_EQ(countOf(document, "//path[@class='robot-path']"), 1U);
+  EXPECT_EQ(countOf(document, "//path[@class='person-path']"), 1U);
+  EXPECT_EQ(countOf(document, "//g[@class='mark lost']"), 2U);
+  EXPECT_EQ(countOf(document, "//g[@class='mark found']"), 2U);
+  EXPECT_EQ(countOf(document, "//div[@class='row chart']"), 3U);
+  EXPECT_EQ(countOf(document, "//figure[@class='shot']"), 3U);
+  EXPECT_EQ(countOf(document, "//video"), 0U);
+  const auto bands = countOf(document, "//div[@class='row bands']//rect");
+  EXPECT_EQ(bands, heel::stateSpans(flatRun().samples).size());
+  EXPECT_EQ(countOf(document, "//img[not(@alt)] | //svg[not(@aria-label) and not(@aria-hidden)]"),
+            0U);
+}
+
+TEST(FollowPage, DataAreTheRunsMoments) {
+  pugi::xml_document document;
+  FollowLog log = flatRun();
+  parse(pageOf(log), document);
+  const auto data = dataOf(document);
+  const std::size_t count = data["t"].size();
+  EXPECT_LE(count, 1501U);
+  for (const char* column : {"state", "reason", "distance", "speed", "clearance", "error", "robot",
+                             "yaw", "person", "estimate"}) {
+    EXPECT_EQ(data[column].size(), count) << column;
+  }
+  EXPECT_EQ(data["t"].back(), log.samples.back().stamp_s);
+  EXPECT_EQ(data["states"][0]["name"], "learn");
+  const double x = data["robot"][0][0], wanted = log.samples[0].robot_true.position.x() + 0.3;
+  EXPECT_NEAR(x, wanted, 0.006) << "the map begins 5 cm, and its margin 30 cm, left of x = 0";
+}
+
+TEST(FollowPage, HostileNamesStayText) {
+  FollowLog log = flatRun();
+  log.scene = log.plan = log.person = log.outcome = log.command = kHostile;
+  log.samples[50].state = log.samples[60].reason = kHostile;
+  log.snapshots[0].caption = kHostile;
+  log.stages[0].name = kHostile;
+  heel::FollowPageParams params;
+  params.film = kHostile;
+  const std::string page = followPage(log, summarize(log), params);
+  EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
+  pugi::xml_document document;
+  parse(page, document);
+  EXPECT_EQ(countOf(document, "//script"), 2U);
+  EXPECT_THAT(document.select_node("//h1").node().text().as_string(),
+              testing::StartsWith("<script>alert('x')</script>\"&]]>{{style}}"));
+}
+
+TEST(FollowPage, BytesThatAreNoTextDoNotCostThePage) {
+  FollowLog log = flatRun();
+  log.samples[0].reason = log.samples[0].state = "\xff\xfe";
+  pugi::xml_document document;
+  parse(pageOf(log), document);
+}
+
+TEST(FollowPage, NothingAndOneSampleMakeAPage) {
+  FollowLog log;
+  expectSelfContained(pageOf(log));
+  log.samples.resize(1);
+  expectSelfContained(pageOf(log));
+  log.map = heel::test::flatMap();
+  log.samples[0].person_true = Eigen::Vector2d(1.0, 2.0);
+  expectSelfContained(pageOf(log));
+}
+
+TEST(FollowPage, WhatIsNotKnownIsADash) {
+  FollowLog log = flatRun();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (auto& sample : log.samples) {
+    sample.clearance_m = sample.person_distance_m = nan;
+    sample.robot_true.position.setConstant(nan);
+    sample.robot_true.yaw_rad = sample.speed_true.forward_mps = nan;
+    sample.person_true = sample.target_estimate = Eigen::Vector2d(nan, nan);
+    sample.others_true = {Eigen::Vector2d(nan, nan)};
+  }
+  log.max_speed_mps = log.stages[0].mean_ms = nan;
+  const std::string page = pageOf(log);
+  expectSelfContained(page);
+  EXPECT_THAT(page, Not(HasSubstr("nan")));
+  EXPECT_THAT(page, HasSubstr("\u2013"));
+}
+
+TEST(FollowPage, SaysWhetherTheLoopKeepsUpWithTheCamera) {
+  FollowLog log = flatRun();  // 33.3 ms a frame
+  log.step = {"step", 20.0, 30.0};
+  EXPECT_THAT(pageOf(log), HasSubstr("the loop keeps up."));
+  log.step.p95_ms = 40.0;
+  EXPECT_THAT(pageOf(log), HasSubstr("the loop keeps up on the whole."));
+  log.step.mean_ms = 35.0;
+  EXPECT_THAT(pageOf(log), HasSubstr("the loop does not keep up."));
+}
+
+TEST(FollowPage, FilmIsTheOnlyFileBesideIt) {
+  heel::FollowPageParams params;
+  params.film = "follow.mp4";
+  pugi::xml_document document;
+  parse(followPage(flatRun(), summarize(flatRun()), params), document);
+  EXPECT_STREQ(document.select_node("//video/@src").attribute().value(), "follow.mp4");
+  EXPECT_EQ(countOf(document, "//video[starts-with(@poster, 'data:image/jpeg')]"), 1U);
+}
+
+TEST(FollowPage, LongRunsAreThinnedOut) {
+  FollowLog log = flatRun();
+  const auto one = log.samples;
+  for (int copy = 1; copy < 20; ++copy) {
+    for (auto sample : one) {
+      sample.stamp_s += copy * 156.1;
+      log.samples.push_back(sample);
+    }
+  }
+  EXPECT_LT(pageOf(log).size(), 800000U);
+}
+
+TEST(FollowExperimentPage, IsWellFormedAndListsEveryFailure) {
+  heel::FollowExperiment experiment = heel::test::followExperiment();
+  std::string page = followExperimentPage(experiment);
+  expectSelfContained(page);
+  EXPECT_THAT(page, HasSubstr("99 of 100"));
+  EXPECT_THAT(page, HasSubstr("Failures: 2"));
+  EXPECT_THAT(page, HasSubstr("heel follow home-43 --seed 43"));
+  experiment.episodes[0].name = experiment.episodes[0].cause = kHostile;
+  experiment.episodes[0].summary.contacts = 2;
+  experiment.plans[0] = experiment.title = kHostile;
+  page = followExperimentPage(experiment);
+  EXPECT_THAT(page, Not(HasSubstr("<script>")));
+  EXPECT_THAT(page, HasSubstr("Failures: 3"));
+  expectSelfContained(page);
+  expectSelfContained(followExperimentPage({}));
+}
+
+TEST(CountEpisodes, SumsThoseOfOnePlan) {
+  heel::FollowExperiment experiment = heel::test::followExperiment();
+  experiment.episodes[1].summary.contacts = 2;
+  experiment.episodes[1].summary.wrong_person_s = 3.0;
+  const auto counts = heel::countEpisodes(experiment.episodes, "look-around");
+  EXPECT_EQ(counts.episodes, 100);
+  EXPECT_EQ(counts.reached, 99);
+  EXPECT_EQ(counts.with_contact, 1);
+  EXPECT_EQ(counts.contacts, 2);
+  EXPECT_DOUBLE_EQ(counts.wrong_person_s, 3.0);
+  EXPECT_TRUE(heel::isFailure(experiment.episodes[1]));
+  EXPECT_EQ(heel::countEpisodes(experiment.episodes, "none").episodes, 0);
+}
+
+}  // namespace

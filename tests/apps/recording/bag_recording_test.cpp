@@ -1,0 +1,400 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tests/support/data.hpp"
+#include "tests/support/temp_folder.hpp"
+#include <heel/apps/recording/bags/bag_image_reader.hpp>
+#include <heel/apps/recording/bags/bag_odometry.hpp>
+#include <heel/apps/recording/bags/sensor_bag.hpp>
+#include <heel/apps/recording/laser_log.hpp>
+#include <heel/apps/recording/recording.hpp>
+
+#include <gmock/gmock.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include <cstring>
+#include <limits>
+
+namespace heel {
+namespace {
+
+using test::messageOf;
+using test::TempFolder;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+constexpr int kWidth = 32, kHeight = 24;
+
+HeaderMsg header(double stamp_s, const char* frame = "optical") {
+  HeaderMsg result;
+  result.stamp.ns = std::llround(stamp_s * 1e9);
+  result.frame_id = frame;
+  return result;
+}
+
+CameraInfoMsg cameraInfo(double minus_fx_baseline) {
+  CameraInfoMsg info;
+  info.header = header(0.1);
+  info.width = kWidth;
+  info.height = kHeight;
+  info.K = {30, 0, 15.5, 0, 30, 11.5, 0, 0, 1};
+  info.R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  info.P = {30, 0, 15.5, minus_fx_baseline, 0, 30, 11.5, 0, 0, 0, 1, 0};
+  return info;
+}
+
+ImageMsg image(double stamp_s, const std::string& encoding, int value, std::uint32_t pixel_bytes) {
+  ImageMsg message;
+  message.header = header(stamp_s);
+  message.width = kWidth;
+  message.height = kHeight;
+  message.encoding = encoding;
+  message.step = kWidth * pixel_bytes + 8;  // rows may be padded
+  message.data.assign(std::size_t{message.step} * kHeight, static_cast<std::uint8_t>(value));
+  return message;
+}
+
+struct Read {
+  std::vector<std::size_t> numbers;
+  std::vector<double> stamps_s;
+  std::vector<SkippedFrame> skipped;
+  RecordingInfo info;
+  Frame last;
+};
+
+Read readAll(const std::filesystem::path& path, const BagTopics& topics = {}) {
+  RecordingParams params;
+  params.topics = topics;
+  const auto recording = openRecording(path, params);
+  Read read;
+  while (recording->next(read.last)) {
+    read.numbers.push_back(read.last.number);
+    read.stamps_s.push_back(read.last.stamp_s);
+  }
+  read.skipped = recording->skipped();
+  read.info = recording->info();
+  return read;
+}
+
+class BagRecordings : public testing::TestWithParam<const char*> {
+ protected:
+  std::filesystem::path path() const { return folder_ / GetParam(); }
+
+  std::unique_ptr<BagWriter> beginStereo(const std::string& images = "image_raw") {
+    auto bag = createBag(path());
+    bag->write("/stereo/left/camera_info", 1, cameraInfo(0.0));
+    bag->write("/stereo/right/camera_info", 1, cameraInfo(-3.0));
+    left_ = "/stereo/left/" + images;
+    right_ = "/stereo/right/" + images;
+    return bag;
+  }
+  void addLeft(BagWriter& bag, double s) {
+    bag.write(left_, std::llround(s * 1e9), image(s, "bgr8", 10, 3));
+  }
+  void addRight(BagWriter& bag, double s) {
+    bag.write(right_, std::llround(s * 1e9), image(s, "mono8", 90, 1));
+  }
+
+  TempFolder folder_;
+  std::string left_, right_;
+};
+INSTANTIATE_TEST_SUITE_P(Forms, BagRecordings, testing::Values("r.bag", "r.db3"));
+
+TEST_P(BagRecordings, PairsStereoImagesWithinHalfAFrame) {
+  const auto bag = beginStereo();
+  for (int i = 1; i <= 5; ++i) {
+    addLeft(*bag, 0.1 * i);
+    if (i != 3) addRight(*bag, 0.1 * i + 0.02);
+  }
+  bag->commit();
+  const Read read = readAll(path());
+  EXPECT_THAT(read.numbers, ElementsAre(1, 2, 4, 5));
+  EXPECT_THAT(read.stamps_s, ElementsAre(0.1, 0.2, 0.4, 0.5));
+  ASSERT_THAT(read.skipped, SizeIs(1));
+  EXPECT_EQ(read.skipped[0].number, 3U);
+  EXPECT_THAT(read.skipped[0].reason, HasSubstr("no image on /stereo/right/image_raw"));
+  EXPECT_EQ(read.info.sensor, SensorKind::kStereo);
+  EXPECT_DOUBLE_EQ(read.info.camera.baseline_m, 0.1);
+  EXPECT_EQ(read.info.frame_count, 5U);
+  EXPECT_FALSE(read.info.T_base_camera);
+  EXPECT_EQ(read.last.image_bgr.at<cv::Vec3b>(3, 3), cv::Vec3b(10, 10, 10));
+  EXPECT_EQ(read.last.right_bgr.at<cv::Vec3b>(3, 3), cv::Vec3b(90, 90, 90));
+}
+
+TEST_P(BagRecordings, TakesTheNearestPartnerInWhateverOrderTheyCome) {
+  const auto bag = beginStereo();
+  for (int i = 1; i <= 4; ++i) addRight(*bag, 0.1 * i);
+  for (int i = 1; i <= 4; ++i) addLeft(*bag, 0.1 * i);
+  bag->commit();
+  EXPECT_THAT(readAll(path()).numbers, ElementsAre(1, 2, 3, 4));
+}
+
+TEST_P(BagRecordings, LeavesOutFramesWhoseTimeRunsBackwards) {
+  const auto bag = beginStereo();
+  for (const double s : {0.1, 0.2, 0.3, 0.1, 0.2, 0.3, 0.4}) {
+    addLeft(*bag, s);
+    addRight(*bag, s);
+  }
+  bag->commit();
+  const Read read = readAll(path());
+  EXPECT_THAT(read.stamps_s, ElementsAre(0.1, 0.2, 0.3, 0.4));
+  ASSERT_THAT(read.skipped, SizeIs(3));
+  EXPECT_THAT(read.skipped[0].reason, HasSubstr("backwards, from 0.3"));
+}
+
+TEST_P(BagRecordings, WithOneStampFarAheadLoseThatFrameAlone) {
+  for (const bool left : {true, false}) {
+    const auto bag = beginStereo();
+    for (int i = 1; i <= 100; ++i) {
+      // The left one comes first: its partner is waited for.
+      const std::int64_t recorded_ns = i * 100'000'000LL;
+      const double s = 0.1 * i, wrong_s = i == 50 ? 1e6 : s;
+      bag->write(left_, recorded_ns, image(left ? wrong_s : s, "bgr8", 10, 3));
+      bag->write(right_, recorded_ns + 1, image(left ? s : wrong_s, "mono8", 90, 1));
+    }
+    bag->commit();
+    const Read read = readAll(path());
+    EXPECT_THAT(read.numbers, SizeIs(99));
+    EXPECT_NEAR(read.info.duration_s, 9.9, 1e-6);
+    ASSERT_THAT(read.skipped, SizeIs(1));
+    EXPECT_EQ(read.skipped[0].number, 50U);
+    EXPECT_THAT(read.skipped[0].reason, HasSubstr(left ? "jumps ahead to 1000000" : "no image on"));
+  }
+}
+
+TEST_P(BagRecordings, FindsTheCameraOnTheRobotInTf) {
+  const auto bag = beginStereo();
+  TFMessageMsg message;
+  TransformStampedMsg camera;
+  camera.header = header(0.0, "/base_link");
+  camera.child_frame_id = "optical";
+  camera.transform.translation.z = 1.5;
+  message.transforms = {camera};
+  camera.header.frame_id = "base_footprint";
+  camera.child_frame_id = "base_link";
+  camera.transform.translation.z = 0.25;
+  message.transforms.push_back(camera);
+  bag->write("/tf_static", 1, message, true);
+  addLeft(*bag, 0.1);
+  addRight(*bag, 0.1);
+  bag->commit();
+  const Read read = readAll(path());
+  ASSERT_TRUE(read.info.T_base_camera);
+  EXPECT_DOUBLE_EQ(read.info.T_base_camera->translation().z(), 1.75);
+  BagTopics topics;
+  topics.base_frame = "base_link";
+  EXPECT_DOUBLE_EQ(readAll(path(), topics).info.T_base_camera->translation().z(), 1.5);
+  topics.base_frame = "torso";
+  EXPECT_THAT(messageOf([&] { readAll(path(), topics); }), HasSubstr("'torso'"));
+}
+
+TEST_P(BagRecordings, NamesTheTopicsWhereThereIsNoCamera) {
+  const auto bag = createBag(path());
+  bag->write("/scan", 1, LaserScanMsg());
+  bag->commit();
+  EXPECT_THAT(messageOf([&] { readAll(path()); }),
+              HasSubstr("its topics are /scan (sensor_msgs/LaserScan)"));
+  BagTopics topics;
+  topics.left = "/a";
+  topics.right = "/b";
+  EXPECT_THAT(messageOf([&] { readAll(path(), topics); }),
+              HasSubstr("no messages of the topic '/a'"));
+  topics.right = "";
+  EXPECT_THAT(messageOf([&] { readAll(path(), topics); }), HasSubstr("name both"));
+}
+
+TEST_P(BagRecordings, SaysThatACameraHasNoCalibration) {
+  const auto bag = createBag(path());
+  left_ = "/left/image_raw";
+  right_ = "/right/image_raw";
+  addLeft(*bag, 0.1);
+  addRight(*bag, 0.1);
+  bag->commit();
+  EXPECT_THAT(messageOf([&] { readAll(path()); }), HasSubstr("no camera_info"));
+}
+
+TEST_P(BagRecordings, WithoutAMessageAreAnError) {
+  createBag(path())->commit();
+  EXPECT_THAT(messageOf([&] { readAll(path()); }), HasSubstr("no message in the bag"));
+}
+
+TEST_P(BagRecordings, ReadsDepthInMillimetresAndInMetres) {
+  for (const bool metres : {false, true}) {
+    const auto bag = createBag(path());
+    ImageMsg depth = image(0.1, metres ? "32FC1" : "16UC1", 0, metres ? 4 : 2);
+    const std::uint16_t mm = 1500;
+    const float m = 1.5F;
+    std::memcpy(&depth.data[depth.step], metres ? static_cast<const void*>(&m) : &mm,
+                metres ? 4 : 2);
+    bag->write("/camera/rgb/camera_info", 1, cameraInfo(0.0));
+    bag->write("/camera/depth_registered/image_raw", 100000000, depth);
+    bag->write("/camera/rgb/image_raw", 100000000, image(0.1, "rgb8", 7, 3));
+    bag->commit();
+    const Read read = readAll(path());
+    EXPECT_EQ(read.info.sensor, SensorKind::kRgbd);
+    ASSERT_THAT(read.numbers, ElementsAre(1));
+    EXPECT_FLOAT_EQ(read.last.depth_m.at<float>(1, 0), 1.5F);
+    EXPECT_TRUE(std::isnan(read.last.depth_m.at<float>(0, 0)));
+  }
+}
+
+TEST_P(BagRecordings, GiveBackWhatASensorBagWasGiven) {
+  RecordingInfo info;
+  info.camera.left = {kWidth, kHeight, 30.1, 30.2, 15.3, 11.4};
+  info.sensor = SensorKind::kRgbd;
+  info.T_base_camera = asInBags(Eigen::Translation3d(0.1, 0.2, 1.3) *
+                                Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()));
+  Frame frame;
+  frame.image_bgr = cv::Mat(kHeight, kWidth, CV_8UC3);
+  cv::randu(frame.image_bgr, 0, 255);
+  frame.depth_m = cv::Mat(kHeight, kWidth, CV_32FC1);
+  cv::randu(frame.depth_m, 0.5, 6.0);
+  SensorBag bag(path(), info);
+  for (int i = 1; i <= 20; ++i) {
+    frame.stamp_s = i / 30.0;
+    bag.add(frame);
+  }
+  bag.commit();
+  const Read read = readAll(path());
+  EXPECT_THAT(read.numbers, SizeIs(20));
+  EXPECT_EQ(read.info.camera.left.fx, info.camera.left.fx);
+  EXPECT_EQ(read.info.camera.left.cy, info.camera.left.cy);
+  EXPECT_TRUE(read.info.T_base_camera->isApprox(*info.T_base_camera, 1e-15));
+  EXPECT_EQ(cv::norm(read.last.image_bgr, frame.image_bgr), 0.0);
+  EXPECT_EQ(cv::norm(read.last.depth_m, frame.depth_m), 0.0);
+  EXPECT_NEAR(read.stamps_s.back(), 20 / 30.0, 1e-9);
+}
+
+TEST_P(BagRecordings, OfCloudsGiveTheirColoursAsAnImage) {
+  auto cloud = pcl::make_shared<ColorCloud>(4, 3);
+  for (std::size_t i = 0; i < cloud->size(); ++i) {
+    auto& p = (*cloud)[i];
+    p.x = p.y = 0.0F;
+    p.z = static_cast<float>(i);
+    p.r = 200;
+  }
+  Frame frame;
+  frame.cloud = cloud;
+  frame.stamp_s = 1.5;
+  RecordingInfo info;
+  info.sensor = SensorKind::kCloud;
+  SensorBag bag(path(), info);
+  bag.add(frame);
+  bag.commit();
+  const Read read = readAll(path());
+  ASSERT_THAT(read.stamps_s, ElementsAre(1.5));
+  EXPECT_EQ(read.last.cloud->at(3, 2).z, 11.0F);
+  EXPECT_EQ(read.last.image_bgr.at<cv::Vec3b>(2, 3), cv::Vec3b(0, 0, 200));
+}
+
+TEST_P(BagRecordings, ThatAreCutOffGiveTheirBeginning) {
+  auto bag = beginStereo();
+  for (int i = 1; i <= 2000; ++i) {
+    addLeft(*bag, 0.1 * i);
+    addRight(*bag, 0.1 * i);
+  }
+  bag->commit();
+  test::truncateBy(path(), std::filesystem::file_size(path()) / 2);
+  const Read read = readAll(path());
+  EXPECT_THAT(read.numbers.size(), testing::AllOf(testing::Gt(600U), testing::Lt(1400U)));
+  EXPECT_THAT(read.info.lost, HasSubstr("cut off"));
+}
+
+TEST_P(BagRecordings, GiveScansWithTheLatestOdometry) {
+  SensorBag bag(path(), {});
+  Eigen::Isometry3d T_base_scanner = Eigen::Isometry3d::Identity();
+  T_base_scanner.translation() = Eigen::Vector3d(0.2, 0.0, 0.3);
+  bag.setScanner(T_base_scanner, 10.0F);
+  for (int i = 0; i < 4; ++i) {
+    const double s = 0.1 * i;
+    bag.addTruth(s, {{1.0 * i, 2.0}, 0.5}, {});
+    bag.addOdometry(s, {{1.0 * i, 0.0}, 0.25});
+    if (i % 2 == 1) bag.add(s, LaserScan{-1.5, 0.5, {1.0F, 12.0F, 3.0F}});
+  }
+  bag.commit();
+  const auto log = openLaserLog(path());
+  ASSERT_TRUE(log->T_base_scanner());
+  EXPECT_DOUBLE_EQ(log->T_base_scanner()->position.x(), 0.2);
+  LaserReading reading;
+  ASSERT_TRUE(log->next(reading));
+  ASSERT_TRUE(log->next(reading));
+  EXPECT_DOUBLE_EQ(reading.stamp_s, 0.3);
+  EXPECT_THAT(reading.scan.ranges_m,
+              ElementsAre(1.0F, std::numeric_limits<float>::infinity(), 3.0F));
+  EXPECT_DOUBLE_EQ(reading.odometry.position.x(), 3.0);
+  EXPECT_NEAR(reading.odometry.yaw_rad, 0.25, 1e-12);
+  ASSERT_TRUE(reading.reference);
+  EXPECT_DOUBLE_EQ(reading.reference->position.y(), 2.0);
+  EXPECT_FALSE(log->next(reading));
+  EXPECT_THAT(readBagPoses(path(), {}), SizeIs(4));
+}
+
+TEST(BagImageReader, KnowsTheBayerPatternByItsFirstRow) {
+  ImageMsg message = image(0.0, "bayer_rggb8", 0, 1);
+  for (std::size_t v = 0; v < kHeight; v += 2) {  // only the red pixels have light
+    for (std::size_t u = 0; u < kWidth; u += 2) message.data[v * message.step + u] = 200;
+  }
+  cv::Mat bgr;
+  BagImageReader().readColor(message, bgr);
+  EXPECT_EQ(bgr.at<cv::Vec3b>(10, 10), cv::Vec3b(0, 0, 200));
+}
+
+TEST(BagImageReader, ReadsCompressedDepth) {
+  cv::Mat raw(kHeight, kWidth, CV_16UC1, cv::Scalar(2000));
+  raw.at<std::uint16_t>(0, 0) = 0;
+  std::vector<std::uint8_t> png;
+  cv::imencode(".png", raw, png);
+  CompressedImageMsg message;
+  message.format = "16UC1; compressedDepth";
+  message.data.assign(12, 0);
+  message.data.insert(message.data.end(), png.begin(), png.end());
+  cv::Mat depth_m;
+  BagImageReader reader;
+  reader.readDepth(message, depth_m);
+  EXPECT_FLOAT_EQ(depth_m.at<float>(5, 5), 2.0F);
+  EXPECT_TRUE(std::isnan(depth_m.at<float>(0, 0)));
+  message.format = "32FC1; compressedDepth png";  // inverse depth: a / (value - b)
+  const float a = 4000.0F, b = 1000.0F;
+  std::memcpy(&message.data[4], &a, 4);
+  std::memcpy(&message.data[8], &b, 4);
+  reader.readDepth(message, depth_m);
+  EXPECT_FLOAT_EQ(depth_m.at<float>(5, 5), 4.0F);
+  message.data.resize(20);
+  EXPECT_THAT(messageOf([&] { reader.readDepth(message, depth_m); }), HasSubstr("truncated"));
+}
+
+TEST(BagImageReader, SaysWhatItCannotRead) {
+  cv::Mat out;
+  BagImageReader reader;
+  EXPECT_THAT(messageOf([&] { reader.readColor(image(0, "nv12", 0, 3), out); }),
+              HasSubstr("'nv12'"));
+  ImageMsg shorter = image(0, "bgr8", 0, 3);
+  shorter.data.resize(100);
+  EXPECT_THAT(messageOf([&] { reader.readColor(shorter, out); }), HasSubstr("fewer bytes"));
+}
+
+TEST(RealBags, AreListedRight) {
+  HEEL_NEED_DATA("laser_bags/demo_stationary_simple_environment.bag");
+  const BagSurvey survey =
+      surveyBag(test::dataFolder() / "laser_bags/demo_stationary_simple_environment.bag");
+  ASSERT_THAT(survey.topics, SizeIs(1));
+  const BagTopicSummary& scans = survey.topics[0];
+  EXPECT_EQ(scans.topic.name, "/scan");
+  EXPECT_TRUE(scans.topic.holds<LaserScanMsg>());
+  EXPECT_EQ(scans.count, 1265U);
+  EXPECT_EQ(scans.frame_id, "laser");
+  EXPECT_NEAR(scans.duration_s(), 126.0, 0.1);
+  EXPECT_THAT(survey.lost, IsEmpty());
+}
+
+TEST(RealBags, OfScansAloneSayThatThereIsNoOdometry) {
+  HEEL_NEED_DATA("laser_bags/demo_stationary_simple_environment.bag");
+  const auto path = test::dataFolder() / "laser_bags/demo_stationary_simple_environment.bag";
+  EXPECT_THAT(messageOf([&] { openLaserLog(path); }), HasSubstr("no odometry"));
+}
+
+}  // namespace
+}  // namespace heel

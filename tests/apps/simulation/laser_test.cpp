@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tests/apps/simulation/scenes.hpp"
+#include <heel/apps/simulation/simulator.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace heel {
+namespace {
+
+/// A laser at the camera's place, so that both see the same.
+Scene sceneWithLaserAtCamera() {
+  Scene scene = test::squareRoom();
+  scene.people.push_back(test::standingPerson("eva", 2.0, 0.4));
+  Furniture pillar;
+  pillar.parts.emplace_back();
+  pillar.parts[0].shape = FurniturePart::Shape::kCylinder;
+  pillar.parts[0].base = {1.8, -0.6, 0.0};
+  pillar.parts[0].radius_m = 0.2;
+  pillar.parts[0].height_m = 1.5;
+  scene.furniture.push_back(pillar);
+  scene.robot.laser.at = scene.robot.camera.at;
+  scene.robot.camera.height = 121;  // So that a row of pixels is level with the camera.
+  return scene;
+}
+
+TEST(Laser, AgreesWithTheDepthImage) {
+  Scene scene = sceneWithLaserAtCamera();
+  scene.robot.laser.noise_m = 0.0;
+  scene.robot.laser.view_rad = 0.9;
+  scene.robot.laser.beams = 400;
+  Simulator simulator(scene);
+  const Readings& readings = simulator.step(0.0);
+  const PinholeCamera camera = simulator.camera().left;
+  int compared = 0;
+  for (int i = 0; i < 400; ++i) {
+    const double angle = readings.laser->first_rad + i * readings.laser->step_rad;
+    const double u = camera.cx - camera.fx * std::tan(angle);
+    const int near = static_cast<int>(std::lround(u));
+    const double depth = readings.laser->ranges_m[static_cast<std::size_t>(i)] * std::cos(angle);
+    const float* row = readings.stereo->depth_m.ptr<float>(60);
+    const double low = std::min({row[near - 1], row[near], row[near + 1]});
+    const double high = std::max({row[near - 1], row[near], row[near + 1]});
+    EXPECT_GE(depth, low - 0.01);
+    EXPECT_LE(depth, high + 0.01);
+    compared += high - low < 0.05;
+  }
+  EXPECT_GT(compared, 300);
+}
+
+TEST(Laser, HasTheNoiseThatIsConfigured) {
+  Scene scene = test::squareRoom();
+  scene.robot.laser.at = {0.0, 0.0, 1.0};
+  scene.robot.laser.noise_m = 0.02;
+  scene.robot.laser.view_rad = 0.02;
+  scene.robot.laser.beams = 21;
+  Simulator simulator(scene, {3, 0, false});
+  double sum = 0.0, sum2 = 0.0;
+  int count = 0;
+  for (int i = 0; i < 200; ++i) {
+    for (const float range : simulator.step(0.1).laser->ranges_m) {
+      const double error = range - 2.94;  // The wall's face; obliqueness adds under 0.2 mm.
+      sum += error;
+      sum2 += error * error;
+      ++count;
+    }
+  }
+  EXPECT_NEAR(sum / count, 0.0, 0.002);
+  EXPECT_NEAR(std::sqrt(sum2 / count), 0.02, 0.001);
+}
+
+TEST(Laser, SeesNothingBeyondItsRange) {
+  Scene scene = test::squareRoom();
+  scene.robot.laser.max_range_m = 2.0;
+  Simulator simulator(scene, {1, 0, false});
+  for (const float range : simulator.step(0.0).laser->ranges_m) EXPECT_TRUE(std::isinf(range));
+}
+
+TEST(Laser, MeetsLegs) {
+  Scene scene = test::squareRoom();
+  scene.people.push_back(test::standingPerson("eva", 2.0, 0.0));
+  Simulator simulator(scene, {1, 0, false});
+  int hits = 0;
+  for (const float range : simulator.step(0.0).laser->ranges_m) hits += range < 2.2F;
+  EXPECT_GT(hits, 3);
+  EXPECT_LT(hits, 20);
+}
+
+}  // namespace
+}  // namespace heel
