@@ -101,7 +101,7 @@ class BagRecordings : public testing::TestWithParam<const char*> {
   TempFolder folder_;
   std::string left_, right_;
 };
-INSTANTIATE_TEST_SUITE_P(Forms, BagRecordings, testing::Values("r.bag", "r.db3"));
+INSTANTIATE_TEST_SUITE_P(Forms, BagRecordings, testing::Values("r.bag", "r.db3", "r.mcap"));
 
 TEST_P(BagRecordings, PairsStereoImagesWithinHalfAFrame) {
   const auto bag = beginStereo();
@@ -134,9 +134,11 @@ TEST_P(BagRecordings, TakesTheNearestPartnerInWhateverOrderTheyCome) {
 
 TEST_P(BagRecordings, LeavesOutFramesWhoseTimeRunsBackwards) {
   const auto bag = beginStereo();
+  std::int64_t recorded_ns = 0;
   for (const double s : {0.1, 0.2, 0.3, 0.1, 0.2, 0.3, 0.4}) {
-    addLeft(*bag, s);
-    addRight(*bag, s);
+    recorded_ns += 100'000'000;
+    bag->write(left_, recorded_ns, image(s, "bgr8", 10, 3));
+    bag->write(right_, recorded_ns, image(s, "mono8", 90, 1));
   }
   bag->commit();
   const Read read = readAll(path());
