@@ -68,13 +68,9 @@ void ChunkedBagReader::measure() {
   std::sort(ends.begin(), ends.end());
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   std::vector<bool> is_met(topics_.size(), false);
-  const BagQuery chosen = std::exchange(query_, {});
   for (const std::size_t i : ends) {
     if (i == kNone) continue;
-    BagBytes unpacked;
-    std::vector<Entry> entries;
-    openChunk(chunks_[i], unpacked, entries);
-    for (const Entry& entry : entries) {
+    for (const Entry& entry : opened(i).entries) {
       BagIndex::Topic& topic = index.topics[entry.topic];
       const bool met = is_met[entry.topic];
       is_met[entry.topic] = true;
@@ -82,7 +78,6 @@ void ChunkedBagReader::measure() {
       topic.last_ns = met ? std::max(topic.last_ns, entry.stamp_ns) : entry.stamp_ns;
     }
   }
-  query_ = chosen;
   for (std::size_t i = 0; i < topics_.size(); ++i) index.topics[i].count = counts_[i];
   index_ = std::move(index);
 }
@@ -97,6 +92,13 @@ void ChunkedBagReader::select(const BagQuery& query) {
   if (!has_index_) rewindScan();
 }
 
+const ChunkedBagReader::Opened& ChunkedBagReader::opened(std::size_t chunk) {
+  if (last_.chunk == chunk && damages_ == 0) return last_;
+  last_ = {chunk, std::make_shared<BagBytes>(), {}};
+  openChunk(chunks_[chunk], *last_.bytes, last_.entries);
+  return last_;
+}
+
 void ChunkedBagReader::open(std::size_t chunk) {
   const Chunk& about = chunks_[chunk];
   const bool is_wanted =
@@ -104,19 +106,17 @@ void ChunkedBagReader::open(std::size_t chunk) {
       std::any_of(about.topics.begin(), about.topics.end(),
                   [&](std::size_t topic) { return wants(topics_[topic].name); });
   if (!is_wanted) return;
-  auto unpacked = std::make_shared<BagBytes>();
-  std::vector<Entry> entries;
-  openChunk(about, *unpacked, entries);
-  Open opened;
-  opened.is_in_file = unpacked->empty();
-  opened.bytes = std::move(unpacked);
-  for (const Entry& entry : entries) {
+  const Opened& now = opened(chunk);
+  Open kept;
+  kept.is_in_file = now.bytes->empty();
+  kept.bytes = now.bytes;
+  for (const Entry& entry : now.entries) {
     if (!wants(topics_[entry.topic].name, entry.stamp_ns)) continue;
     queue_.push({entry, chunk});
-    ++opened.left;
+    ++kept.left;
   }
-  if (opened.left == 0) return;
-  open_[chunk] = std::move(opened);
+  if (kept.left == 0) return;
+  open_[chunk] = std::move(kept);
   keepWithinLimit(chunk);
 }
 
@@ -140,9 +140,7 @@ const std::uint8_t* ChunkedBagReader::bytesOf(const Place& place) {
     return file_.read(place.entry.at, place.entry.size, piece_) ? piece_.data() : nullptr;
   }
   if (!chunk.bytes) {
-    chunk.bytes = std::make_shared<BagBytes>();
-    std::vector<Entry> known;
-    openChunk(chunks_[place.chunk], *chunk.bytes, known);
+    chunk.bytes = opened(place.chunk).bytes;
     keepWithinLimit(place.chunk);
   }
   given_ = chunk.bytes;

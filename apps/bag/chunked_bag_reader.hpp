@@ -70,7 +70,15 @@ class ChunkedBagReader : public BagReader {
     bool operator>(const Place& other) const;
   };
 
+  /// The chunk that was opened last: often it is the first that the next query wants.
+  struct Opened {
+    std::size_t chunk = static_cast<std::size_t>(-1);
+    std::shared_ptr<BagBytes> bytes;
+    std::vector<Entry> entries;
+  };
+
   void measure();
+  const Opened& opened(std::size_t chunk);
   void open(std::size_t chunk);
   const std::uint8_t* bytesOf(const Place& place);
   void keepWithinLimit(std::size_t chunk);
@@ -80,6 +88,7 @@ class ChunkedBagReader : public BagReader {
   std::optional<BagIndex> index_;
   std::vector<std::size_t> counts_;
 
+  Opened last_;
   std::size_t next_chunk_ = 0;
   std::map<std::size_t, Open> open_;
   std::priority_queue<Place, std::vector<Place>, std::greater<>> queue_;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "apps/recording/bag_topics.hpp"
+#include "apps/recording/time_span.hpp"
 
 #include <filesystem>
 
@@ -17,6 +18,9 @@ namespace heel {
 
 /// Topics of images and clouds, and the base frame.
 void addCameraTopics(CLI::App& verb, BagTopics& topics);
+
+/// The part of a recording that is read.
+void addTimeSpan(CLI::App& verb, TimeSpan& span);
 
 /// The topic of odometry.
 void addOdometryTopic(CLI::App& verb, BagTopics& topics);

@@ -5,7 +5,7 @@
 /// What `heel inspect` tells of a bag.
 #pragma once
 
-#include "apps/recording/bag_topics.hpp"
+#include "apps/recording/recording.hpp"
 
 #include <filesystem>
 
@@ -14,6 +14,6 @@ namespace heel {
 /// Prints a bag's topics and frames. Whether there is a camera in it, whose recording can be
 /// inspected too.
 /// @throws std::runtime_error  if the bag can't be read, or has not the topics that are named.
-bool inspectBag(const std::filesystem::path& path, const BagTopics& topics);
+bool inspectBag(const std::filesystem::path& path, const RecordingParams& opening);
 
 }  // namespace heel
