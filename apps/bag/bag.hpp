@@ -154,7 +154,8 @@ class BagWriter {
     for (std::size_t i = 0; i < topics_.size(); ++i) {
       if (topics_[i].name == name) return i;
     }
-    topics_.push_back({name, Message::kType, Message::kMd5, definitionOf<Message>(form()), latched});
+    topics_.push_back(
+        {name, Message::kType, Message::kMd5, definitionOf<Message>(form()), latched});
     add(topics_.size() - 1);
     return topics_.size() - 1;
   }
@@ -169,8 +170,8 @@ struct BagPlan {
   std::string by = "bag";  ///< Who writes: a bag of that name is replaced only if they made it.
 };
 
-/// Begins a bag: `X.bag` in ROS 1's form, `X.mcap` and `X.db3` as the one file of ROS 2's, any other
-/// name as ROS 2's folder (metadata.yaml and a .db3).
+/// Begins a bag: `X.bag` in ROS 1's form, `X.mcap` and `X.db3` as the one file of ROS 2's, any
+/// other name as ROS 2's folder (metadata.yaml and a .db3).
 /// @throws std::invalid_argument  if it may not go there, see Output.
 /// @throws std::runtime_error  if it can't be made.
 std::unique_ptr<BagWriter> createBag(const BagPlan& plan);

@@ -32,8 +32,8 @@ bool BagFile::read(std::uint64_t at, std::uint64_t count, BagBytes& bytes) const
   bytes.resize(static_cast<std::size_t>(there));
   std::size_t done = 0;
   while (done < bytes.size()) {
-    const ssize_t now = pread(file_->get(), &bytes[done], bytes.size() - done,
-                              static_cast<off_t>(at + done));
+    const ssize_t now =
+        pread(file_->get(), &bytes[done], bytes.size() - done, static_cast<off_t>(at + done));
     if (now <= 0) break;
     done += static_cast<std::size_t>(now);
   }

@@ -24,8 +24,8 @@ BagSequence::BagSequence(const std::filesystem::path& path,
       files_.push_back(std::move(reader));
     } catch (const std::runtime_error& error) {
       if (first_problem.empty()) first_problem = error.what();
-      unopened_ = name_ + ": " + file.filename().string() +
-                  " can't be read; what else is there was read";
+      unopened_ =
+          name_ + ": " + file.filename().string() + " can't be read; what else is there was read";
     }
   }
   if (files_.empty()) throw std::runtime_error(first_problem);

@@ -44,7 +44,11 @@ void ChunkedBagReader::lose(const std::string& what) {
 }
 
 const BagIndex* ChunkedBagReader::index() {
-  if (has_index_ && !index_) measure();
+  if (has_index_ && !index_) {
+    const auto told = std::pair(lost_, damages_);
+    measure();
+    std::tie(lost_, damages_) = told;
+  }
   return index_ ? &*index_ : nullptr;
 }
 
@@ -93,18 +97,20 @@ void ChunkedBagReader::select(const BagQuery& query) {
 }
 
 const ChunkedBagReader::Opened& ChunkedBagReader::opened(std::size_t chunk) {
-  if (last_.chunk == chunk && damages_ == 0) return last_;
+  // What is damaged is told of again.
+  if (last_.chunk == chunk && !last_.is_damaged) return last_;
   last_ = {chunk, std::make_shared<BagBytes>(), {}};
+  const std::uint64_t damages = damages_;
   openChunk(chunks_[chunk], *last_.bytes, last_.entries);
+  last_.is_damaged = damages_ > damages;
   return last_;
 }
 
 void ChunkedBagReader::open(std::size_t chunk) {
   const Chunk& about = chunks_[chunk];
-  const bool is_wanted =
-      overlaps(query_, about.first_ns, about.last_ns) &&
-      std::any_of(about.topics.begin(), about.topics.end(),
-                  [&](std::size_t topic) { return wants(topics_[topic].name); });
+  const bool is_wanted = overlaps(query_, about.first_ns, about.last_ns) &&
+                         std::any_of(about.topics.begin(), about.topics.end(),
+                                     [&](std::size_t topic) { return wants(topics_[topic].name); });
   if (!is_wanted) return;
   const Opened& now = opened(chunk);
   Open kept;
@@ -140,7 +146,9 @@ const std::uint8_t* ChunkedBagReader::bytesOf(const Place& place) {
     return file_.read(place.entry.at, place.entry.size, piece_) ? piece_.data() : nullptr;
   }
   if (!chunk.bytes) {
+    const auto told = std::pair(lost_, damages_);
     chunk.bytes = opened(place.chunk).bytes;
+    std::tie(lost_, damages_) = told;
     keepWithinLimit(place.chunk);
   }
   given_ = chunk.bytes;

@@ -75,6 +75,7 @@ class ChunkedBagReader : public BagReader {
     std::size_t chunk = static_cast<std::size_t>(-1);
     std::shared_ptr<BagBytes> bytes;
     std::vector<Entry> entries;
+    bool is_damaged = false;
   };
 
   void measure();

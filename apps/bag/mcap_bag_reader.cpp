@@ -148,7 +148,8 @@ bool McapBagReader::readIndex(McapFields summary) {
     }
     // A writer may leave out the messages' index: then any of them may be in it.
     if (channels_of_chunk[i].empty()) {
-      for (std::size_t topic = 0; topic < topics_.size(); ++topic) chunks[i].topics.push_back(topic);
+      for (std::size_t topic = 0; topic < topics_.size(); ++topic)
+        chunks[i].topics.push_back(topic);
     }
   }
   if (messages > 0 && topics_.empty() && counts.empty()) return false;
@@ -204,8 +205,7 @@ bool McapBagReader::take(McapRecord kind, McapFields fields, BagMessage& message
 }
 
 /// Unpacks a chunk whose record's content begins at `at`, as far as that goes.
-bool McapBagReader::unpack(McapFields fields, std::uint64_t at, bool is_whole,
-                           BagBytes& unpacked) {
+bool McapBagReader::unpack(McapFields fields, std::uint64_t at, bool is_whole, BagBytes& unpacked) {
   fields.time();
   fields.time();
   const auto size = fields.number<std::uint64_t>();
@@ -240,8 +240,7 @@ bool McapBagReader::unpack(McapFields fields, std::uint64_t at, bool is_whole,
   return false;
 }
 
-void McapBagReader::openChunk(const Chunk& chunk, BagBytes& unpacked,
-                              std::vector<Entry>& entries) {
+void McapBagReader::openChunk(const Chunk& chunk, BagBytes& unpacked, std::vector<Entry>& entries) {
   Record record;
   const bool is_chunk = recordAt(chunk.at, record) && record.kind == McapRecord::kChunk &&
                         file_.read(chunk.at + kMcapRecordHead, record.size, content_);
@@ -282,7 +281,8 @@ bool McapBagReader::nextInChunk(BagMessage& message) {
       break;
     }
     chunk_at_ += kMcapRecordHead + static_cast<std::size_t>(size);
-    if (take(kind, McapFields(records.rest(), static_cast<std::size_t>(size)), message)) return true;
+    if (take(kind, McapFields(records.rest(), static_cast<std::size_t>(size)), message))
+      return true;
   }
   return false;
 }
@@ -299,8 +299,8 @@ bool McapBagReader::scanNext(BagMessage& message) {
 bool McapBagReader::scanRecord(BagMessage& message) {
   const std::uint64_t begin = at_;
   Record record;
-  const bool is_whole = recordAt(begin, record) &&
-                        record.size <= file_.size() - begin - kMcapRecordHead;
+  const bool is_whole =
+      recordAt(begin, record) && record.size <= file_.size() - begin - kMcapRecordHead;
   const bool is_cut = !is_whole && !is_closed_;
   at_end_ = !is_whole || record.kind == McapRecord::kFooter;
   if (is_cut) {

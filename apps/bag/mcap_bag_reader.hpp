@@ -43,9 +43,9 @@ class McapBagReader final : public ChunkedBagReader {
 
   BagForm form_ = BagForm::kRos2;
   bool knows_form_ = false;
-  std::map<std::uint16_t, std::string> types_;                 // by schema
+  std::map<std::uint16_t, std::string> types_;  // by schema
   std::map<std::uint16_t, std::size_t> topic_of_channel_;
-  std::uint64_t at_ = 0;                                       // of the scan
+  std::uint64_t at_ = 0;  // of the scan
   bool at_end_ = false, is_closed_ = false;
   BagBytes content_, chunk_;
   std::size_t chunk_at_ = 0;

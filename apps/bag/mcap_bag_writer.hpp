@@ -16,8 +16,8 @@ namespace heel {
 
 class Output;
 
-/// Writes a file as `ros2 bag record` does: messages in CDR, in chunks that are packed by zstd where
-/// that makes them smaller, with definitions, indexes, statistics and checksums.
+/// Writes a file as `ros2 bag record` does: messages in CDR, in chunks that are packed by zstd
+/// where that makes them smaller, with definitions, indexes, statistics and checksums.
 class McapBagWriter final : public BagWriter {
  public:
   /// @throws std::invalid_argument, std::runtime_error  as createBag().

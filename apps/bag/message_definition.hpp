@@ -30,7 +30,8 @@ std::string typeName() {
   } else if constexpr (IsVector<T>::value) {
     return typeName<Form, typename T::value_type>() + "[]";
   } else if constexpr (IsArray<T>::value) {
-    return typeName<Form, typename T::value_type>() + "[" + std::to_string(std::tuple_size_v<T>) + "]";
+    return typeName<Form, typename T::value_type>() + "[" + std::to_string(std::tuple_size_v<T>) +
+           "]";
   } else {
     return T::kType;
   }

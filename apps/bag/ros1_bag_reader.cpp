@@ -89,15 +89,13 @@ bool Ros1BagReader::readIndex() {
   return true;
 }
 
-void Ros1BagReader::openChunk(const Chunk& chunk, BagBytes& unpacked,
-                              std::vector<Entry>& entries) {
+void Ros1BagReader::openChunk(const Chunk& chunk, BagBytes& unpacked, std::vector<Entry>& entries) {
   BagWindow file(file_, 0, file_.size());
   const std::string what = "the chunk at byte " + std::to_string(chunk.at);
   const std::uint8_t* length = file.at(chunk.at, 4);
   const std::uint64_t header =
       length == nullptr ? kLongestHeader + 1 : std::uint64_t{numberAt(length)};
-  const std::uint8_t* bytes =
-      header > kLongestHeader ? nullptr : file.at(chunk.at + 4, header + 4);
+  const std::uint8_t* bytes = header > kLongestHeader ? nullptr : file.at(chunk.at + 4, header + 4);
   Ros1Fields fields;
   if (bytes == nullptr || !fields.parse(bytes, static_cast<std::size_t>(header)) ||
       fields.kind() != Ros1Record::kChunk) {
@@ -137,9 +135,8 @@ void Ros1BagReader::listEntries(BagWindow window, std::uint64_t begin, const std
   while (at < window.size()) {
     const std::uint8_t* length = window.at(at, 4);
     const std::uint64_t header = length == nullptr ? 0 : numberAt(length);
-    const std::uint8_t* bytes = header < kLeastHeader || header > kLongestHeader
-                                    ? nullptr
-                                    : window.at(at + 4, header + 4);
+    const std::uint8_t* bytes =
+        header < kLeastHeader || header > kLongestHeader ? nullptr : window.at(at + 4, header + 4);
     const std::uint64_t data_at = at + 8 + header;
     if (bytes == nullptr || numberAt(bytes + header) > window.size() - data_at ||
         !fields.parse(bytes, static_cast<std::size_t>(header)) || !fields.kind()) {
@@ -329,7 +326,8 @@ bool Ros1BagReader::scanNext(BagMessage& message) {
     if (nextInChunk(message)) return true;
     if (!nextRecord()) {
       if (index_at_ == 0 && lost_.empty()) {
-        lost_ = file_.name() + ": the bag was not closed by its recorder; all that is there was read";
+        lost_ =
+            file_.name() + ": the bag was not closed by its recorder; all that is there was read";
       }
       if (index_at_ > file_.size() && lost_.empty()) {
         lose("the bag is cut off at byte " + std::to_string(file_.size()));

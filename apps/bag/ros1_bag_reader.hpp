@@ -13,8 +13,8 @@
 
 namespace heel {
 
-/// Reads a ROS 1 bag (format 2.0) by the index at its end; one whose recorder died, or which was cut
-/// off or damaged there, record by record.
+/// Reads a ROS 1 bag (format 2.0) by the index at its end; one whose recorder died, or which was
+/// cut off or damaged there, record by record.
 class Ros1BagReader final : public ChunkedBagReader {
  public:
   /// @throws std::runtime_error  if it can't be opened or is no bag of format 2.0.

@@ -183,7 +183,7 @@ bool Ros2BagReader::next(BagMessage& message) {
     } catch (const std::runtime_error&) {
       const fs::path& file = files_[next_file_ - 1];
       std::error_code none;
-      lose(file.filename().string() + (!fs::exists(file)                      ? " is missing"
+      lose(file.filename().string() + (!fs::exists(file)                ? " is missing"
                                        : fs::file_size(file, none) == 0 ? " is empty"
                                                                         : " can't be read"));
       order_.reset();

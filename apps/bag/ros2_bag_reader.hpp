@@ -48,7 +48,7 @@ class Ros2BagReader final : public BagReader {
   std::optional<SqliteFile> file_;
   std::optional<SqliteQuery> order_;     // numbers and times of rows
   std::optional<SqliteQuery> messages_;  // a row by its number
-  std::optional<Ros2PageScan> scan_;  // goes on where SQLite can't
+  std::optional<Ros2PageScan> scan_;     // goes on where SQLite can't
   std::map<std::int64_t, std::size_t> topic_of_id_;
   std::pair<std::int64_t, std::int64_t> last_;  // time and number of the last row
   std::int64_t last_scanned_ = 0;

@@ -21,9 +21,9 @@
 
 namespace heel {
 
-/// The images or clouds of a bag. It is read as a stream: the next few messages, which wait for their
-/// partner and tell whether a time can be, are all that is held. Two images are of one frame if their stamps are less than half a
-/// frame apart.
+/// The images or clouds of a bag. It is read as a stream: the next few messages, which wait for
+/// their partner and tell whether a time can be, are all that is held. Two images are of one frame
+/// if their stamps are less than half a frame apart.
 ///
 /// Raw images are rectified as camera_info tells; tf tells the camera's place on the robot. A bag
 /// that is damaged gives what can be read, and RecordingInfo::lost tells the rest.

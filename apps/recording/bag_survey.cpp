@@ -62,8 +62,10 @@ class Surveyor {
       if (told.count == 0 || !topic.is_known) continue;
       // What is sent once counts until it is sent again.
       const bool is_kept = isLatched(topic.topic) || topic.topic.holds<CameraInfoMsg>();
-      if (!lookAtFirst(topic, survey_.queryOf({topic.topic.name}, false))) {
-        if (is_kept) lookAtFirst(topic, {{topic.topic.name}});
+      BagQuery first = survey_.queryOf({topic.topic.name}, false);
+      first.from_ns = std::max(first.from_ns, told.first_ns);
+      if (!lookAtFirst(topic, first)) {
+        if (is_kept) lookAtFirst(topic, BagQuery{{topic.topic.name}});
         if (!is_kept) topic.count = 0;
       }
       if (!is_kept) cut(topic);

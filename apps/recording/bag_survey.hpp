@@ -23,7 +23,7 @@ namespace heel {
 /// The messages of one topic, and what the first of them tells.
 struct BagTopicSummary {
   BagTopic topic;
-  bool is_known = false;  ///< We can read its messages.
+  bool is_known = false;   ///< We can read its messages.
   std::size_t count = 0;   ///< In a part of a bag: about so many.
   std::size_t broken = 0;  ///< Of those that were looked at, whose beginning can't be read.
   /// Whether stamps are those in the messages; else when they were recorded.
@@ -73,8 +73,8 @@ struct BagSurvey {
   std::string topicNames() const;
 };
 
-/// Looks at the first message of each topic, at all of latched transforms, and at tf here and there;
-/// at all messages if the bag has no index that holds.
+/// Looks at the first message of each topic, at all of latched transforms, and at tf here and
+/// there; at all messages if the bag has no index that holds.
 /// @throws std::runtime_error  as openBag(); if there is no message in it, or in the span.
 BagSurvey surveyBag(const std::filesystem::path& path, const TimeSpan& span = {});
 

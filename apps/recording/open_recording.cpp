@@ -22,8 +22,9 @@ std::unique_ptr<Recording> openKnownLayout(const fs::path& path, const Recording
   if (isBag(path)) return BagRecording::open(path, params);
   if (!fs::is_directory(path)) {
     if (PcdRecording::fits(path)) return PcdRecording::open(path, params);
-    throw std::runtime_error(path.string() +
-                             " is neither a folder, nor a PCD file (.pcd), nor a bag (.bag, .db3, .mcap)");
+    throw std::runtime_error(
+        path.string() +
+        " is neither a folder, nor a PCD file (.pcd), nor a bag (.bag, .db3, .mcap)");
   }
   if (RgbdRecording::fits(path)) return RgbdRecording::open(path, params);
   if (StereoRecording::fits(path)) return StereoRecording::open(path, params);
@@ -72,8 +73,8 @@ std::string nothingReadMessage(const Recording& recording,
 std::string leftOutNote(const std::vector<SkippedFrame>& skipped) {
   if (skipped.empty()) return {};
   return "; " + std::to_string(skipped.size()) +
-         (skipped.size() == 1 ? " frame was" : " frames were") + " left out, the first: " +
-         skipped.front().reason;
+         (skipped.size() == 1 ? " frame was" : " frames were") +
+         " left out, the first: " + skipped.front().reason;
 }
 
 }  // namespace heel

@@ -81,7 +81,8 @@ class Recording {
 /// Opens whatever recording `path` holds: a folder of stereo images, an RGB-D folder in the TUM
 /// layout, a folder of PCD files (or one file), or a bag of ROS 1 or ROS 2 (SQLite or MCAP).
 /// @throws std::runtime_error     with one sentence that names the file and the reason.
-/// @throws std::invalid_argument  if a parameter is not positive, or the span ends before it begins.
+/// @throws std::invalid_argument  if a parameter is not positive, or the span ends before it
+/// begins.
 std::unique_ptr<Recording> openRecording(const std::filesystem::path& path,
                                          const RecordingParams& params = {});
 

@@ -30,9 +30,9 @@ bool isAheadOf(const std::vector<double>& following_s, double stamp_s, double la
 void checkGoesOn(double stamp_s, double last_s) {
   if (stamp_s > last_s) return;
   const bool stalls = stamp_s == last_s;
-  throw std::runtime_error(std::string("the time ") +
-                           (stalls ? "stands still" : "runs backwards") + ", from " +
-                           std::to_string(last_s) + " s to " + std::to_string(stamp_s) + " s");
+  throw std::runtime_error(std::string("the time ") + (stalls ? "stands still" : "runs backwards") +
+                           ", from " + std::to_string(last_s) + " s to " + std::to_string(stamp_s) +
+                           " s");
 }
 
 void checkIsNotAhead(double stamp_s, double last_s, const std::vector<double>& following_s) {
@@ -59,9 +59,7 @@ double StampOrder::rate_hz() const {
 bool StampOrder::wouldLoseNext(std::size_t index, double last_s) const {
   constexpr std::size_t kFollowing = 100;
   const std::size_t end = std::min(stamps_s_.size(), index + 1 + kFollowing);
-  const auto at = [&](std::size_t i) {
-    return stamps_s_.begin() + static_cast<std::ptrdiff_t>(i);
-  };
+  const auto at = [&](std::size_t i) { return stamps_s_.begin() + static_cast<std::ptrdiff_t>(i); };
   return isAheadOf({at(index + 1), at(end)}, stamps_s_[index], last_s);
 }
 

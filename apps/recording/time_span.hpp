@@ -5,17 +5,18 @@
 /// A part of a recording.
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 namespace heel {
 
-/// From when to when a recording is read; both count from its beginning, which in a bag is when the
-/// first message was recorded. [s]
+/// Which part of a recording is read. Both times count from its beginning; a bag begins when its
+/// first message was recorded.
 struct TimeSpan {
-  double from_s = 0.0;
-  double to_s = std::numeric_limits<double>::infinity();
+  double from_s = 0.0;                                    ///< From here on.
+  double to_s = std::numeric_limits<double>::infinity();  ///< Up to here; both ends are read.
 
-  bool isAll() const { return from_s <= 0.0 && to_s == std::numeric_limits<double>::infinity(); }
+  bool isAll() const { return from_s <= 0.0 && std::isinf(to_s); }
 };
 
 }  // namespace heel

@@ -63,10 +63,10 @@ class McapPeer : public testing::TestWithParam<const char*> {
 
   /// What the peer prints.
   std::string copy(const std::filesystem::path& from, const std::filesystem::path& to) const {
-    const std::string command =
-        "NODE_PATH='" + nodeModules() + "' node '" + HEEL_SOURCE_DIR + "/tests/apps/mcap_peer.cjs' '" +
-        from.string() + "' '" + to.string() + "' " + GetParam() + " >'" + (folder_ / "log").string() +
-        "' 2>&1";
+    const std::string command = "NODE_PATH='" + nodeModules() + "' node '" + HEEL_SOURCE_DIR +
+                                "/tests/apps/mcap_peer.cjs' '" + from.string() + "' '" +
+                                to.string() + "' " + GetParam() + " >'" +
+                                (folder_ / "log").string() + "' 2>&1";
     EXPECT_EQ(std::system(command.c_str()), 0) << readText(folder_ / "log");
     return readText(folder_ / "log");
   }

@@ -16,7 +16,6 @@ namespace {
 using test::messageOf;
 using test::readText;
 using test::TempFolder;
-using test::truncateBy;
 using test::writeText;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -148,8 +147,7 @@ TEST(Mcap, WithRecordsAndChannelsThatAreUnknownIsReadWithoutThem) {
   appendRecord(foreign, McapRecord::kChannel, channel.list({}));
   message.number(std::uint16_t{8}).number(std::uint32_t{0}).time(1).time(1);
   appendRecord(foreign, McapRecord::kMessage, message);
-  EXPECT_THAT(readTimes(parts.add(foreign).add(parts.odometry({3})).write(folder)),
-              ElementsAre(3));
+  EXPECT_THAT(readTimes(parts.add(foreign).add(parts.odometry({3})).write(folder)), ElementsAre(3));
 }
 
 TEST(Mcap, ThatItsRecorderDidNotCloseSaysSo) {
