@@ -185,6 +185,22 @@ TEST_P(Bag, GivesTheTopicsAndTheTimesThatAreAskedFor) {
   EXPECT_EQ(timesOf(*bag, {}).size(), 600U);
 }
 
+/// What is damaged elsewhere shows it: it is not met.
+TEST_P(Bag, OfWhichAPartIsReadIsOpenedThereOnly) {
+  if (std::string(GetParam()).find('.') == std::string::npos || file().extension() == ".db3") {
+    GTEST_SKIP() << "SQLite's pages may lie anywhere";
+  }
+  writeScans(path());
+  std::string bytes = readText(file());
+  std::memset(&bytes[bytes.size() / 2], 0xA5, 20000);
+  writeText(file(), bytes);
+  const auto bag = openBag(path());
+  EXPECT_EQ(timesOf(*bag, {{}, 180'000'000'000}).size(), 201U);
+  EXPECT_THAT(bag->lost(), IsEmpty());
+  EXPECT_LT(timesOf(*bag, {}).size(), 2000U);
+  EXPECT_THAT(bag->lost(), HasSubstr("damaged"));
+}
+
 TEST_P(Bag, TellsByItsIndexHowManyMessagesThereAreAndWhen) {
   writeTopicAfterTopic(path());
   const auto bag = openBag(path());
