@@ -59,6 +59,20 @@ bool McapBagReader::recordAt(std::uint64_t at, Record& record) const {
   return true;
 }
 
+/// Reads a record's content as far as it is there; false if that is not all, or too much.
+bool McapBagReader::readContent(std::uint64_t at, std::uint64_t size, const std::string& what) {
+  content_.clear();
+  const std::uint64_t begin = at + kMcapRecordHead;
+  const std::uint64_t there = begin < file_.size() ? std::min(size, file_.size() - begin) : 0;
+  try {
+    checkMemory(what, static_cast<std::size_t>(there));
+  } catch (const std::runtime_error& error) {
+    lose(error.what());
+    return false;
+  }
+  return file_.read(begin, size, content_);
+}
+
 /// Reads the summary; false if there is none that holds.
 bool McapBagReader::readSummary() {
   const std::uint64_t end = kMcapRecordHead + kFooter + kMcapMagic.size();
@@ -241,10 +255,12 @@ bool McapBagReader::unpack(McapFields fields, std::uint64_t at, bool is_whole, B
 }
 
 void McapBagReader::openChunk(const Chunk& chunk, BagBytes& unpacked, std::vector<Entry>& entries) {
+  const std::string what = "the chunk at " + byteOf(chunk.at);
   Record record;
-  const bool is_chunk = recordAt(chunk.at, record) && record.kind == McapRecord::kChunk &&
-                        file_.read(chunk.at + kMcapRecordHead, record.size, content_);
-  if (!is_chunk) return lose("the chunk at " + byteOf(chunk.at) + " is damaged");
+  if (!recordAt(chunk.at, record) || record.kind != McapRecord::kChunk ||
+      !readContent(chunk.at, record.size, what)) {
+    return lose(what + " is damaged");
+  }
   if (!unpack(McapFields(content_.data(), content_.size()), chunk.at, true, unpacked)) return;
   McapFields records(unpacked.data(), unpacked.size());
   BagMessage message;
@@ -317,15 +333,8 @@ bool McapBagReader::scanRecord(BagMessage& message) {
                        record.kind == McapRecord::kMessage || record.kind == McapRecord::kChunk;
   // Behind the data are the summary's repetitions.
   if (!is_ours || is_closed_) return false;
-  const std::uint64_t size =
-      std::min(record.size, file_.size() - std::min(file_.size(), begin + kMcapRecordHead));
-  try {
-    checkMemory("a record at " + byteOf(begin), static_cast<std::size_t>(size), file_.size());
-  } catch (const std::runtime_error& error) {
-    lose(error.what());
-    return false;
-  }
-  file_.read(begin + kMcapRecordHead, size, content_);
+  const bool is_read = readContent(begin, record.size, "a record at " + byteOf(begin));
+  if (!is_read && is_whole) return false;
   const McapFields fields(content_.data(), content_.size());
   if (record.kind != McapRecord::kChunk) return take(record.kind, fields, message);
   chunk_at_ = 0;

@@ -32,6 +32,7 @@ class McapBagReader final : public ChunkedBagReader {
     std::uint64_t size = 0;
   };
   bool recordAt(std::uint64_t at, Record& record) const;
+  bool readContent(std::uint64_t at, std::uint64_t size, const std::string& what);
   bool readSummary();
   bool readIndex(McapFields summary);
   bool scanRecord(BagMessage& message);

@@ -14,6 +14,8 @@ namespace {
 
 /// The header of a record is a few hundred bytes; of a connection, some kilobytes in its data.
 constexpr std::uint32_t kLongestHeader = 1U << 20U;
+/// What the index tells of a connection or of a chunk.
+constexpr std::uint64_t kLongestEntry = 64U << 20U;
 
 }  // namespace
 
@@ -65,6 +67,7 @@ bool Ros1BagReader::readIndex() {
     const auto data_at = record(at);
     if (!data_at) return false;
     const std::uint64_t data_size = at + size - *data_at;
+    if (data_size > kLongestEntry) return false;
     const std::uint8_t* data = file.at(*data_at, data_size);
     if (data == nullptr) return false;
     if (fields.kind() == Ros1Record::kConnection) {
