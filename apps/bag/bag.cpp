@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/bag/bag.hpp>
+#include <heel/apps/bag/bag_sequence.hpp>
+#include <heel/apps/bag/mcap_bag_reader.hpp>
+#include <heel/apps/bag/mcap_bag_writer.hpp>
 #include <heel/apps/bag/ros1_bag_reader.hpp>
 #include <heel/apps/bag/ros1_bag_writer.hpp>
 #include <heel/apps/bag/ros2_bag_reader.hpp>
 #include <heel/apps/bag/ros2_bag_writer.hpp>
+#include <heel/apps/bag/ros2_folder.hpp>
 
 #include <algorithm>
 #include <stdexcept>
@@ -22,9 +26,9 @@ bool isRos1Name(const fs::path& path) {
          (path.extension() == ".active" && path.stem().extension() == ".bag");
 }
 
-bool holdsDatabase(const fs::path& folder) {
+bool holdsBagFile(const fs::path& folder) {
   return std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
-                     [](const auto& entry) { return entry.path().extension() == ".db3"; });
+                     [](const auto& entry) { return isRos2File(entry.path()); });
 }
 
 }  // namespace
@@ -36,22 +40,31 @@ std::string printable(std::string_view name) {
   return text;
 }
 
+bool BagReader::wants(const std::string& topic) const {
+  return query_.topics.empty() ||
+         std::find(query_.topics.begin(), query_.topics.end(), topic) != query_.topics.end();
+}
+
 bool isBag(const fs::path& path) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) {
-    return fs::exists(path / "metadata.yaml") || holdsDatabase(path);
+    return fs::exists(path / "metadata.yaml") || holdsBagFile(path);
   }
-  return isRos1Name(path) || path.extension() == ".db3";
+  return isRos1Name(path) || isRos2File(path);
 }
 
 std::unique_ptr<BagReader> openBag(const fs::path& path) {
   if (!fs::exists(path)) throw std::runtime_error(path.string() + ": there is no such bag");
   if (isRos1Name(path)) return std::make_unique<Ros1BagReader>(path);
-  return std::make_unique<Ros2BagReader>(path);
+  const std::vector<fs::path> files = ros2Files(path);
+  if (files.front().extension() != ".mcap") return std::make_unique<Ros2BagReader>(path, files);
+  if (files.size() == 1) return std::make_unique<McapBagReader>(files.front());
+  return std::make_unique<BagSequence>(path, files);
 }
 
 std::unique_ptr<BagWriter> createBag(const BagPlan& plan) {
   if (plan.path.extension() == ".bag") return std::make_unique<Ros1BagWriter>(plan);
+  if (plan.path.extension() == ".mcap") return std::make_unique<McapBagWriter>(plan);
   return std::make_unique<Ros2BagWriter>(plan);
 }
 

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -42,19 +43,46 @@ struct BagMessage {
   std::size_t size = 0;
 };
 
-/// A bag, read once from its beginning to its end; holds one chunk of it in memory at the most.
+/// Which messages of a bag are read; all if nothing is said.
+struct BagQuery {
+  std::vector<std::string> topics = {};  ///< Their names; none: all.
+  /// When they were recorded; both ends are read.
+  std::int64_t from_ns = std::numeric_limits<std::int64_t>::min();
+  std::int64_t to_ns = std::numeric_limits<std::int64_t>::max();
+};
+
+/// What a bag's index tells of its messages.
+struct BagIndex {
+  struct Topic {
+    std::size_t count = 0;
+    std::int64_t first_ns = 0, last_ns = 0;  ///< When the first and last were recorded.
+  };
+  std::int64_t first_ns = 0, last_ns = 0;
+  std::vector<Topic> topics;  ///< As BagReader::topics().
+};
+
+/// A bag, whose index alone is read when it is opened; then the chunks or rows that have messages
+/// that are wanted. Chunks that overlap in time are held in memory together, within a limit.
 ///
-/// What is damaged or missing is left out, and lost() says so.
+/// A bag that was cut off, or whose index is damaged, is read without it, from its beginning to its
+/// end. What is damaged or missing is left out, and lost() says so.
 class BagReader {
  public:
   virtual ~BagReader() = default;
 
   virtual BagForm form() const = 0;
 
-  /// The topics that have been met so far: all of them once next() has returned false.
+  /// The topics: all of them if there is an index, else those that have been met so far.
   const std::vector<BagTopic>& topics() const { return topics_; }
 
-  /// Reads the next message in the order of recording; false at the end.
+  /// Null if the bag has none that holds.
+  virtual const BagIndex* index() = 0;
+
+  /// Chooses what next() reads, and begins again.
+  virtual void select(const BagQuery& query) = 0;
+
+  /// Reads the next message in the order of time; without an index, in that of the file. False at
+  /// the end.
   virtual bool next(BagMessage& message) = 0;
 
   /// What of the bag could not be read so far, in one sentence that names it; empty: nothing.
@@ -67,15 +95,21 @@ class BagReader {
   }
 
  protected:
+  bool wants(const std::string& topic) const;
+  bool wants(const std::string& topic, std::int64_t stamp_ns) const {
+    return stamp_ns >= query_.from_ns && stamp_ns <= query_.to_ns && wants(topic);
+  }
+
   std::vector<BagTopic> topics_;
   std::string lost_;
+  BagQuery query_;
 };
 
 /// A name of a bag that may be damaged: '?' for whatever is no printable ASCII.
 std::string printable(std::string_view name);
 
-/// Whether `path` is named like a bag: X.bag (ROS 1), X.db3, or a folder with a metadata.yaml or a
-/// .db3 in it (ROS 2).
+/// Whether `path` is named like a bag: X.bag (ROS 1), X.db3, X.mcap, or a folder with a
+/// metadata.yaml, a .db3 or a .mcap in it (ROS 2).
 bool isBag(const std::filesystem::path& path);
 
 /// @throws std::runtime_error  one sentence that names the file, if it is no bag or can't be read.
@@ -120,7 +154,8 @@ class BagWriter {
     for (std::size_t i = 0; i < topics_.size(); ++i) {
       if (topics_[i].name == name) return i;
     }
-    topics_.push_back({name, Message::kType, Message::kMd5, definitionOf<Message>(), latched});
+    topics_.push_back(
+        {name, Message::kType, Message::kMd5, definitionOf<Message>(form()), latched});
     add(topics_.size() - 1);
     return topics_.size() - 1;
   }
@@ -135,8 +170,8 @@ struct BagPlan {
   std::string by = "bag";  ///< Who writes: a bag of that name is replaced only if they made it.
 };
 
-/// Begins a bag: `X.bag` in ROS 1's form, `X.db3` as the one file of ROS 2's, any other name as
-/// ROS 2's folder (metadata.yaml and a .db3).
+/// Begins a bag: `X.bag` in ROS 1's form, `X.mcap` and `X.db3` as the one file of ROS 2's, any
+/// other name as ROS 2's folder (metadata.yaml and a .db3).
 /// @throws std::invalid_argument  if it may not go there, see Output.
 /// @throws std::runtime_error  if it can't be made.
 std::unique_ptr<BagWriter> createBag(const BagPlan& plan);

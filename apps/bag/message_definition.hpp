@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// The text that tells readers of a ROS 1 bag what a message's fields are.
+/// The text that tells readers of a bag what a message's fields are.
 #pragma once
 
 #include <heel/apps/bag/message_archives.hpp>
@@ -13,7 +13,7 @@
 namespace heel {
 
 /// What a type is called in a definition.
-template <class T>
+template <BagForm Form, class T>
 std::string typeName() {
   if constexpr (std::is_same_v<T, bool>) {
     return "bool";
@@ -24,13 +24,14 @@ std::string typeName() {
   } else if constexpr (std::is_same_v<T, std::string>) {
     return "string";
   } else if constexpr (std::is_same_v<T, StampMsg>) {
-    return "time";
+    return Form == BagForm::kRos1 ? "time" : "builtin_interfaces/Time";
   } else if constexpr (std::is_same_v<T, DurationMsg>) {
-    return "duration";
+    return Form == BagForm::kRos1 ? "duration" : "builtin_interfaces/Duration";
   } else if constexpr (IsVector<T>::value) {
-    return typeName<typename T::value_type>() + "[]";
+    return typeName<Form, typename T::value_type>() + "[]";
   } else if constexpr (IsArray<T>::value) {
-    return typeName<typename T::value_type>() + "[" + std::to_string(std::tuple_size_v<T>) + "]";
+    return typeName<Form, typename T::value_type>() + "[" + std::to_string(std::tuple_size_v<T>) +
+           "]";
   } else {
     return T::kType;
   }
@@ -46,13 +47,14 @@ struct ConstantsOf<T, std::void_t<decltype(T::kConstants)>> {
 };
 
 /// Collects the definition of a message, and of those in it, from its fields.
+template <BagForm Form>
 class DefinitionText {
  public:
-  static constexpr BagForm kForm = BagForm::kRos1;
+  static constexpr BagForm kForm = Form;
 
   template <class T>
   void operator()(const char* name, const T& value) {
-    text_ += typeName<T>() + " " + name + "\n";
+    text_ += typeName<Form, T>() + " " + name + "\n";
     addNested(value);
   }
 
@@ -67,18 +69,26 @@ class DefinitionText {
  private:
   template <class T>
   void addNested(const T& value) {
+    constexpr bool kIsTime = std::is_same_v<T, StampMsg> || std::is_same_v<T, DurationMsg>;
     if constexpr (IsVector<T>::value) {
       addNested(typename T::value_type());
+    } else if constexpr (kIsTime && Form == BagForm::kRos2) {
+      addPart(typeName<Form, T>(), "int32 sec\nuint32 nanosec\n");
     } else if constexpr (std::is_class_v<T> && !IsArray<T>::value &&
-                         !std::is_same_v<T, std::string> && !std::is_same_v<T, StampMsg> &&
-                         !std::is_same_v<T, DurationMsg>) {
-      if (!known_.insert(T::kType).second) return;
+                         !std::is_same_v<T, std::string> && !kIsTime) {
+      if (known_.count(T::kType) > 0) return;
       DefinitionText inner;
       inner.known_ = known_;
+      inner.known_.insert(T::kType);
       inner.describe(value);
-      nested_ += std::string(80, '=') + "\nMSG: " + T::kType + "\n" + inner.text();
+      addPart(T::kType, inner.text());
       known_ = inner.known_;
     }
+  }
+
+  void addPart(const std::string& type, const std::string& text) {
+    if (!known_.insert(type).second) return;
+    nested_ += std::string(80, '=') + "\nMSG: " + type + "\n" + text;
   }
 
   std::string text_, nested_;
@@ -86,10 +96,13 @@ class DefinitionText {
 };
 
 template <class Message>
-std::string definitionOf() {
-  DefinitionText definition;
-  definition.describe(Message());
-  return definition.text();
+std::string definitionOf(BagForm form) {
+  const auto text = [](auto definition) {
+    definition.describe(Message());
+    return definition.text();
+  };
+  return form == BagForm::kRos1 ? text(DefinitionText<BagForm::kRos1>())
+                                : text(DefinitionText<BagForm::kRos2>());
 }
 
 }  // namespace heel

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <heel/apps/bag/chunk_packing.hpp>
 #include <heel/apps/bag/ros1_bag_reader.hpp>
 #include <heel/cloud/file_limits.hpp>
 
@@ -12,39 +13,163 @@ namespace {
 
 /// The header of a record is a few hundred bytes; of a connection, some kilobytes in its data.
 constexpr std::uint32_t kLongestHeader = 1U << 20U;
+/// What the index tells of a connection or of a chunk.
+constexpr std::uint64_t kLongestEntry = 64U << 20U;
 
 }  // namespace
 
-Ros1BagReader::Ros1BagReader(const std::filesystem::path& file) : name_(file.string()) {
-  checkIsFile(file);
+Ros1BagReader::Ros1BagReader(const std::filesystem::path& file) : ChunkedBagReader(file) {
   in_.open(file, std::ios::binary);
-  if (!in_) throw std::runtime_error(name_ + ": can't be opened");
-  std::error_code problem;
-  file_size_ = std::filesystem::file_size(file, problem);
-  if (problem) throw std::runtime_error(name_ + ": " + problem.message());
-  if (file_size_ == 0) throw std::runtime_error(name_ + ": the bag is empty (0 bytes)");
+  if (!in_) throw std::runtime_error(file_.name() + ": can't be opened");
   std::string magic(kRos1Magic.size(), '\0');
   in_.read(magic.data(), static_cast<std::streamsize>(magic.size()));
   if (magic.rfind("#ROSBAG V1", 0) == 0) {
-    throw std::runtime_error(name_ + ": the bag is of the old format 1; 'rosbag fix' converts it");
+    throw std::runtime_error(file_.name() +
+                             ": the bag is of the old format 1; 'rosbag fix' converts it");
   }
   if (magic != kRos1Magic) {
-    throw std::runtime_error(name_ + ": this is no ROS 1 bag (it does not begin with '#ROSBAG')");
+    throw std::runtime_error(file_.name() +
+                             ": this is no ROS 1 bag (it does not begin with '#ROSBAG')");
+  }
+  if (readIndex()) return;
+  topics_.clear();
+  topic_of_connection_.clear();
+  rewindScan();
+}
+
+/// Reads the connections and chunks that are listed behind the last chunk; false if it does not all
+/// hold.
+bool Ros1BagReader::readIndex() {
+  BagWindow file(file_, 0, file_.size());
+  Ros1Fields fields;
+  std::uint64_t size = 0;
+  // The record at `at` as fields and where its data is; it ends at `at + size`.
+  const auto record = [&](std::uint64_t at) -> std::optional<std::uint64_t> {
+    const std::uint8_t* length = file.at(at, 4);
+    if (length == nullptr || numberAt(length) > kLongestHeader) return std::nullopt;
+    const std::uint64_t header = numberAt(length);
+    const std::uint8_t* bytes = file.at(at + 4, header + 4);
+    if (bytes == nullptr || !fields.parse(bytes, static_cast<std::size_t>(header))) {
+      return std::nullopt;
+    }
+    size = 8 + header + numberAt(bytes + header);
+    if (size > file_.size() - at) return std::nullopt;
+    return at + 8 + header;
+  };
+  if (!record(kRos1Magic.size()) || fields.kind() != Ros1Record::kBagHeader) return false;
+  const auto index_at = fields.longNumber("index_pos");
+  const auto chunk_count = fields.number("chunk_count");
+  if (!index_at || !chunk_count || *index_at < kRos1Magic.size()) return false;
+  std::vector<Chunk> chunks;
+  std::vector<std::size_t> counts;
+  for (std::uint64_t at = *index_at; at < file_.size(); at += size) {
+    const auto data_at = record(at);
+    if (!data_at) return false;
+    const std::uint64_t data_size = at + size - *data_at;
+    if (data_size > kLongestEntry) return false;
+    const std::uint8_t* data = file.at(*data_at, data_size);
+    if (data == nullptr) return false;
+    if (fields.kind() == Ros1Record::kConnection) {
+      addConnection(fields, data, static_cast<std::size_t>(data_size));
+      counts.resize(topics_.size());
+      continue;
+    }
+    const auto chunk_at = fields.longNumber("chunk_pos");
+    const auto first_ns = fields.time("start_time"), last_ns = fields.time("end_time");
+    if (fields.kind() != Ros1Record::kChunkInfo || !chunk_at || !first_ns || !last_ns) return false;
+    Chunk chunk{*chunk_at, *first_ns, *last_ns, {}};
+    for (std::uint64_t i = 0; i + 8 <= data_size; i += 8) {
+      const auto topic = topic_of_connection_.find(numberAt(data + i));
+      if (topic == topic_of_connection_.end()) return false;
+      chunk.topics.push_back(topic->second);
+      counts[topic->second] += numberAt(data + i + 4);
+    }
+    chunks.push_back(std::move(chunk));
+  }
+  if (chunks.size() != *chunk_count || *index_at >= file_.size()) return false;
+  setIndex(std::move(chunks), std::move(counts));
+  return true;
+}
+
+void Ros1BagReader::openChunk(const Chunk& chunk, BagBytes& unpacked, std::vector<Entry>& entries) {
+  BagWindow file(file_, 0, file_.size());
+  const std::string what = "the chunk at byte " + std::to_string(chunk.at);
+  const std::uint8_t* length = file.at(chunk.at, 4);
+  const std::uint64_t header =
+      length == nullptr ? kLongestHeader + 1 : std::uint64_t{numberAt(length)};
+  const std::uint8_t* bytes = header > kLongestHeader ? nullptr : file.at(chunk.at + 4, header + 4);
+  Ros1Fields fields;
+  if (bytes == nullptr || !fields.parse(bytes, static_cast<std::size_t>(header)) ||
+      fields.kind() != Ros1Record::kChunk) {
+    return lose(what + " is damaged");
+  }
+  const std::uint64_t data_at = chunk.at + 8 + header, data_size = numberAt(bytes + header);
+  const auto size = fields.number("size");
+  const auto compression = fields.text("compression");
+  if (!size || !compression || data_size > file_.size() - data_at) {
+    return lose(what + " is damaged");
+  }
+  if (*compression == "none") {
+    // Of what is not wanted, no more is read than how long it is.
+    return listEntries(BagWindow(file_, data_at, data_size), data_at, what, entries);
+  }
+  if (!isKnownPacking(*compression)) {
+    return lose(what + " is packed by '" + printable(*compression) + "', which is unknown");
+  }
+  try {
+    checkMemory(what, *size, static_cast<std::size_t>(data_size));
+  } catch (const std::runtime_error& error) {
+    return lose(error.what());
+  }
+  BagBytes packed;
+  file_.read(data_at, data_size, packed);
+  if (!unpackChunk(*compression, packed, *size, unpacked)) lose(what + " is damaged");
+  if (!unpacked.empty()) listEntries(BagWindow(unpacked), 0, what, entries);
+}
+
+/// Lists the messages of a chunk whose bytes begin at `begin`.
+void Ros1BagReader::listEntries(BagWindow window, std::uint64_t begin, const std::string& what,
+                                std::vector<Entry>& entries) {
+  constexpr std::uint64_t kLeastHeader = 8;  // the field "op=.": seen soon, where all is 0
+  Ros1Fields fields;
+  bool is_told = false;
+  std::uint64_t at = 0;
+  while (at < window.size()) {
+    const std::uint8_t* length = window.at(at, 4);
+    const std::uint64_t header = length == nullptr ? 0 : numberAt(length);
+    const std::uint8_t* bytes =
+        header < kLeastHeader || header > kLongestHeader ? nullptr : window.at(at + 4, header + 4);
+    const std::uint64_t data_at = at + 8 + header;
+    if (bytes == nullptr || numberAt(bytes + header) > window.size() - data_at ||
+        !fields.parse(bytes, static_cast<std::size_t>(header)) || !fields.kind()) {
+      if (!is_told) lose(what + " is damaged");
+      is_told = true;
+      ++at;  // to where a record begins again
+      continue;
+    }
+    const std::uint64_t data_size = numberAt(bytes + header);
+    const auto connection = fields.number("conn");
+    const auto time = fields.time("time");
+    const auto topic = topic_of_connection_.find(connection.value_or(0));
+    if (fields.kind() == Ros1Record::kMessage && connection && time &&
+        topic != topic_of_connection_.end()) {
+      entries.push_back(
+          {*time, topic->second, begin + data_at, static_cast<std::size_t>(data_size)});
+    }
+    at = data_at + data_size;
   }
 }
 
-void Ros1BagReader::lose(const std::string& what) {
-  ++damages_;
-  lost_ = name_ + ": " + what + "; what else is there was read";
-  if (damages_ > 1) {
-    lost_ = name_ + ": the bag is damaged at " + std::to_string(damages_) +
-            " places; what else is there was read";
-  }
+void Ros1BagReader::rewindScan() {
+  in_.clear();
+  in_.seekg(static_cast<std::streamoff>(kRos1Magic.size()));
+  chunk_.clear();
+  chunk_at_ = 0;
 }
 
 bool Ros1BagReader::readBytes(Ros1Bytes& bytes, std::size_t count) {
   const auto at = static_cast<std::uint64_t>(in_.tellg());
-  bytes.resize(static_cast<std::size_t>(std::min<std::uint64_t>(count, file_size_ - at)));
+  bytes.resize(static_cast<std::size_t>(std::min<std::uint64_t>(count, file_.size() - at)));
   in_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   return in_.good() && bytes.size() == count;
 }
@@ -54,10 +179,10 @@ bool Ros1BagReader::seekNextChunk(std::uint64_t from) {
   constexpr std::size_t kPiece = 1U << 20U;
   const std::string wanted = "compression=";
   std::string piece;
-  for (std::uint64_t at = from; at + 32 < file_size_; at += kPiece - 64) {
+  for (std::uint64_t at = from; at + 32 < file_.size(); at += kPiece - 64) {
     in_.clear();
     in_.seekg(static_cast<std::streamoff>(at));
-    piece.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kPiece, file_size_ - at)));
+    piece.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kPiece, file_.size() - at)));
     in_.read(piece.data(), static_cast<std::streamsize>(piece.size()));
     for (auto hit = piece.find(wanted); hit != std::string::npos;
          hit = piece.find(wanted, hit + 1)) {
@@ -81,7 +206,7 @@ bool Ros1BagReader::seekNextChunk(std::uint64_t from) {
 bool Ros1BagReader::nextRecord() {
   while (true) {
     const auto begin = static_cast<std::uint64_t>(in_.tellg());
-    if (begin >= file_size_) return false;
+    if (begin >= file_.size()) return false;
     Ros1Bytes number;
     const auto readLength = [&](std::uint32_t& length) {
       if (!readBytes(number, 4)) return false;
@@ -94,7 +219,7 @@ bool Ros1BagReader::nextRecord() {
                             fields_.parse(header_.data(), header_.size()) && fields_.kind() &&
                             readLength(data_length);
     if (has_header && readBytes(data_, data_length)) return true;
-    const bool cut_off = in_.eof() || static_cast<std::uint64_t>(in_.tellg()) >= file_size_;
+    const bool cut_off = in_.eof() || static_cast<std::uint64_t>(in_.tellg()) >= file_.size();
     // The rest of a chunk that was cut off still has messages in it.
     const bool is_chunk = has_header && fields_.kind() == Ros1Record::kChunk;
     in_.clear();
@@ -145,7 +270,7 @@ bool Ros1BagReader::take(const Ros1Fields& fields, const std::uint8_t* data, std
   return true;
 }
 
-void Ros1BagReader::openChunk() {
+void Ros1BagReader::openScannedChunk() {
   const auto size = fields_.number("size");
   const auto compression = fields_.text("compression");
   chunk_at_ = 0;
@@ -163,7 +288,7 @@ void Ros1BagReader::openChunk() {
   }
   if (unpackChunk(*compression, data_, *size, chunk_)) return;
   chunk_is_damaged_ = true;
-  const bool is_last = static_cast<std::uint64_t>(in_.tellg()) >= file_size_;
+  const bool is_last = static_cast<std::uint64_t>(in_.tellg()) >= file_.size();
   lose(is_last ? "the bag is cut off at byte " + at
                : "the chunk that ends at byte " + at + " is damaged");
 }
@@ -198,22 +323,23 @@ bool Ros1BagReader::nextInChunk(BagMessage& message) {
   return false;
 }
 
-bool Ros1BagReader::next(BagMessage& message) {
+bool Ros1BagReader::scanNext(BagMessage& message) {
   while (true) {
     if (nextInChunk(message)) return true;
     if (!nextRecord()) {
       if (index_at_ == 0 && lost_.empty()) {
-        lost_ = name_ + ": the bag was not closed by its recorder; all that is there was read";
+        lost_ =
+            file_.name() + ": the bag was not closed by its recorder; all that is there was read";
       }
-      if (index_at_ > file_size_ && lost_.empty()) {
-        lose("the bag is cut off at byte " + std::to_string(file_size_));
+      if (index_at_ > file_.size() && lost_.empty()) {
+        lose("the bag is cut off at byte " + std::to_string(file_.size()));
       }
       return false;
     }
     if (fields_.kind() == Ros1Record::kBagHeader) {
       index_at_ = fields_.longNumber("index_pos").value_or(0);
     } else if (fields_.kind() == Ros1Record::kChunk) {
-      openChunk();
+      openScannedChunk();
     } else if (take(fields_, data_.data(), data_.size(), message)) {
       return true;
     }

@@ -3,17 +3,10 @@
 
 #include <heel/apps/bag/ros1_records.hpp>
 
-#include <bzlib.h>
-#include <lz4frame.h>
-
-#include <algorithm>
 #include <cstring>
 
 namespace heel {
 namespace {
-
-/// Memory grows with what is really there, not with what a damaged header promises.
-constexpr std::size_t kPiece = 1U << 20U;
 
 template <class T>
 std::optional<T> valueOf(std::optional<std::string_view> text) {
@@ -28,47 +21,6 @@ std::string bytesOf(T value) {
   std::string text(sizeof(T), '\0');
   std::memcpy(text.data(), &value, sizeof(T));
   return text;
-}
-
-bool unpackBz2(const Ros1Bytes& packed, std::size_t size, Ros1Bytes& unpacked) {
-  bz_stream stream{};
-  if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) return false;
-  Ros1Bytes input = packed;  // bzlib wants it writable
-  stream.next_in = reinterpret_cast<char*>(input.data());
-  stream.avail_in = static_cast<unsigned>(input.size());
-  int result = BZ_OK;
-  std::size_t done = 0;
-  while (result == BZ_OK && done < size) {
-    unpacked.resize(std::min(size, done + kPiece));
-    stream.next_out = reinterpret_cast<char*>(&unpacked[done]);
-    stream.avail_out = static_cast<unsigned>(unpacked.size() - done);
-    result = BZ2_bzDecompress(&stream);
-    const std::size_t now = unpacked.size() - stream.avail_out;
-    if (now == done && stream.avail_in == 0) break;
-    done = now;
-  }
-  BZ2_bzDecompressEnd(&stream);
-  unpacked.resize(done);
-  return done == size;
-}
-
-bool unpackLz4(const Ros1Bytes& packed, std::size_t size, Ros1Bytes& unpacked) {
-  LZ4F_dctx* context = nullptr;
-  if (LZ4F_isError(LZ4F_createDecompressionContext(&context, LZ4F_VERSION)) != 0) return false;
-  std::size_t done = 0, used = 0;
-  while (done < size && used < packed.size()) {
-    unpacked.resize(std::min(size, done + kPiece));
-    std::size_t out = unpacked.size() - done, in = packed.size() - used;
-    const std::size_t result =
-        LZ4F_decompress(context, &unpacked[done], &out, &packed[used], &in, nullptr);
-    if (LZ4F_isError(result) != 0) break;
-    done += out;
-    used += in;
-    if (result == 0 || (out == 0 && in == 0)) break;
-  }
-  LZ4F_freeDecompressionContext(context);
-  unpacked.resize(done);
-  return done == size;
 }
 
 }  // namespace
@@ -168,18 +120,6 @@ void appendRecord(Ros1Bytes& bytes, const Ros1Fields& fields, const Ros1Bytes& d
   std::memcpy(&bytes[at], &length, sizeof length);
   appendNumber(bytes, static_cast<std::uint32_t>(data.size()));
   bytes.insert(bytes.end(), data.begin(), data.end());
-}
-
-bool unpackChunk(std::string_view compression, const Ros1Bytes& packed, std::size_t size,
-                 Ros1Bytes& unpacked) {
-  unpacked.clear();
-  if (compression == "none") {
-    unpacked = packed;
-    return packed.size() == size;
-  }
-  if (compression == "bz2") return unpackBz2(packed, size, unpacked);
-  if (compression == "lz4") return unpackLz4(packed, size, unpacked);
-  return false;
 }
 
 }  // namespace heel

@@ -62,11 +62,4 @@ std::uint32_t numberAt(const std::uint8_t* bytes);
 /// Appends a record: lengths, fields, data.
 void appendRecord(Ros1Bytes& bytes, const Ros1Fields& fields, const Ros1Bytes& data);
 
-/// Unpacks a chunk as far as that goes.
-/// @param compression  "none", "bz2" or "lz4".
-/// @param unpacked     Out: what could be unpacked, no more than `size`.
-/// @return whether all was.
-bool unpackChunk(std::string_view compression, const Ros1Bytes& packed, std::size_t size,
-                 Ros1Bytes& unpacked);
-
 }  // namespace heel

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/bag/ros2_bag_writer.hpp>
+#include <heel/apps/bag/ros2_folder.hpp>
 #include <heel/apps/output/output.hpp>
 
 #include <algorithm>
@@ -13,19 +14,6 @@ namespace heel {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// "sensor_msgs/Image" as "sensor_msgs/msg/Image".
-std::string withMsg(std::string type) { return type.insert(type.find('/'), "/msg"); }
-
-/// Quality of service, as rosbag2 writes it: reliable; who comes late gets the last message if
-/// `latched`.
-std::string qosOf(bool latched) {
-  const std::string forever = "\n    sec: 9223372036\n    nsec: 854775807\n";
-  return "- history: 1\n  depth: " + std::string(latched ? "1" : "10") +
-         "\n  reliability: 1\n  durability: " + (latched ? "1" : "2") + "\n  deadline:" + forever +
-         "  lifespan:" + forever + "  liveliness: 1\n  liveliness_lease_duration:" + forever +
-         "  avoid_ros_namespace_conventions: false";
-}
 
 std::string quoted(const std::string& text) {
   std::string result = "\"";
@@ -72,7 +60,7 @@ void Ros2BagWriter::add(std::size_t topic) {
         .bind(1, static_cast<std::int64_t>(topic + 1))
         .bind(2, about.name)
         .bind(3, withMsg(about.type))
-        .bind(4, qosOf(about.latched))
+        .bind(4, ros2Qos(about.latched))
         .run();
   });
   counts_.push_back(0);
@@ -103,7 +91,7 @@ void Ros2BagWriter::writeMetadata() const {
     out << "    - topic_metadata:\n        name: " << topics_[i].name
         << "\n        type: " << withMsg(topics_[i].type)
         << "\n        serialization_format: cdr\n        offered_qos_profiles: "
-        << quoted(qosOf(topics_[i].latched)) << "\n      message_count: " << counts_[i] << "\n";
+        << quoted(ros2Qos(topics_[i].latched)) << "\n      message_count: " << counts_[i] << "\n";
   }
   out << "  compression_format: \"\"\n  compression_mode: \"\"\n  relative_file_paths:\n    - "
       << file_name_ << "\n  files:\n    - path: " << file_name_ << "\n      starting_time:"

@@ -86,10 +86,11 @@ struct CameraInfoMsg {
     a("height", m.height);
     a("width", m.width);
     a("distortion_model", m.distortion_model);
-    a("D", m.D);
-    a("K", m.K);
-    a("R", m.R);
-    a("P", m.P);
+    constexpr bool kIsRos1 = Archive::kForm == BagForm::kRos1;
+    a(kIsRos1 ? "D" : "d", m.D);
+    a(kIsRos1 ? "K" : "k", m.K);
+    a(kIsRos1 ? "R" : "r", m.R);
+    a(kIsRos1 ? "P" : "p", m.P);
     a("binning_x", m.binning_x);
     a("binning_y", m.binning_y);
     a("roi", m.roi);

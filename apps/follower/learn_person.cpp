@@ -72,7 +72,8 @@ LearnedPerson learnPerson(Recording& recording, const CameraSetup& setup,
         recording.info().name +
         (several ? ": several people entered together" : ": nobody entered after the empty scene") +
         "; a person model needs about 5 s of the empty room, then one person "
-        "for about 10 s");
+        "for about 10 s" +
+        leftOutNote(skipped));
   }
   return {learner.learn(), result, std::move(skipped)};
 }

@@ -14,6 +14,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -102,7 +103,27 @@ std::string whenItMoved(const WhileItStands& standing, const MotionWatch& watch)
   return text;
 }
 
-void run(const LearnOptions& options) {
+/// How much of a recording is read, if the call does not say.
+TimeSpan lessonSpan(const LearnOptions& options) {
+  constexpr double kWait_s = 105.0;  // for the person to come
+  TimeSpan span = options.opening.span;
+  const AcquisitionParams& lesson = options.params.acquisition;
+  if (std::isfinite(span.to_s)) return span;
+  span.to_s = span.from_s + lesson.background_s + kWait_s + lesson.person_s;
+  return span;
+}
+
+/// "; its first 120 s were read (--to)", if there may be more.
+std::string whatWasRead(const TimeSpan& span, const RecordingInfo& info) {
+  if (info.duration_s < span.to_s - span.from_s - 1.0) return {};
+  char text[80];
+  std::snprintf(text, sizeof text, "; it was read from %.0f to %.0f s (--from, --to)", span.from_s,
+                span.to_s);
+  return text;
+}
+
+void run(LearnOptions options) {
+  options.opening.span = lessonSpan(options);
   const std::string ending = options.out.extension().string();
   if (ending != ".yaml" && ending != ".yml") {
     throw std::invalid_argument(options.out.string() + ": the name of a model ends in .yaml");
@@ -137,7 +158,8 @@ void run(const LearnOptions& options) {
       const std::string moved = whenItMoved(standing, watch);
       if (!moved.empty()) throw std::runtime_error(error.what() + moved);
       if (frames == 0) throw;
-      throw NothingFound(error.what());  // the recording is good, but nobody is in it
+      // The recording is good, but nobody is in it.
+      throw NothingFound(error.what() + whatWasRead(options.opening.span, recording->info()));
     }
   }();
   for (const SkippedFrame& frame : learned.skipped) warn(frame.reason);
@@ -172,6 +194,7 @@ void addLearn(CLI::App& app) {
       "up,\n"
       "the person leaves, a second person comes into view, or odometry or tf says that the robot\n"
       "moves.\n"
+      "It reads no further than 2 minutes, unless --to says so.\n"
       "Writes the model, a picture of it, and a picture of who was learned.");
   verb->add_option("RECORDING", options->recording, "folder of a recording, or a bag")->required();
   verb->add_option("--out", options->out, "where to write the model")->capture_default_str();
@@ -192,6 +215,7 @@ void addLearn(CLI::App& app) {
           "the paper's, 0 chooses (default: the ratio of a colour's share to the room's)")
       ->check(CLI::Range(0, 8))
       ->type_name("K");
+  addTimeSpan(*verb, options->opening.span);
   addCameraTopics(*verb, options->opening.topics);
   addOdometryTopic(*verb, options->opening.topics);
   verb->callback([options] { run(*options); });

@@ -79,8 +79,9 @@ void addSimulate(CLI::App& app) {
       ->required();
   verb->add_option("--out", options->simulate.out, "folder for the recording; must be empty")
       ->required();
-  verb->add_option("--bag", options->simulate.bag,
-                   "also write a bag: NAME.bag for ROS 1; NAME.db3, or a folder, for ROS 2");
+  verb->add_option(
+      "--bag", options->simulate.bag,
+      "also write a bag: NAME.bag for ROS 1; NAME.mcap, NAME.db3, or a folder, for ROS 2");
   verb->add_option("--duration", options->simulate.duration_s, "instead of the scene's own [s]")
       ->check(CLI::Range(0.01, 1e6));
   verb->add_option("--seed", options->simulate.seed, "of noise and of people's ways")

@@ -6,8 +6,10 @@
 #include <heel/apps/recording/folders/rgbd_recording.hpp>
 #include <heel/apps/recording/folders/stereo_recording.hpp>
 #include <heel/apps/recording/recording.hpp>
+#include <heel/apps/recording/recording_part.hpp>
 
 #include <stdexcept>
+#include <utility>
 
 namespace heel {
 
@@ -20,8 +22,9 @@ std::unique_ptr<Recording> openKnownLayout(const fs::path& path, const Recording
   if (isBag(path)) return BagRecording::open(path, params);
   if (!fs::is_directory(path)) {
     if (PcdRecording::fits(path)) return PcdRecording::open(path, params);
-    throw std::runtime_error(path.string() +
-                             " is neither a folder, nor a PCD file (.pcd), nor a bag (.bag, .db3)");
+    throw std::runtime_error(
+        path.string() +
+        " is neither a folder, nor a PCD file (.pcd), nor a bag (.bag, .db3, .mcap)");
   }
   if (RgbdRecording::fits(path)) return RgbdRecording::open(path, params);
   if (StereoRecording::fits(path)) return StereoRecording::open(path, params);
@@ -31,7 +34,7 @@ std::unique_ptr<Recording> openKnownLayout(const fs::path& path, const Recording
       " holds no recording of a known layout, which are: an RGB-D folder in the TUM layout "
       "(rgb.txt, depth.txt, camera.yaml), stereo images (left/ and right/, image_0/ and image_1/, "
       "cam0/ and cam1/, left*.png and right*.png, or im0.png and im1.png; with calib.yaml, "
-      "left.yaml and right.yaml, or calib.txt), PCD files (*.pcd), and ROS 2 bags (*.db3)");
+      "left.yaml and right.yaml, or calib.txt), PCD files (*.pcd), and ROS 2 bags (*.db3, *.mcap)");
 }
 
 }  // namespace
@@ -40,8 +43,14 @@ std::unique_ptr<Recording> openRecording(const fs::path& path, const RecordingPa
   if (!(params.max_stamp_difference_s > 0.0) || !(params.nominal_rate_hz > 0.0)) {
     throw std::invalid_argument("openRecording: the stamps' difference and rate must be above 0");
   }
+  if (!(params.span.from_s >= 0.0) || !(params.span.to_s > params.span.from_s)) {
+    throw std::invalid_argument("the part of " + path.string() +
+                                " that is read must begin at 0 s or later, and end after that");
+  }
   try {
-    return openKnownLayout(path, params);
+    auto recording = openKnownLayout(path, params);
+    if (params.span.isAll() || isBag(path)) return recording;
+    return std::make_unique<RecordingPart>(std::move(recording), params.span);
   } catch (const fs::filesystem_error& error) {
     throw std::runtime_error(path.string() + " cannot be read: " + error.code().message());
   }
@@ -59,6 +68,13 @@ std::string nothingReadMessage(const Recording& recording,
   message += " of " + recording.info().name + " could " + (frames == 1 ? "not " : "") + "be read";
   if (!skipped.empty()) message += "; the first: " + skipped.front().reason;
   return message;
+}
+
+std::string leftOutNote(const std::vector<SkippedFrame>& skipped) {
+  if (skipped.empty()) return {};
+  return "; " + std::to_string(skipped.size()) +
+         (skipped.size() == 1 ? " frame was" : " frames were") +
+         " left out, the first: " + skipped.front().reason;
 }
 
 }  // namespace heel

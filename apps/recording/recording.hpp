@@ -8,6 +8,7 @@
 #include <heel/apps/recording/bags/bag_topics.hpp>
 #include <heel/apps/recording/frame.hpp>
 #include <heel/apps/recording/robot_motion.hpp>
+#include <heel/apps/recording/time_span.hpp>
 #include <heel/cloud/pinhole_camera.hpp>
 
 #include <Eigen/Geometry>
@@ -49,6 +50,7 @@ struct RecordingParams {
   double max_stamp_difference_s = 0.02;  ///< Images of one frame are not further apart than this.
   double nominal_rate_hz = 10.0;         ///< Frames per second where the recording stores no times.
   BagTopics topics;                      ///< Topics of bags.
+  TimeSpan span;                         ///< The part that is read.
 };
 
 /// A recording, read one frame at a time; holds one frame's data at the most, and the list of its
@@ -77,9 +79,10 @@ class Recording {
 };
 
 /// Opens whatever recording `path` holds: a folder of stereo images, an RGB-D folder in the TUM
-/// layout, a folder of PCD files (or one file), or a bag of ROS 1 or ROS 2.
+/// layout, a folder of PCD files (or one file), or a bag of ROS 1 or ROS 2 (SQLite or MCAP).
 /// @throws std::runtime_error     with one sentence that names the file and the reason.
-/// @throws std::invalid_argument  if a parameter is not positive.
+/// @throws std::invalid_argument  if a parameter is not positive, or the span ends before it
+/// begins.
 std::unique_ptr<Recording> openRecording(const std::filesystem::path& path,
                                          const RecordingParams& params = {});
 
@@ -90,5 +93,8 @@ std::string nothingReadMessage(const Recording& recording);
 /// The same, for frames that were left out by the caller as well.
 std::string nothingReadMessage(const Recording& recording,
                                const std::vector<SkippedFrame>& skipped);
+
+/// "; 44 frames were left out, the first: why", or nothing.
+std::string leftOutNote(const std::vector<SkippedFrame>& skipped);
 
 }  // namespace heel

@@ -9,6 +9,35 @@
 #include <utility>
 
 namespace heel {
+namespace {
+
+bool isAheadOf(const std::vector<double>& following_s, double stamp_s, double last_s) {
+  std::size_t lost = 0, kept = 0;
+  for (const double next_s : following_s) {
+    if (next_s > stamp_s) ++kept;
+    if (next_s > last_s && next_s < stamp_s) ++lost;
+  }
+  return lost > 1 && lost > kept;
+}
+
+[[noreturn]] void failAhead(double stamp_s) {
+  throw std::runtime_error("the time jumps ahead to " + std::to_string(stamp_s) +
+                           " s, and the next frames are before it");
+}
+
+}  // namespace
+
+void checkGoesOn(double stamp_s, double last_s) {
+  if (stamp_s > last_s) return;
+  const bool stalls = stamp_s == last_s;
+  throw std::runtime_error(std::string("the time ") + (stalls ? "stands still" : "runs backwards") +
+                           ", from " + std::to_string(last_s) + " s to " + std::to_string(stamp_s) +
+                           " s");
+}
+
+void checkIsNotAhead(double stamp_s, double last_s, const std::vector<double>& following_s) {
+  if (isAheadOf(following_s, stamp_s, last_s)) failAhead(stamp_s);
+}
 
 StampOrder::StampOrder(std::vector<double> stamps_s)
     : stamps_s_(std::move(stamps_s)), is_ahead_(stamps_s_.size(), false) {
@@ -30,26 +59,14 @@ double StampOrder::rate_hz() const {
 bool StampOrder::wouldLoseNext(std::size_t index, double last_s) const {
   constexpr std::size_t kFollowing = 100;
   const std::size_t end = std::min(stamps_s_.size(), index + 1 + kFollowing);
-  std::size_t lost = 0, kept = 0;
-  for (std::size_t i = index + 1; i < end; ++i) {
-    if (stamps_s_[i] > stamps_s_[index]) ++kept;
-    if (stamps_s_[i] > last_s && stamps_s_[i] < stamps_s_[index]) ++lost;
-  }
-  return lost > 1 && lost > kept;
+  const auto at = [&](std::size_t i) { return stamps_s_.begin() + static_cast<std::ptrdiff_t>(i); };
+  return isAheadOf({at(index + 1), at(end)}, stamps_s_[index], last_s);
 }
 
 void StampOrder::check(std::size_t index) {
   const double stamp_s = stamps_s_[index];
-  if (!(stamp_s > last_s_)) {
-    const bool stalls = stamp_s == last_s_;
-    throw std::runtime_error(std::string("the time ") +
-                             (stalls ? "stands still" : "runs backwards") + ", from " +
-                             std::to_string(last_s_) + " s to " + std::to_string(stamp_s) + " s");
-  }
-  if (isAhead(index)) {
-    throw std::runtime_error("the time jumps ahead to " + std::to_string(stamp_s) +
-                             " s, and the next frames are before it");
-  }
+  checkGoesOn(stamp_s, last_s_);
+  if (isAhead(index)) failAhead(stamp_s);
   last_s_ = stamp_s;
 }
 

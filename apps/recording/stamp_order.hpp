@@ -11,6 +11,16 @@
 
 namespace heel {
 
+/// Whether a frame's time is after that of the one before that counts; else a sentence says why
+/// not.
+/// @throws std::runtime_error  if it is not.
+void checkGoesOn(double stamp_s, double last_s);
+
+/// @throws std::runtime_error  one sentence, if more than one of the frames that follow, and most
+/// of
+///         them, would be lost after this one.
+void checkIsNotAhead(double stamp_s, double last_s, const std::vector<double>& following_s);
+
 /// The times of a recording's frames, in their order. A frame counts if its time is after that of
 /// the one before that counts, and most of the frames that follow are not before it.
 class StampOrder {

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <map>
+#include <sstream>
 
 namespace heel::test {
 namespace {
@@ -64,10 +65,12 @@ class Bags : public testing::Test {
 TEST_F(Bags, OfASimulationGiveTheTracksOfItsFolderByteForByte) {
   simulate("hall", "hall.bag");
   simulate("again", "hall_ros2");
+  simulate("once_more", "hall.mcap");
   ASSERT_TRUE(findsNothing(track("hall", "out")));
   const std::string tracks = readText(folder_ / "out/tracks.csv");
   EXPECT_GT(std::count(tracks.begin(), tracks.end(), '\n'), 10) << "somebody was tracked";
-  for (const std::string bag : {"hall.bag", "hall_ros2", "hall_ros2/hall_ros2_0.db3"}) {
+  for (const std::string bag :
+       {"hall.bag", "hall_ros2", "hall_ros2/hall_ros2_0.db3", "hall.mcap"}) {
     const HeelRun run = track(bag, "bag_out");
     ASSERT_TRUE(findsNothing(run));
     EXPECT_THAT(run.warnings(), ElementsAre());
@@ -76,6 +79,30 @@ TEST_F(Bags, OfASimulationGiveTheTracksOfItsFolderByteForByte) {
           << bag << " " << table;
     }
   }
+}
+
+TEST_F(Bags, AreReadFromAndToWhatIsAskedFor) {
+  for (const std::string bag : {"hall.bag", "hall.db3", "hall.mcap"}) {
+    simulate("for_" + bag, bag);
+    const HeelRun run = track(bag, "out", {"--no-film", "--from", "0.75", "--to", "1.25"});
+    ASSERT_TRUE(findsNothing(run));
+    std::istringstream frames(readText(folder_ / "out/frames.csv"));
+    std::vector<double> stamps_s;
+    std::string line;
+    std::getline(frames, line);
+    const auto column = std::count(
+        line.begin(), line.begin() + static_cast<std::ptrdiff_t>(line.find("stamp_s")), ',');
+    while (std::getline(frames, line)) {
+      std::istringstream row(line);
+      std::string value;
+      for (std::ptrdiff_t i = 0; i <= column; ++i) std::getline(row, value, ',');
+      stamps_s.push_back(std::stod(value));
+    }
+    ASSERT_GT(stamps_s.size(), 2U) << bag;
+    EXPECT_GE(stamps_s.front(), 0.75);
+    EXPECT_LE(stamps_s.back(), 1.4);  // the bag may begin a frame after 0
+  }
+  EXPECT_TRUE(failsWith(track("hall.bag", "out", {"--from", "1000"}), {"hall.bag", "that part"}));
 }
 
 TEST_F(Bags, AreInspected) {
@@ -103,7 +130,7 @@ TEST_F(Bags, ThatWereCutOffAreTrackedAsFarAsTheyGo) {
 
 TEST_F(Bags, OfResultsHoldWhatViewersShow) {
   simulate("hall", "hall.bag");
-  for (const std::string bag : {"results.bag", "results.db3"}) {
+  for (const std::string bag : {"results.bag", "results.db3", "results.mcap"}) {
     const HeelRun run = track("hall.bag", "out", {"--bag", folder_ / bag});
     ASSERT_TRUE(findsNothing(run));
     EXPECT_THAT(run.out, HasSubstr(bag));
@@ -127,7 +154,7 @@ TEST_F(Bags, DoNotCostMemoryByTheirLength) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "a sanitizer keeps freed memory";
 #endif
-  for (const char* name : {"long.bag", "long.db3"}) {
+  for (const char* name : {"long.bag", "long.db3", "long.mcap"}) {
     const auto peakOf_kB = [&](int frames) {
       RecordingInfo info;
       info.camera.left = {320, 240, 260.0, 260.0, 159.5, 119.5};

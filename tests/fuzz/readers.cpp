@@ -219,6 +219,7 @@ const std::vector<FuzzReader>& fuzzReaders() {
       {"ply", fromFile("a.ply", readCloud), [](const auto& f) { return cloudSeeds(f, ".ply"); }},
       {"ros1_bag", fromFile("a.bag", readBag), [](const auto& f) { return bagSeeds(f, ".bag"); }},
       {"ros2_bag", fromFile("a.db3", readBag), [](const auto& f) { return bagSeeds(f, ".db3"); }},
+      {"mcap", fromFile("a.mcap", readBag), [](const auto& f) { return bagSeeds(f, ".mcap"); }},
       {"ros1_message", [](const auto&, const auto& b) { AllMessages::read(BagForm::kRos1, b); },
        [](const auto&) { return AllMessages::seeds(BagForm::kRos1); }},
       {"cdr_message", [](const auto&, const auto& b) { AllMessages::read(BagForm::kRos2, b); },

@@ -154,7 +154,7 @@ cv::Mat inspect(const InspectOptions& options) {
     inspectClouds(what);
     return {};
   }
-  if (isBag(what) && !inspectBag(what, options.opening.topics)) return {};
+  if (isBag(what) && !inspectBag(what, options.opening)) return {};
   if (isCloudName(what) && !fs::is_directory(what)) return inspectCloud(what);
   if (isCloudFolder(what)) {
     inspectClouds(what);
@@ -192,6 +192,7 @@ void addInspect(CLI::App& app) {
       "  heel inspect plan.pnml --out plan.png\n"
       "  heel inspect recordings/kitchen\n"
       "  heel inspect robot.bag\n"
+      "  heel inspect robot.mcap --from 600 --to 660\n"
       "  heel inspect scene.pcd --out scene.png\n"
       "  heel inspect 'clouds/*.ply'");
   verb->add_option("WHAT", options->what,
@@ -199,6 +200,7 @@ void addInspect(CLI::App& app) {
                    "(folder), bag, or PCD and PLY files (one, or a pattern in quotes)")
       ->required();
   verb->add_option("--out", options->out, "where to write the picture")->capture_default_str();
+  addTimeSpan(*verb, options->opening.span);
   addCameraTopics(*verb, options->opening.topics);
   verb->callback([options] { run(*options); });
 }

@@ -5,7 +5,7 @@
 /// What `heel inspect` tells of bags, clouds and plans.
 #pragma once
 
-#include <heel/apps/recording/bags/bag_topics.hpp>
+#include <heel/apps/recording/recording.hpp>
 
 #include <opencv2/core/mat.hpp>
 
@@ -16,7 +16,7 @@ namespace heel {
 /// Prints a bag's topics and frames. Whether there is a camera in it, whose recording can be
 /// inspected too.
 /// @throws std::runtime_error  if the bag can't be read, or has not the topics that are named.
-bool inspectBag(const std::filesystem::path& path, const BagTopics& topics);
+bool inspectBag(const std::filesystem::path& path, const RecordingParams& opening);
 
 /// Depth as colours, from red (near) to blue (6 m and more); black where there is none.
 cv::Mat paintDepth(const cv::Mat& depth_m);

@@ -42,9 +42,6 @@ std::string detailsOf(const BagTopicSummary& t) {
   if (!t.encoding.empty()) text += " " + t.encoding;
   if (!t.frame_id.empty()) text += ", frame " + t.frame_id;
   if (t.broken > 0) text += ", " + std::to_string(t.broken) + " broken";
-  if (t.backward_stamps > 0) {
-    text += ", " + std::to_string(t.backward_stamps) + " with a time not after the one before";
-  }
   return text;
 }
 
@@ -80,8 +77,9 @@ bool namesCamera(const BagTopics& t) {
 
 }  // namespace
 
-bool inspectBag(const std::filesystem::path& path, const BagTopics& topics) {
-  const BagSurvey survey = surveyBag(path);
+bool inspectBag(const std::filesystem::path& path, const RecordingParams& opening) {
+  const BagTopics& topics = opening.topics;
+  const BagSurvey survey = surveyBag(path, opening.span);
   std::printf(
       "%s: ROS %d bag, %zu messages on %zu topic%s over %.1f s, from %s\n",
       std::filesystem::canonical(path).filename().c_str(), survey.form == BagForm::kRos1 ? 1 : 2,

@@ -81,6 +81,15 @@ void addCameraTopics(CLI::App& verb, BagTopics& topics) {
   addBaseFrame(verb, topics);
 }
 
+void addTimeSpan(CLI::App& verb, TimeSpan& span) {
+  verb.add_option("--from", span.from_s, "read from here on, after the recording's beginning [s]")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("S");
+  verb.add_option("--to", span.to_s, "read up to here [s]")
+      ->check(CLI::PositiveNumber)
+      ->type_name("S");
+}
+
 void addOdometryTopic(CLI::App& verb, BagTopics& topics) {
   add(verb, "--odometry-topic", topics.odometry, "odometry");
 }
@@ -99,7 +108,7 @@ void addLaserTopics(CLI::App& verb, BagTopics& topics) {
 void addResultBag(CLI::App& verb, std::filesystem::path& bag) {
   verb.add_option("--bag", bag,
                   "also write a bag of the results, for RViz and the like: NAME.bag for ROS 1; "
-                  "NAME.db3, or a folder, for ROS 2");
+                  "NAME.mcap, NAME.db3, or a folder, for ROS 2");
 }
 
 }  // namespace heel

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <heel/apps/recording/bags/bag_topics.hpp>
+#include <heel/apps/recording/time_span.hpp>
 #include <heel/apps/simulation/scene.hpp>
 
 #include <filesystem>
@@ -43,6 +44,9 @@ std::filesystem::path planFile(const std::string& plan);
 
 /// Topics of images and clouds, and the base frame.
 void addCameraTopics(CLI::App& verb, BagTopics& topics);
+
+/// The part of a recording that is read.
+void addTimeSpan(CLI::App& verb, TimeSpan& span);
 
 /// The topic of odometry.
 void addOdometryTopic(CLI::App& verb, BagTopics& topics);

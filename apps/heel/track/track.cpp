@@ -88,6 +88,7 @@ void run(const TrackOptions& options) {
   ProgressBar progress("tracking", recording->info().frame_count);
   TrackEnd end;
   end.warnings = setup.warnings;
+  const std::string lost_before = recording->info().lost;
   Frame frame;
   StageTimes times_ms{};
   while (!isStopRequested() && recording->next(frame)) {
@@ -119,6 +120,10 @@ void run(const TrackOptions& options) {
     warn(warning);
     end.warnings.push_back(warning);
   }
+  if (const std::string& lost = recording->info().lost; lost != lost_before) {
+    warn(lost);
+    end.warnings.push_back(lost);
+  }
   output.commit(end);
   print(output, end.skipped.size());
   if (!end.complete) {
@@ -126,7 +131,8 @@ void run(const TrackOptions& options) {
                   " frames");
   }
   if (output.framesWithTarget() == 0) {
-    throw NothingFound(options.recording.string() + ": the person is in no frame");
+    throw NothingFound(options.recording.string() + ": the person is in no frame" +
+                       leftOutNote(end.skipped));
   }
 }
 
@@ -155,6 +161,7 @@ void addTrack(CLI::App& app) {
       ->option_text("X0 Y0 X1 Y1");
   verb->add_flag("--no-film", options->no_film, "write the tables only");
   addResultBag(*verb, options->bag);
+  addTimeSpan(*verb, options->opening.span);
   addCameraTopics(*verb, options->opening.topics);
   addOdometryTopic(*verb, options->opening.topics);
   verb->callback([options] { run(*options); });

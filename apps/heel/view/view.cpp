@@ -218,6 +218,7 @@ void addView(CLI::App& app) {
   verb->add_option("--out", options->out, "write pictures to this folder, and open no window");
   verb->add_option("--pictures", options->pictures, "how many at the most; 0: one of each frame")
       ->capture_default_str();
+  addTimeSpan(*verb, options->opening.span);
   addCameraTopics(*verb, options->opening.topics);
   addOdometryTopic(*verb, options->opening.topics);
   verb->callback([options] { run(*options); });

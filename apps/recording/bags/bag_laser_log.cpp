@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace heel {
 
@@ -26,6 +27,9 @@ BagLaserLog::BagLaserLog(const std::filesystem::path& path, const BagTopics& top
     T_base_scanner_ = FloorPose{T.translation().head<2>(), std::atan2(T(1, 0), T(0, 0))};
   }
   bag_ = openBag(path);
+  std::vector<std::string> read = poses_->topics();
+  read.push_back(scan_topic_);
+  bag_->select(survey.queryOf(std::move(read), true));
 }
 
 bool BagLaserLog::next(LaserReading& reading) {

@@ -17,8 +17,11 @@ namespace heel {
 BagMotion::BagMotion(const BagSurvey& survey, const BagTopics& topics,
                      const std::string& camera_frame)
     : path_(survey.path), frames_(survey.frames) {
+  constexpr double kAround_s = 2.0;  // poses before and after the first and the last frame
   const auto base = baseFrameOf(survey, topics, camera_frame);
   addOdometry(survey, topics);
+  query_ = survey.queryOf({}, true, kAround_s);
+  if (!odometry_topic_.empty()) query_.topics.push_back(odometry_topic_);
   motion_.of_camera = !base;
   if (findWay(base.value_or(camera_frame), topics)) return;
   // Something moves, but tf does not join the camera to it.
@@ -108,6 +111,7 @@ std::map<std::string, Trajectory> BagMotion::readLinks() const {
   }
   const bool by_odometry = !odometry_topic_.empty() && moving.count(odometry_frame_) > 0;
   const auto bag = openBag(path_);
+  bag->select(query_);
   BagMessage raw;
   OdometryMsg odometry;
   TFMessageMsg transforms;

@@ -30,7 +30,7 @@ class BagMotion {
   /// @throws std::runtime_error  if a topic that is named is not there.
   BagMotion(const BagSurvey& survey, const BagTopics& topics, const std::string& camera_frame);
 
-  /// Reads the whole bag, if anything in it moves the robot. Absent if nothing does.
+  /// Reads tf and odometry, if anything in the bag moves the robot. Absent if nothing does.
   /// @throws std::runtime_error  as openBag().
   std::optional<RobotMotion> read() const;
 
@@ -46,6 +46,7 @@ class BagMotion {
   std::map<std::string, Trajectory> readLinks() const;
 
   std::filesystem::path path_;
+  BagQuery query_;
   std::map<std::string, BagSurvey::Link> frames_;
   std::string odometry_topic_, odometry_world_, odometry_frame_;
   Eigen::Isometry3d T_child_frame_ = Eigen::Isometry3d::Identity();  // of odometry_frame_

@@ -90,6 +90,14 @@ void BagPoses::take(const BagReader& bag, const BagMessage& raw) {
   }
 }
 
+std::vector<std::string> BagPoses::topics() const {
+  std::vector<std::string> names;
+  for (const std::string& name : {odometry_topic_, truth_topic_}) {
+    if (!name.empty()) names.push_back(name);
+  }
+  return names;
+}
+
 std::vector<StampedPose> readBagPoses(const std::filesystem::path& path, const BagTopics& topics) {
   const BagSurvey survey = surveyBag(path);
   BagPoses poses(survey, topics);
@@ -97,6 +105,7 @@ std::vector<StampedPose> readBagPoses(const std::filesystem::path& path, const B
     failWithTopics(survey, "does not tell where the robot was (no Odometry, no tf that moves it)");
   }
   const auto bag = openBag(path);
+  bag->select(survey.queryOf(poses.topics(), true));
   std::vector<StampedPose> all;
   BagMessage raw;
   while (bag->next(raw)) {

@@ -37,6 +37,9 @@ class BagPoses {
   bool hasOdometry() const { return !odometry_topic_.empty() || !odometry_frame_.empty(); }
   bool hasTruth() const { return !truth_topic_.empty(); }
 
+  /// Of the Odometry messages that are taken; poses may also be in tf.
+  std::vector<std::string> topics() const;
+
   /// Takes a message, if it holds a pose.
   void take(const BagReader& bag, const BagMessage& raw);
 

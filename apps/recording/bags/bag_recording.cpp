@@ -5,6 +5,7 @@
 #include <heel/apps/recording/bags/bag_poses.hpp>
 #include <heel/apps/recording/bags/bag_recording.hpp>
 #include <heel/apps/recording/clouds/pcd_file.hpp>
+#include <heel/apps/recording/stamp_order.hpp>
 #include <heel/cloud/image_extent.hpp>
 
 #include <opencv2/calib3d.hpp>
@@ -20,6 +21,9 @@ namespace {
 
 /// So many messages wait for a partner at the most.
 constexpr std::size_t kMostWaiting = 64;
+/// So many frames are read ahead: they tell whether one has a wrong time, and their partners have
+/// come meanwhile.
+constexpr std::size_t kReadAhead = 8;
 
 template <std::size_t N>
 cv::Mat matrixOf(const std::array<double, N>& values) {
@@ -47,7 +51,7 @@ std::string layoutOf(const BagSurvey& survey, const BagCamera& camera) {
 
 std::unique_ptr<Recording> BagRecording::open(const std::filesystem::path& path,
                                               const RecordingParams& params) {
-  const BagSurvey survey = surveyBag(path);
+  const BagSurvey survey = surveyBag(path, params.span);
   const BagCamera camera = findBagCamera(survey, params.topics);
   RecordingInfo info;
   info.name = std::filesystem::canonical(path).filename().string();
@@ -70,14 +74,16 @@ BagRecording::BagRecording(const BagSurvey& survey, const BagCamera& camera, Bag
     queue.topic = topic.topic.name;
     queue.is_compressed = topic.topic.holds<CompressedImageMsg>();
     queue.has_stamps = topic.has_stamps;
-    queue.order = StampOrder(topic.stamps_s);
     return queue;
   };
   first_ = queueOf(*camera.first);
   if (camera.second != nullptr) second_ = queueOf(*camera.second);
-  info_.first_s = first_.order.first_s();
-  info_.duration_s = first_.order.duration_s();
-  const double rate_hz = first_.order.rate_hz();
+  std::vector<std::string> read = {first_.topic};
+  if (camera.second != nullptr) read.push_back(second_.topic);
+  bag_->select(survey.queryOf(std::move(read), false));
+  info_.first_s = secondsOf(camera.first->first_stamp_ns);
+  info_.duration_s = camera.first->duration_s();
+  const double rate_hz = camera.first->rate_hz();
   limit_s_ = rate_hz > 0.0 ? 0.5 / rate_hz : 0.02;
   if (camera.sensor == SensorKind::kStereo) setUpStereo(survey, camera);
   if (camera.sensor == SensorKind::kRgbd) setUpRgbd(survey, camera);
@@ -131,8 +137,6 @@ void BagRecording::take(const BagMessage& raw, Queue& queue) {
     }
     message.stamp_s = secondsOf(header.stamp.ns);
   }
-  message.index = queue.stamped++;
-  if (message.index >= queue.order.size()) return;  // the bag has grown meanwhile
   message.bytes.assign(raw.data, raw.data + raw.size);
   queue.waiting.push_back(std::move(message));
 }
@@ -150,15 +154,23 @@ bool BagRecording::readMessage() {
   return false;
 }
 
-/// Whether the partner of the first that waits can be told, if it has one.
+/// Whether the partner of the first that waits can be told, if it has one, and that its time is
+/// right.
 bool BagRecording::isDecided() const {
-  if (first_.waiting.empty()) return false;
-  const Waiting& first = first_.waiting.front();
-  return info_.sensor == SensorKind::kCloud || at_end_ || first_.waiting.size() > kMostWaiting ||
-         first_.order.isAhead(first.index) ||
-         std::any_of(second_.waiting.begin(), second_.waiting.end(), [&](const Waiting& other) {
-           return other.stamp_s >= first.stamp_s && !second_.order.isAhead(other.index);
-         });
+  if (at_end_ || first_.waiting.size() > kMostWaiting) return true;
+  if (first_.waiting.size() <= kReadAhead) return false;
+  const double stamp_s = first_.waiting.front().stamp_s;
+  return info_.sensor == SensorKind::kCloud ||
+         std::any_of(second_.waiting.begin(), second_.waiting.end(),
+                     [&](const Waiting& other) { return other.stamp_s >= stamp_s; });
+}
+
+void BagRecording::checkStamp(double stamp_s) {
+  std::vector<double> following_s;
+  for (const Waiting& next : first_.waiting) following_s.push_back(next.stamp_s);
+  checkGoesOn(stamp_s, last_s_);
+  checkIsNotAhead(stamp_s, last_s_, following_s);
+  last_s_ = stamp_s;
 }
 
 std::optional<BagRecording::Waiting> BagRecording::takePartner(double stamp_s) {
@@ -175,11 +187,15 @@ std::optional<BagRecording::Waiting> BagRecording::takePartner(double stamp_s) {
 bool BagRecording::next(Frame& frame) {
   while (true) {
     while (!isDecided() && !at_end_) readMessage();
-    if (first_.waiting.empty()) return false;
+    if (first_.waiting.empty()) {
+      // By its index, damage is found where it is read.
+      if (info_.lost.empty()) info_.lost = bag_->lost();
+      return false;
+    }
     const Waiting first = std::move(first_.waiting.front());
     first_.waiting.pop_front();
     try {
-      first_.order.check(first.index);
+      checkStamp(first.stamp_s);
       std::optional<Waiting> second;
       if (info_.sensor != SensorKind::kCloud) {
         second = takePartner(first.stamp_s);

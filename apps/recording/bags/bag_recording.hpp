@@ -14,6 +14,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,9 +22,9 @@
 
 namespace heel {
 
-/// The images or clouds of a bag. It is read as a stream: a few messages that wait for their
-/// partner are all that is held. Two images are of one frame if their stamps are less than half a
-/// frame apart.
+/// The images or clouds of a bag. It is read as a stream: the next few messages, which wait for
+/// their partner and tell whether a time can be, are all that is held. Two images are of one frame
+/// if their stamps are less than half a frame apart.
 ///
 /// Raw images are rectified as camera_info tells; tf tells the camera's place on the robot. A bag
 /// that is damaged gives what can be read, and RecordingInfo::lost tells the rest.
@@ -38,10 +39,9 @@ class BagRecording final : public Recording {
   std::optional<RobotMotion> readMotion() const override { return bag_motion_.read(); }
 
  private:
-  /// A message, its number on its topic (from 1), and its place among those that have a stamp.
+  /// A message, and its number on its topic (from 1).
   struct Waiting {
     std::size_t number = 0;
-    std::size_t index = 0;
     double stamp_s = 0.0;
     std::vector<std::uint8_t> bytes;
   };
@@ -50,9 +50,7 @@ class BagRecording final : public Recording {
     std::string topic;
     bool is_compressed = false;
     bool has_stamps = true;
-    StampOrder order;
     std::size_t count = 0;
-    std::size_t stamped = 0;
     std::deque<Waiting> waiting;
   };
 
@@ -64,6 +62,7 @@ class BagRecording final : public Recording {
   bool readMessage();
   void take(const BagMessage& raw, Queue& queue);
   bool isDecided() const;
+  void checkStamp(double stamp_s);
   std::optional<Waiting> takePartner(double stamp_s);
   void makeFrame(const Waiting& first, const Waiting* second, Frame& frame);
   void readColor(const Queue& queue, const Waiting& message, cv::Mat& image_bgr);
@@ -77,6 +76,7 @@ class BagRecording final : public Recording {
   BagMotion bag_motion_;
   bool at_end_ = false;
   Queue first_, second_;
+  double last_s_ = -std::numeric_limits<double>::infinity();
   double limit_s_ = 0.0;  // two images of a frame are not further apart
   std::optional<StereoRig> rig_;
   cv::Mat undistort_x_, undistort_y_;  // of raw RGB-D images; empty: nothing to do

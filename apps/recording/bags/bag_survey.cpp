@@ -6,6 +6,7 @@
 #include <heel/apps/recording/bags/bag_survey.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -39,60 +40,159 @@ struct CompressedHead {
   }
 };
 
+bool isLatched(const BagTopic& topic) {
+  return topic.holds<TFMessageMsg>() && topic.name.find("static") != std::string::npos;
+}
+
 class Surveyor {
  public:
-  Surveyor(const BagReader& reader, BagSurvey& survey) : reader_(reader), survey_(survey) {}
+  Surveyor(BagReader& reader, BagSurvey& survey) : reader_(reader), survey_(survey) {}
 
-  void add(const BagMessage& raw) {
-    for (std::size_t i = survey_.topics.size(); i < reader_.topics().size(); ++i) addTopic();
-    BagTopicSummary& topic = survey_.topics[raw.topic];
-    ++topic.count;
-    if (survey_.messages++ == 0) survey_.first_ns = survey_.last_ns = raw.stamp_ns;
-    survey_.first_ns = std::min(survey_.first_ns, raw.stamp_ns);
-    survey_.last_ns = std::max(survey_.last_ns, raw.stamp_ns);
-    recorded_[raw.topic].add(raw.stamp_ns, isFrame(topic));
-    if (!topic.is_known) return;
-    try {
-      look(raw, topic);
-    } catch (const std::runtime_error&) {
-      ++topic.broken;
-    }
-  }
-
-  /// Also lists the topics of which there is no message.
-  void finish() {
-    while (survey_.topics.size() < reader_.topics().size()) addTopic();
+  void byIndex(const BagIndex& index, const TimeSpan& span) {
+    addTopics();
+    setSpan(index.first_ns, span);
     for (std::size_t i = 0; i < survey_.topics.size(); ++i) {
       BagTopicSummary& topic = survey_.topics[i];
-      topic.has_stamps = stamped_[i].count > 0 && stamped_[i].last != 0;
-      Times& times = topic.has_stamps ? stamped_[i] : recorded_[i];
-      topic.stamps_s = std::move(times.all_s);
-      topic.first_ns = times.first;
-      topic.last_ns = times.last;
-      topic.backward_stamps = times.backward;
+      const BagIndex::Topic& told = index.topics[i];
+      topic.first_ns = told.first_ns;
+      topic.last_ns = told.last_ns;
+      topic.count = told.count;
+      survey_.messages += told.count;
+      if (told.count == 0 || !topic.is_known) continue;
+      // What is sent once counts until it is sent again.
+      const bool is_kept = isLatched(topic.topic) || topic.topic.holds<CameraInfoMsg>();
+      BagQuery first = survey_.queryOf({topic.topic.name}, false);
+      first.from_ns = std::max(first.from_ns, told.first_ns);
+      if (!lookAtFirst(topic, first)) {
+        if (is_kept) lookAtFirst(topic, BagQuery{{topic.topic.name}});
+        if (!is_kept) topic.count = 0;
+      }
+      if (!is_kept) cut(topic);
     }
+    lookAtTransforms(index);
+    survey_.first_ns = std::max(index.first_ns, survey_.span.from_ns);
+    survey_.last_ns = std::min(index.last_ns, survey_.span.to_ns);
+    finish();
+  }
+
+  /// Reads all messages.
+  void byScan(const TimeSpan& span) {
+    BagMessage raw;
+    bool is_first = true;
+    while (reader_.next(raw)) {
+      addTopics();
+      if (is_first) setSpan(raw.stamp_ns, span);
+      is_first = false;
+      BagTopicSummary& topic = survey_.topics[raw.topic];
+      const bool is_within =
+          raw.stamp_ns >= survey_.span.from_ns && raw.stamp_ns <= survey_.span.to_ns;
+      if (!is_within && !isLatched(topic.topic) && !topic.topic.holds<CameraInfoMsg>()) continue;
+      const auto widen = [&](std::int64_t& first_ns, std::int64_t& last_ns, bool is_new) {
+        first_ns = is_new ? raw.stamp_ns : std::min(first_ns, raw.stamp_ns);
+        last_ns = is_new ? raw.stamp_ns : std::max(last_ns, raw.stamp_ns);
+      };
+      widen(survey_.first_ns, survey_.last_ns, survey_.messages == 0);
+      widen(topic.first_ns, topic.last_ns, topic.count == 0);
+      ++survey_.messages;
+      ++topic.count;
+      if (topic.is_known) lookOrCount(raw, topic);
+    }
+    addTopics();
+    noteLost();
+    finish();
   }
 
  private:
-  struct Times {
-    std::size_t count = 0, backward = 0;
-    std::int64_t first = 0, last = 0, before = 0;
-    std::vector<double> all_s;
-
-    void add(std::int64_t ns, bool keep) {
-      if (keep) all_s.push_back(secondsOf(ns));
-      if (count == 0) first = last = ns;
-      if (count > 0 && ns <= before) ++backward;
-      first = std::min(first, ns);
-      last = std::max(last, ns);
-      before = ns;
-      ++count;
-    }
-  };
-
   static bool isFrame(const BagTopicSummary& summary) {
     const BagTopic& t = summary.topic;
     return t.holds<ImageMsg>() || t.holds<CompressedImageMsg>() || t.holds<PointCloud2Msg>();
+  }
+
+  void setSpan(std::int64_t first_ns, const TimeSpan& span) {
+    if (span.from_s > 0.0) survey_.span.from_ns = first_ns + nanosecondsOf(span.from_s);
+    if (std::isfinite(span.to_s)) survey_.span.to_ns = first_ns + nanosecondsOf(span.to_s);
+  }
+
+  bool lookAtFirst(BagTopicSummary& topic, const BagQuery& query) {
+    constexpr int kMostTries = 10;  // until one is whole
+    reader_.select(query);
+    BagMessage raw;
+    bool is_there = false;
+    for (int i = 0; i < kMostTries && reader_.next(raw); ++i) {
+      if (&survey_.topics[raw.topic] != &topic) continue;  // of the same name
+      is_there = true;
+      const std::size_t broken = topic.broken;
+      lookOrCount(raw, topic);
+      if (topic.broken == broken) break;
+    }
+    noteLost();
+    return is_there;
+  }
+
+  /// Of the times and the number of a whole topic, those of the part.
+  void cut(BagTopicSummary& topic) const {
+    const auto whole_ns = static_cast<double>(topic.last_ns - topic.first_ns);
+    topic.first_ns = std::max(topic.first_ns, survey_.span.from_ns);
+    topic.last_ns = std::max(topic.first_ns, std::min(topic.last_ns, survey_.span.to_ns));
+    const auto part_ns = static_cast<double>(topic.last_ns - topic.first_ns);
+    if (topic.count < 2 || part_ns >= whole_ns) return;
+    const double share = part_ns / whole_ns * static_cast<double>(topic.count - 1);
+    topic.count = 1 + static_cast<std::size_t>(std::llround(share));
+  }
+
+  /// All of the latched ones, the beginning of the others, and some of what follows: enough to see
+  /// what moves, for what has moved is elsewhere.
+  void lookAtTransforms(const BagIndex& index) {
+    constexpr std::int64_t kSecond = 1000000000, kAll = 120 * kSecond;
+    constexpr std::int64_t kBeginning = 10 * kSecond, kPieces = 20;
+    std::vector<std::string> latched, others;
+    for (const BagTopicSummary& t : survey_.topics) {
+      if (!t.topic.holds<TFMessageMsg>()) continue;
+      (isLatched(t.topic) ? latched : others).push_back(t.topic.name);
+    }
+    if (!latched.empty()) lookAtTransforms(BagQuery{latched});
+    if (others.empty()) return;
+    const std::int64_t from = std::max(index.first_ns, survey_.span.from_ns);
+    const std::int64_t to = std::min(index.last_ns, survey_.span.to_ns);
+    if (from > to) return;
+    // Times of a broken index may be further apart than a number can tell.
+    const std::int64_t length =
+        static_cast<double>(to) - static_cast<double>(from) > 1e18 ? kAll : to - from;
+    if (length <= kAll) return lookAtTransforms({others, from, to});
+    lookAtTransforms({others, from, from + kBeginning});
+    const std::int64_t step = (length - kBeginning) / kPieces;
+    for (std::int64_t i = 1; i <= kPieces; ++i) {
+      const std::int64_t end = from + kBeginning + i * step;
+      lookAtTransforms({others, end - kSecond, end});
+    }
+  }
+
+  void lookAtTransforms(const BagQuery& query) {
+    reader_.select(query);
+    BagMessage raw;
+    while (reader_.next(raw)) {
+      try {
+        lookAtFrames(raw);
+      } catch (const std::runtime_error&) {
+        ++survey_.topics[raw.topic].broken;
+      }
+    }
+    noteLost();
+  }
+
+  void noteLost() {
+    if (survey_.lost.empty()) survey_.lost = reader_.lost();
+  }
+
+  void finish() {
+    for (BagTopicSummary& topic : survey_.topics) {
+      topic.has_stamps = topic.first_stamp_ns != 0;
+      if (!topic.has_stamps) topic.first_stamp_ns = topic.first_ns;
+    }
+  }
+
+  void addTopics() {
+    while (survey_.topics.size() < reader_.topics().size()) addTopic();
   }
 
   void addTopic() {
@@ -105,41 +205,50 @@ class Surveyor {
                        t.holds<PoseStampedMsg>() || t.holds<TFMessageMsg>() ||
                        t.holds<MarkerArrayMsg>();
     survey_.topics.push_back(summary);
-    recorded_.emplace_back();
-    stamped_.emplace_back();
+    is_looked_at_.push_back(false);
+  }
+
+  void lookOrCount(const BagMessage& raw, BagTopicSummary& topic) {
+    try {
+      look(raw, topic);
+    } catch (const std::runtime_error&) {
+      ++topic.broken;
+    }
   }
 
   void look(const BagMessage& raw, BagTopicSummary& topic) {
-    const bool first = topic.count == 1;
-    HeaderMsg header;
     if (topic.topic.holds<TFMessageMsg>()) return lookAtFrames(raw);
     if (topic.topic.holds<MarkerArrayMsg>()) return;
+    HeaderMsg header;
     reader_.read(raw, header);
-    if (first) topic.frame_id = frameName(header.frame_id);
-    stamped_[raw.topic].add(header.stamp.ns, isFrame(topic));
-    if (first && topic.topic.holds<ImageMsg>()) {
+    if (is_looked_at_[raw.topic]) return;
+    topic.frame_id = frameName(header.frame_id);
+    topic.first_stamp_ns = header.stamp.ns;
+    if (topic.topic.holds<ImageMsg>()) {
       ImageHead image;
       reader_.read(raw, image);
       topic.width = image.width;
       topic.height = image.height;
       topic.encoding = printable(image.encoding);
-    } else if (first && topic.topic.holds<CompressedImageMsg>()) {
+    } else if (topic.topic.holds<CompressedImageMsg>()) {
       lookAtCompressed(raw, topic);
-    } else if (first && topic.topic.holds<PointCloud2Msg>()) {
+    } else if (topic.topic.holds<PointCloud2Msg>()) {
       PointCloud2Msg cloud;
       reader_.read(raw, cloud);
       topic.width = cloud.width;
       topic.height = cloud.height;
+      topic.encoding.clear();
       for (const auto& field : cloud.points_fields) {
         topic.encoding += (topic.encoding.empty() ? "" : " ") + printable(field.name);
       }
-    } else if (first && topic.topic.holds<CameraInfoMsg>()) {
+    } else if (topic.topic.holds<CameraInfoMsg>()) {
       reader_.read(raw, survey_.camera_infos[topic.topic.name]);
     } else if (topic.topic.holds<OdometryMsg>()) {
       OdometryMsg odometry;
       reader_.read(raw, odometry);
-      if (first) topic.child_frame_id = frameName(odometry.child_frame_id);
+      topic.child_frame_id = frameName(odometry.child_frame_id);
     }
+    is_looked_at_[raw.topic] = true;
   }
 
   void lookAtCompressed(const BagMessage& raw, BagTopicSummary& topic) {
@@ -177,9 +286,9 @@ class Surveyor {
     }
   }
 
-  const BagReader& reader_;
+  BagReader& reader_;
   BagSurvey& survey_;
-  std::vector<Times> recorded_, stamped_;
+  std::vector<bool> is_looked_at_;  ///< By topic: a message that is whole.
   TFMessageMsg frames_;
 };
 
@@ -228,20 +337,38 @@ std::string BagSurvey::topicNames() const {
   return names;
 }
 
-BagSurvey surveyBag(const std::filesystem::path& path) {
+BagQuery BagSurvey::queryOf(std::vector<std::string> names, bool with_tf, double around_s) const {
+  BagQuery query = span;
+  query.topics = std::move(names);
+  for (const BagTopicSummary& t : topics) {
+    if (with_tf && t.topic.holds<TFMessageMsg>()) query.topics.push_back(t.topic.name);
+  }
+  const std::int64_t around_ns = nanosecondsOf(around_s);
+  const BagQuery all;
+  if (span.from_ns > all.from_ns + around_ns) query.from_ns -= around_ns;
+  if (span.to_ns < all.to_ns - around_ns) query.to_ns += around_ns;
+  return query;
+}
+
+BagSurvey surveyBag(const std::filesystem::path& path, const TimeSpan& span) {
   const auto reader = openBag(path);
   BagSurvey survey;
   survey.path = path;
   survey.form = reader->form();
   Surveyor surveyor(*reader, survey);
-  BagMessage raw;
-  while (reader->next(raw)) surveyor.add(raw);
-  surveyor.finish();
-  survey.lost = reader->lost();
+  const BagIndex* index = reader->index();
+  if (index != nullptr) {
+    surveyor.byIndex(*index, span);
+  } else {
+    surveyor.byScan(span);
+  }
   if (survey.messages == 0) {
     const std::string damage = survey.lost.substr(0, survey.lost.rfind("; what else"));
     throw std::runtime_error(damage.empty() ? path.string() + ": there is no message in the bag"
                                             : damage + "; no message in it can be read");
+  }
+  if (survey.last_ns < survey.span.from_ns) {
+    throw std::runtime_error(path.string() + ": there is no message in that part of the bag");
   }
   return survey;
 }

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// What is in a bag: one look at all of its messages.
+/// What is in a bag: what its index tells, and a look at the first messages.
 #pragma once
 
 #include <heel/apps/bag/bag.hpp>
+#include <heel/apps/recording/time_span.hpp>
 
 #include <Eigen/Geometry>
 
@@ -22,15 +23,13 @@ namespace heel {
 /// The messages of one topic, and what the first of them tells.
 struct BagTopicSummary {
   BagTopic topic;
-  bool is_known = false;  ///< We can read its messages.
-  std::size_t count = 0;
-  std::size_t broken = 0;  ///< Of these, whose beginning can't be read.
+  bool is_known = false;   ///< We can read its messages.
+  std::size_t count = 0;   ///< In a part of a bag: about so many.
+  std::size_t broken = 0;  ///< Of those that were looked at, whose beginning can't be read.
   /// Whether stamps are those in the messages; else when they were recorded.
   bool has_stamps = false;
-  std::int64_t first_ns = 0, last_ns = 0;  ///< Least and greatest stamp.
-  std::size_t backward_stamps = 0;         ///< Not later than the one before.
-  /// Of images and clouds: all stamps that can be read, in seconds.
-  std::vector<double> stamps_s;
+  std::int64_t first_stamp_ns = 0;         ///< Of the first.
+  std::int64_t first_ns = 0, last_ns = 0;  ///< When the first and last were recorded.
   std::string frame_id;
   std::string child_frame_id;           ///< Of Odometry: whose pose it is.
   std::uint32_t width = 0, height = 0;  ///< Of images and clouds.
@@ -56,6 +55,7 @@ struct BagSurvey {
   std::map<std::string, Link> frames;                 ///< By their names, without a leading '/'.
   std::int64_t first_ns = 0, last_ns = 0;             ///< When the first and last were recorded.
   std::size_t messages = 0;
+  BagQuery span;     ///< The part that was looked at; all topics.
   std::string lost;  ///< See BagReader::lost().
 
   /// Null if there is none.
@@ -65,13 +65,18 @@ struct BagSurvey {
   std::optional<Eigen::Isometry3d> transform(const std::string& base,
                                              const std::string& frame) const;
 
+  /// What of these topics is in the part, and tf, if `with_tf`.
+  /// @param around_s  So much more before and after it.
+  BagQuery queryOf(std::vector<std::string> topics, bool with_tf, double around_s = 0.0) const;
+
   /// "/scan (sensor_msgs/LaserScan), /tf (tf2_msgs/TFMessage)".
   std::string topicNames() const;
 };
 
-/// Reads the whole bag.
-/// @throws std::runtime_error  as openBag(); if there is no message in it.
-BagSurvey surveyBag(const std::filesystem::path& path);
+/// Looks at the first message of each topic, at all of latched transforms, and at tf here and
+/// there; at all messages if the bag has no index that holds.
+/// @throws std::runtime_error  as openBag(); if there is no message in it, or in the span.
+BagSurvey surveyBag(const std::filesystem::path& path, const TimeSpan& span = {});
 
 /// A frame's name without the '/' that old bags begin it with.
 std::string frameName(const std::string& frame_id);

@@ -65,7 +65,7 @@ class BagMotions : public testing::TestWithParam<const char*> {
   std::unique_ptr<BagWriter> bag_;
   std::int64_t recorded_ns_ = 1;
 };
-INSTANTIATE_TEST_SUITE_P(Forms, BagMotions, testing::Values("r.bag", "r.db3"));
+INSTANTIATE_TEST_SUITE_P(Forms, BagMotions, testing::Values("r.bag", "r.db3", "r.mcap"));
 
 TEST_P(BagMotions, ByTfAreThoseOfTheBaseFrame) {
   addCameraOnRobot();

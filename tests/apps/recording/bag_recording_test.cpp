@@ -65,9 +65,11 @@ struct Read {
   Frame last;
 };
 
-Read readAll(const std::filesystem::path& path, const BagTopics& topics = {}) {
+Read readAll(const std::filesystem::path& path, const BagTopics& topics = {},
+             const TimeSpan& span = {}) {
   RecordingParams params;
   params.topics = topics;
+  params.span = span;
   const auto recording = openRecording(path, params);
   Read read;
   while (recording->next(read.last)) {
@@ -101,7 +103,7 @@ class BagRecordings : public testing::TestWithParam<const char*> {
   TempFolder folder_;
   std::string left_, right_;
 };
-INSTANTIATE_TEST_SUITE_P(Forms, BagRecordings, testing::Values("r.bag", "r.db3"));
+INSTANTIATE_TEST_SUITE_P(Forms, BagRecordings, testing::Values("r.bag", "r.db3", "r.mcap"));
 
 TEST_P(BagRecordings, PairsStereoImagesWithinHalfAFrame) {
   const auto bag = beginStereo();
@@ -132,11 +134,61 @@ TEST_P(BagRecordings, TakesTheNearestPartnerInWhateverOrderTheyCome) {
   EXPECT_THAT(readAll(path()).numbers, ElementsAre(1, 2, 3, 4));
 }
 
+TEST_P(BagRecordings, WrittenTopicAfterTopicLoseNoFrame) {
+  const auto bag = beginStereo();
+  for (int i = 1; i <= 300; ++i) addLeft(*bag, 0.1 * i);
+  for (int i = 1; i <= 300; ++i) addRight(*bag, 0.1 * i);
+  bag->commit();
+  const Read read = readAll(path());
+  EXPECT_THAT(read.numbers, SizeIs(300));
+  EXPECT_THAT(read.skipped, IsEmpty());
+}
+
+TEST_P(BagRecordings, GiveThePartThatIsAskedFor) {
+  const auto bag = createBag(path());
+  TFMessageMsg message;
+  TransformStampedMsg camera;
+  camera.header = header(0.1, "base_link");
+  camera.child_frame_id = "optical";
+  camera.transform.translation.z = 1.5;
+  message.transforms = {camera};
+  bag->write("/tf_static", 100'000'000, message, true);
+  bag->write("/left/camera_info", 100'000'000, cameraInfo(0.0));
+  bag->write("/right/camera_info", 100'000'000, cameraInfo(-3.0));
+  left_ = "/left/image_raw";
+  right_ = "/right/image_raw";
+  for (int i = 1; i <= 100; ++i) {
+    addLeft(*bag, 0.1 * i);
+    addRight(*bag, 0.1 * i);
+  }
+  bag->commit();
+  // The bag begins at 0.1 s.
+  const Read read = readAll(path(), {}, {4.95, 5.35});
+  ASSERT_THAT(read.stamps_s, SizeIs(4));
+  EXPECT_NEAR(read.stamps_s.front(), 5.1, 1e-9);
+  EXPECT_NEAR(read.stamps_s.back(), 5.4, 1e-9);
+  EXPECT_NEAR(read.info.first_s, 5.1, 1e-9);
+  EXPECT_EQ(read.info.frame_count, 5U);  // about
+  ASSERT_TRUE(read.info.T_base_camera);  // what is latched holds on
+  EXPECT_DOUBLE_EQ(read.info.T_base_camera->translation().z(), 1.5);
+  EXPECT_THAT(readAll(path(), {}, {9.75, 1e9}).stamps_s, SizeIs(2));
+  EXPECT_THAT(messageOf([&] {
+                readAll(path(), {}, {20.0, 30.0});
+              }),
+              HasSubstr("no message in that part of the bag"));
+  EXPECT_THAT(messageOf<std::invalid_argument>([&] {
+                readAll(path(), {}, {5.0, 4.0});
+              }),
+              HasSubstr("must begin"));
+}
+
 TEST_P(BagRecordings, LeavesOutFramesWhoseTimeRunsBackwards) {
   const auto bag = beginStereo();
+  std::int64_t recorded_ns = 0;
   for (const double s : {0.1, 0.2, 0.3, 0.1, 0.2, 0.3, 0.4}) {
-    addLeft(*bag, s);
-    addRight(*bag, s);
+    recorded_ns += 100'000'000;
+    bag->write(left_, recorded_ns, image(s, "bgr8", 10, 3));
+    bag->write(right_, recorded_ns, image(s, "mono8", 90, 1));
   }
   bag->commit();
   const Read read = readAll(path());
@@ -301,6 +353,7 @@ TEST_P(BagRecordings, ThatAreCutOffGiveTheirBeginning) {
   const Read read = readAll(path());
   EXPECT_THAT(read.numbers.size(), testing::AllOf(testing::Gt(600U), testing::Lt(1400U)));
   EXPECT_THAT(read.info.lost, HasSubstr("cut off"));
+  EXPECT_THAT(readAll(path(), {}, {9.95, 11.95}).numbers, SizeIs(20));
 }
 
 TEST_P(BagRecordings, GiveScansWithTheLatestOdometry) {

@@ -85,6 +85,18 @@ TEST_F(RgbdFolder, GivesEveryFrameWithItsStamp) {
   EXPECT_FALSE(recording->next(frame));
 }
 
+TEST_F(RgbdFolder, GivesThePartThatIsAskedFor) {
+  heel::RecordingParams params;
+  params.span = {0.2, 0.4};
+  recording = openRecording(folder.path(), params);
+  EXPECT_EQ(recording->info().frame_count, 2U);
+  ASSERT_TRUE(recording->next(frame));
+  EXPECT_EQ(frame.number, 2U);
+  ASSERT_TRUE(recording->next(frame));
+  EXPECT_EQ(frame.number, 3U);
+  EXPECT_FALSE(recording->next(frame));
+}
+
 TEST_F(RgbdFolder, TellsWhatHoldsForTheWhole) {
   const auto info = openRecording(folder.path())->info();
   EXPECT_EQ(info.name, folder.path().filename());
