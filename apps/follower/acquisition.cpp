@@ -3,6 +3,7 @@
 
 #include <heel/apps/follower/acquisition.hpp>
 #include <heel/apps/follower/param_checks.hpp>
+#include <heel/apps/recording/time_span.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +12,6 @@
 #include <stdexcept>
 
 namespace heel {
-namespace {
-
-constexpr double kSameTime_s = 1e-6;  // stamps are decimal fractions, their sums are not exact
-
-}  // namespace
-
 const char* toText(AcquisitionEnd end) {
   switch (end) {
     case AcquisitionEnd::kNotYet:

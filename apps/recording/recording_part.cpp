@@ -2,18 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/recording/recording_part.hpp>
+#include <heel/apps/recording/time_span.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace heel {
-namespace {
-
-constexpr double kSameTime_s = 1e-6;  // stamps are decimal fractions, their sums are not exact
-
-}  // namespace
-
 RecordingPart::RecordingPart(std::unique_ptr<Recording> whole, const TimeSpan& span)
     : whole_(std::move(whole)) {
   info_ = whole_->info();

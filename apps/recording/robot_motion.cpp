@@ -4,6 +4,7 @@
 #include <heel/apps/recording/bags/bag_poses.hpp>
 #include <heel/apps/recording/robot_motion.hpp>
 #include <heel/apps/recording/stamps.hpp>
+#include <heel/apps/recording/time_span.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kSameTime_s = 1e-6;  // stamps are decimal fractions, their sums are not exact
-constexpr double kFurthest_m = 1e8;   // from any origin, on Earth
+constexpr double kFurthest_m = 1e8;  // from any origin, on Earth
 
 }  // namespace
 

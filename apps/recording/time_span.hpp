@@ -10,6 +10,9 @@
 
 namespace heel {
 
+/// Stamps are decimal fractions: their sums are not exact.
+inline constexpr double kSameTime_s = 1e-6;
+
 /// Which part of a recording is read. Both times count from its beginning; a bag begins when its
 /// first message was recorded.
 struct TimeSpan {
