@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 #include <pcl/console/print.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -41,8 +42,13 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   }
   const std::string verbs = verbsOf(*called);
   std::string what = error.what();
-  if (!verbs.empty() && error.get_name() == "RequiredError") {
-    const auto others = called->remaining();
+  const auto others = called->remaining();
+  const auto unknown = std::find_if(others.begin(), others.end(), [](const std::string& word) {
+    return word.size() > 1 && word.front() == '-';
+  });
+  if (unknown != others.end()) {
+    what = "there is no option " + *unknown;  // rather than that another is missing
+  } else if (!verbs.empty() && error.get_name() == "RequiredError") {
     what = others.empty() ? "name a verb" : "there is no verb '" + others.front() + "'";
     what += "; there are " + verbs;
   }

@@ -115,14 +115,19 @@ void CsvWriter::endRow() {
   fields_ = 0;
 }
 
-CsvReader::CsvReader(const std::filesystem::path& path, const std::vector<std::string>& columns)
+CsvReader::CsvReader(const std::filesystem::path& path, const std::vector<std::string>& columns,
+                     const std::vector<std::string>& optional)
     : path_(path.string()), in_(path), columns_(columns) {
+  columns_.insert(columns_.end(), optional.begin(), optional.end());
   if (!in_) throw std::runtime_error(path_ + " cannot be read");
   if (!readLine()) throw std::runtime_error(path_ + " is empty; a header line was expected");
   for (const auto& column : columns_) {
     const auto place = std::find(fields_.begin(), fields_.end(), column);
-    if (place == fields_.end()) fail("the header has no column '" + column + "'");
-    places_.push_back(static_cast<std::size_t>(place - fields_.begin()));
+    const bool is_there = place != fields_.end();
+    if (!is_there && places_.size() < columns.size()) {
+      fail("the header has no column '" + column + "'");
+    }
+    places_.push_back(is_there ? static_cast<std::size_t>(place - fields_.begin()) : kNowhere);
   }
   width_ = fields_.size();
 }

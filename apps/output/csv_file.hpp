@@ -56,11 +56,14 @@ class CsvWriter {
 class CsvReader {
  public:
   /// Reads the header, in which all of `columns` must be; they may stand in any order, and among
-  /// others.
-  CsvReader(const std::filesystem::path& path, const std::vector<std::string>& columns);
+  /// others. Those named in `optional` count on after them; has() tells whether they are there.
+  CsvReader(const std::filesystem::path& path, const std::vector<std::string>& columns,
+            const std::vector<std::string>& optional = {});
 
   /// Goes to the next row; false at the end. Blank lines are passed over.
   bool next();
+
+  bool has(std::size_t i) const { return places_[i] != kNowhere; }
 
   /// The row's value in the column `columns[i]` that the constructor was given.
   const std::string& text(std::size_t i) const { return fields_[places_[i]]; }
@@ -70,6 +73,7 @@ class CsvReader {
   bool flag(std::size_t i) const;          ///< 1 or 0.
 
  private:
+  static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);
   [[noreturn]] void fail(const std::string& why) const;
   [[noreturn]] void failAt(std::size_t i, const char* wanted) const;
   bool readLine();

@@ -22,11 +22,18 @@ constexpr int kTimingDecimals = 3;
 // The order in which readTracks() and readTruth() ask for the columns.
 const std::vector<std::string> kTrackColumns = {"stamp_s", "track_id", "is_target", "x_m",   "y_m",
                                                 "vx_mps",  "vy_mps",   "score",     "status"};
+const std::string kPersonColumn = "person_probability";  // tables of others need not have it
 const std::vector<std::string> kTruthColumns = {"stamp_s", "frame", "person",
                                                 "x_m",     "y_m",   "exact"};
 const std::vector<std::string> kFrameColumns = {
     "frame",        "stamp_s", "color_pixels", "color_points", "standing_points", "blobs",
     "observations", "tracks",  "target_id",    "confidence",   "state",           "reason"};
+
+std::vector<std::string> trackColumns() {
+  std::vector<std::string> columns = kTrackColumns;
+  columns.push_back(kPersonColumn);
+  return columns;
+}
 
 std::vector<std::string> timingColumns(const std::vector<std::string>& stages) {
   std::vector<std::string> columns = {"frame"};
@@ -37,7 +44,7 @@ std::vector<std::string> timingColumns(const std::vector<std::string>& stages) {
 }  // namespace
 
 ResultFiles::ResultFiles(const Output& output, const std::vector<std::string>& stages)
-    : tracks_(output / "tracks.csv", kTrackColumns),
+    : tracks_(output / "tracks.csv", trackColumns()),
       frames_(output / "frames.csv", kFrameColumns),
       timing_(output / "timing.csv", timingColumns(stages)) {}
 
@@ -51,6 +58,7 @@ void ResultFiles::add(const TrackRow& row) {
       .number(row.velocity_mps.y(), kPlaceDecimals)
       .number(row.score, kScoreDecimals)
       .text(row.status)
+      .number(row.person_probability, kScoreDecimals)
       .endRow();
 }
 
@@ -83,7 +91,7 @@ void writeJson(const OutputPath& file, const nlohmann::ordered_json& value) {
 }
 
 std::vector<TrackRow> readTracks(const fs::path& file) {
-  CsvReader csv(file, kTrackColumns);
+  CsvReader csv(file, kTrackColumns, {kPersonColumn});
   std::vector<TrackRow> rows;
   while (csv.next()) {
     TrackRow row;
@@ -94,6 +102,7 @@ std::vector<TrackRow> readTracks(const fs::path& file) {
     row.velocity_mps = {csv.number(5), csv.number(6)};
     row.score = csv.number(7);
     row.status = csv.text(8);
+    if (csv.has(9)) row.person_probability = csv.number(9);
     rows.push_back(row);
   }
   return rows;

@@ -26,7 +26,8 @@ struct TrackRow {
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  ///< On the floor.
   Eigen::Vector2d velocity_mps = Eigen::Vector2d::Zero();
   double score = 0.0;
-  std::string status;  ///< For instance "confirmed" or "coasting".
+  std::string status;               ///< For instance "confirmed" or "coasting".
+  double person_probability = 1.0;  ///< That it is a person, not a thing.
 };
 
 /// What every stage left of one frame: a row of frames.csv.

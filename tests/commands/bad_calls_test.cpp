@@ -79,6 +79,8 @@ TEST(Call, OfAnUnknownVerbNamesItAndTheVerbs) {
 TEST(Call, WithAnUnknownOptionNamesIt) {
   EXPECT_TRUE(failsWith(heel({"learn", "somewhere", "--colour", "1"}),
                         {"--colour", "'heel learn --help'"}));
+  EXPECT_TRUE(failsWith(heel({"track", "somewhere", "--modle", "a.yaml"}), {"--modle"}))
+      << "not that --model is missing";
 }
 
 TEST(Call, WithoutARequiredArgumentNamesIt) {

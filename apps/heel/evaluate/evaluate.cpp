@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -32,6 +33,7 @@ nlohmann::ordered_json toJson(const Evaluation& result) {
             {"misses", people.misses},
             {"false_positives", people.false_positives},
             {"switches", people.mismatches},
+            {"things_left_out", result.things},
             {"mota", people.mota()},
             {"motp_m", people.motp_m()}}},
           {"target",
@@ -48,6 +50,11 @@ nlohmann::ordered_json toJson(const Evaluation& result) {
             {"longest_reacquisition_delay_s", person.longestReacquisitionDelay_s()}}}};
 }
 
+/// An error in metres; without anybody found there is none.
+void printPlace(const char* name, double error_m) {
+  if (std::isfinite(error_m)) std::printf("  %-20s  %6.3f m\n", name, error_m);
+}
+
 void print(const Evaluation& result) {
   const ClearMot& people = result.people;
   const TargetMetrics& person = result.person;
@@ -60,18 +67,21 @@ void print(const Evaluation& result) {
                 person.frames - person.frames_in_view);
   }
   std::printf("  right answers         %6.3f\n", person.rightAnswerShare());
-  std::printf("  mean error            %6.3f m\n", person.meanError_m());
+  printPlace("mean error", person.meanError_m());
   if (person.reacquisition_delays_s.empty()) {
     std::printf("  never lost and found again\n");
   } else {
     std::printf("  found again           %6zu   times, after %.1f s on average\n",
                 person.reacquisition_delays_s.size(), person.meanReacquisitionDelay_s());
   }
-  std::printf("all tracks against all people (CLEAR MOT)\n");
+  std::printf("the tracks of people against all people (CLEAR MOT)\n");
   std::printf("  MOTA                  %6.3f   %d of %d found, %d false, %d switches\n",
               people.mota(), people.matches, people.truths, people.false_positives,
               people.mismatches);
-  std::printf("  MOTP                  %6.3f m\n", people.motp_m());
+  printPlace("MOTP", people.motp_m());
+  if (result.things > 0) {
+    std::printf("  %d places of tracks that are rather things are left out\n", result.things);
+  }
 }
 
 void run(const EvaluateOptions& options) {

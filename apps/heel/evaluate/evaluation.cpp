@@ -26,6 +26,8 @@ std::string firstPerson(const std::vector<Moment>& moments) {
   throw std::runtime_error("there is nobody in the truth");
 }
 
+bool isPerson(const TrackRow& row) { return row.is_target || row.person_probability > 0.5; }
+
 TrackingFrame everyone(const Moment& moment, std::map<std::string, int>& ids) {
   TrackingFrame frame;
   for (const TruthRow& row : moment.truth) {
@@ -33,7 +35,7 @@ TrackingFrame everyone(const Moment& moment, std::map<std::string, int>& ids) {
     frame.truth.push_back({id, row.position_m});
   }
   for (const TrackRow& row : moment.tracks) {
-    frame.estimates.push_back({row.track_id, row.position_m});
+    if (isPerson(row)) frame.estimates.push_back({row.track_id, row.position_m});
   }
   return frame;
 }
@@ -88,17 +90,24 @@ Evaluation evaluate(const std::vector<Moment>& moments, const EvaluationParams& 
   std::vector<TrackingFrame> people;
   std::vector<TargetFrame> person;
   std::map<std::string, int> ids;
-  bool target_is_there = false;
+  bool target_is_there = false, has_both = false, has_tracks = false;
   for (const Moment& moment : moments) {
     if (moment.stamp_s < params.from_s || moment.stamp_s > params.to_s) {
       continue;
     }
     people.push_back(everyone(moment, ids));
+    result.things += static_cast<int>(moment.tracks.size() - people.back().estimates.size());
+    has_both = has_both || !(moment.tracks.empty() || moment.truth.empty());
+    has_tracks = has_tracks || !moment.tracks.empty();
     person.push_back(targetOnly(moment, result.target));
     target_is_there = target_is_there || person.back().target_m.has_value();
   }
   if (!target_is_there) {
     throw std::runtime_error("there is no '" + result.target + "' in the truth");
+  }
+  if (has_tracks && !has_both) {
+    throw std::runtime_error(
+        "no stamp of the tracks is in the truth: they are not of one recording");
   }
   ClearMotParams clear_mot;
   clear_mot.match_distance_m = params.match_distance_m;

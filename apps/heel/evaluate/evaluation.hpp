@@ -35,11 +35,13 @@ struct EvaluationParams {
 
 struct Evaluation {
   std::string target;    ///< Whom the target's figures are about.
-  ClearMot people;       ///< All tracks against all people.
+  ClearMot people;       ///< All tracks of people against all people.
+  int things = 0;        ///< Places of other tracks, which are more likely of things.
   TargetMetrics person;  ///< The target's track against the target.
 };
 
-/// @throws std::runtime_error  if there is no truth at all, or none of `params.target`.
+/// @throws std::runtime_error  if there is no truth at all, or none of `params.target`, or if
+///                             tracks and truth have no moment in common.
 Evaluation evaluate(const std::vector<Moment>& moments, const EvaluationParams& params = {});
 
 }  // namespace heel

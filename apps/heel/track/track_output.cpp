@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace heel {
@@ -98,6 +99,8 @@ void TrackOutput::addRows(const Frame& frame, const Perception& perception,
     track_row.velocity_mps = track.motion.velocity_mps();
     track_row.score = track.score;
     track_row.status = toText(track.status);
+    const Evidence who = perception.identity().probabilities(track.id);
+    track_row.person_probability = 1.0 - who[kThing] / std::max(who.sum(), 1e-12);
     files_.add(track_row);
   }
   files_.add(row);

@@ -10,7 +10,7 @@
 namespace heel {
 namespace {
 
-constexpr PinholeCamera kCamera{300.0, 300.0, 160.0, 120.0};
+constexpr PinholeCamera kCamera{320, 240, 300.0, 300.0, 160.0, 120.0};
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 const Eigen::Vector2d kPlace(3.0, 0.0);
 const Eigen::Vector2d kSide(0.0, 0.45);

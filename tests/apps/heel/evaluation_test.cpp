@@ -69,6 +69,24 @@ TEST(Evaluate, CountsAllTracksAgainstAllPeople) {
   EXPECT_EQ(people.false_positives, 1);
 }
 
+TEST(Evaluate, LeavesOutTracksOfThings) {
+  auto moments = annThenBobThenNobody();
+  for (Moment& moment : moments) {
+    for (TrackRow& row : moment.tracks) row.person_probability = 0.1;
+  }
+  const Evaluation result = evaluate(moments);
+  EXPECT_EQ(result.people.matches, 2) << "the target is a person, whatever else is said";
+  EXPECT_EQ(result.people.false_positives, 0);
+  EXPECT_EQ(result.things, 2);
+}
+
+TEST(Evaluate, SaysThatTracksAndTruthHaveNothingInCommon) {
+  const auto apart = alignByStamp({track(5, 1, true, 1)}, {person(0, "ann", 1)});
+  EXPECT_THROW(evaluate(apart), std::runtime_error);
+  const auto nobody_tracked = alignByStamp({}, {person(0, "ann", 1)});
+  EXPECT_EQ(evaluate(nobody_tracked).person.recall(), 0.0);
+}
+
 TEST(Evaluate, LooksOnlyAtTheGivenTime) {
   EvaluationParams params;
   params.to_s = 0.5;

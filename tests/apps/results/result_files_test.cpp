@@ -24,7 +24,7 @@ using testing::HasSubstr;
 /// One frame with a target and another track, and one frame without.
 void addTwoFrames(ResultFiles& files) {
   files.add(heel::TrackRow{0.2, 1, true, {1.25, -0.5}, {0.3, 0.0}, 12.5, "confirmed"});
-  files.add(heel::TrackRow{0.2, 2, false, {4.0, 1.0 / 3.0}, {-0.3, -1e-9}, 3.0, "coasting"});
+  files.add(heel::TrackRow{0.2, 2, false, {4.0, 1.0 / 3.0}, {-0.3, -1e-9}, 3.0, "coasting", 0.25});
   files.add(heel::FrameRow{1, 0.2, 900, 850, 800, 3, 2, 2, 1, 0.87, "following", ""});
   files.add(heel::FrameRow{2, 0.4, 9, 8, 0, 0, 0, 1, 0, 0.0, "lost",
                            "8 points passed the colour, none the height"});
@@ -40,9 +40,9 @@ TEST(ResultFiles, HaveTheDocumentedColumns) {
   files.close();
   output.commit();
   EXPECT_EQ(readText(folder / "a/b/tracks.csv"),
-            "stamp_s,track_id,is_target,x_m,y_m,vx_mps,vy_mps,score,status\n"
-            "0.200000,1,1,1.2500,-0.5000,0.3000,0.0000,12.5000,confirmed\n"
-            "0.200000,2,0,4.0000,0.3333,-0.3000,0.0000,3.0000,coasting\n");
+            "stamp_s,track_id,is_target,x_m,y_m,vx_mps,vy_mps,score,status,person_probability\n"
+            "0.200000,1,1,1.2500,-0.5000,0.3000,0.0000,12.5000,confirmed,1.0000\n"
+            "0.200000,2,0,4.0000,0.3333,-0.3000,0.0000,3.0000,coasting,0.2500\n");
   EXPECT_EQ(readText(folder / "a/b/frames.csv"),
             "frame,stamp_s,color_pixels,color_points,standing_points,blobs,"
             "observations,tracks,target_id,confidence,state,reason\n"
@@ -102,6 +102,15 @@ TEST(Tracks, AreReadAsTheyWereWritten) {
   EXPECT_EQ(rows[0].velocity_mps, Eigen::Vector2d(0.3, 0.0));
   EXPECT_EQ(rows[0].score, 12.5);
   EXPECT_EQ(rows[1].status, "coasting");
+  EXPECT_EQ(rows[1].person_probability, 0.25);
+}
+
+TEST(Tracks, OfOthersNeedNotTellWhetherTheyArePeople) {
+  const TempFolder folder;
+  writeText(
+      folder / "tracks.csv",
+      "stamp_s,track_id,is_target,x_m,y_m,vx_mps,vy_mps,score,status\n0,1,1,0,0,0,0,1,seen\n");
+  EXPECT_EQ(heel::readTracks(folder / "tracks.csv").at(0).person_probability, 1.0);
 }
 
 TEST(Tracks, WrongRowIsNamedByFileAndLine) {
