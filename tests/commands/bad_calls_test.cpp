@@ -35,7 +35,7 @@ TEST_P(Help, NamesNoNumberThatMayBeInfinite) {
     call.insert(call.end(), more.begin(), more.end());
     return heel(call);
   };
-  // "--cell FLOAT", "--start X Y", but not "--out TEXT".
+  // "--cell FLOAT", "--start X,Y", but not "--out TEXT".
   const std::regex number("\n  (--[a-z-]+) (FLOAT|INT|UINT|K:INT|X|X0|LOW|SIZE)\\b");
   const std::string help = with(GetParam(), {"--help"}).out;
   for (std::sregex_iterator option(help.begin(), help.end(), number), end; option != end;

@@ -118,6 +118,16 @@ TEST_F(LearnAndTrack, LeavesNoPictureOfAFormerRunBesideNewTables) {
       testing::UnorderedElementsAre("tracks.csv", "frames.csv", "timing.csv", "summary.json"));
 }
 
+TEST_F(LearnAndTrack, TakesPlacesWithCommasOrBlanks) {
+  SmallRecording{3, 6}.write(folder_ / "room");
+  writeSmallModel(folder_ / "rosa.yaml");
+  ASSERT_TRUE(
+      succeeds(track("rosa.yaml", "a", {"--no-film", "--start", "2,0", "--bounds", "0,-2,4,2"})));
+  ASSERT_TRUE(succeeds(track("rosa.yaml", "b",
+                             {"--no-film", "--start", "2", "0", "--bounds", "0", "-2", "4", "2"})));
+  EXPECT_EQ(readText(folder_ / "a/tracks.csv"), readText(folder_ / "b/tracks.csv"));
+}
+
 TEST_F(LearnAndTrack, SaysWhatEveryStageLeftOfEveryFrame) {
   const SmallRecording recording{3, 6};
   recording.write(folder_ / "room");
@@ -135,7 +145,9 @@ TEST_F(LearnAndTrack, SaysWhatEveryStageLeftOfEveryFrame) {
   std::istringstream tracks(readText(folder_ / "out/tracks.csv"));
   std::string header;
   std::getline(tracks, header);
-  EXPECT_EQ(header, "stamp_s,track_id,is_target,x_m,y_m,vx_mps,vy_mps,score,status");
+  EXPECT_EQ(header,
+            "stamp_s,track_id,is_target,x_m,y_m,vx_mps,vy_mps,score,status,"
+            "person_probability");
 }
 
 TEST_F(LearnAndTrack, TracksNobodyInAnEmptyRoom) {

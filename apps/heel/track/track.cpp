@@ -153,12 +153,14 @@ void addTrack(CLI::App& app) {
   verb->add_option("--out", options->out, "folder for the results")->capture_default_str();
   verb->add_option("--start", options->start_m,
                    "where the person stands in the first frame [m] (default: found by their looks)")
+      ->delimiter(',')
       ->expected(2)
-      ->option_text("X Y");
+      ->option_text("X,Y");
   verb->add_option("--bounds", options->bounds_m,
                    "the room: nobody outside of it is taken for the person [m]")
+      ->delimiter(',')
       ->expected(4)
-      ->option_text("X0 Y0 X1 Y1");
+      ->option_text("X0,Y0,X1,Y1");
   verb->add_flag("--no-film", options->no_film, "write the tables only");
   addResultBag(*verb, options->bag);
   addTimeSpan(*verb, options->opening.span);
