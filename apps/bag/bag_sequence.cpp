@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/bag/bag_sequence.hpp>
-#include <heel/apps/bag/mcap_bag_reader.hpp>
 
 #include <algorithm>
 #include <stdexcept>

@@ -15,12 +15,13 @@ namespace {
 /// Memory grows with what is really there, not with what a damaged header promises.
 constexpr std::size_t kPiece = 1U << 20U;
 
-bool unpackBz2(const BagBytes& packed, std::size_t size, BagBytes& unpacked) {
+bool unpackBz2(const std::uint8_t* packed, std::size_t packed_size, std::size_t size,
+               BagBytes& unpacked) {
   bz_stream stream{};
   if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) return false;
-  BagBytes input = packed;  // bzlib wants it writable
-  stream.next_in = reinterpret_cast<char*>(input.data());
-  stream.avail_in = static_cast<unsigned>(input.size());
+  // It is only read, though bzlib does not say so.
+  stream.next_in = const_cast<char*>(reinterpret_cast<const char*>(packed));
+  stream.avail_in = static_cast<unsigned>(packed_size);
   int result = BZ_OK;
   std::size_t done = 0;
   while (result == BZ_OK && done < size) {
@@ -37,13 +38,14 @@ bool unpackBz2(const BagBytes& packed, std::size_t size, BagBytes& unpacked) {
   return done == size;
 }
 
-bool unpackLz4(const BagBytes& packed, std::size_t size, BagBytes& unpacked) {
+bool unpackLz4(const std::uint8_t* packed, std::size_t packed_size, std::size_t size,
+               BagBytes& unpacked) {
   LZ4F_dctx* context = nullptr;
   if (LZ4F_isError(LZ4F_createDecompressionContext(&context, LZ4F_VERSION)) != 0) return false;
   std::size_t done = 0, used = 0;
-  while (done < size && used < packed.size()) {
+  while (done < size && used < packed_size) {
     unpacked.resize(std::min(size, done + kPiece));
-    std::size_t out = unpacked.size() - done, in = packed.size() - used;
+    std::size_t out = unpacked.size() - done, in = packed_size - used;
     const std::size_t result =
         LZ4F_decompress(context, &unpacked[done], &out, &packed[used], &in, nullptr);
     if (LZ4F_isError(result) != 0) break;
@@ -56,10 +58,11 @@ bool unpackLz4(const BagBytes& packed, std::size_t size, BagBytes& unpacked) {
   return done == size;
 }
 
-bool unpackZstd(const BagBytes& packed, std::size_t size, BagBytes& unpacked) {
+bool unpackZstd(const std::uint8_t* packed, std::size_t packed_size, std::size_t size,
+                BagBytes& unpacked) {
   ZSTD_DCtx* context = ZSTD_createDCtx();
   if (context == nullptr) return false;
-  ZSTD_inBuffer in{packed.data(), packed.size(), 0};
+  ZSTD_inBuffer in{packed, packed_size, 0};
   std::size_t done = 0;
   while (done < size) {
     unpacked.resize(std::min(size, done + kPiece));
@@ -81,16 +84,16 @@ bool isKnownPacking(std::string_view packing) {
          packing == "zstd";
 }
 
-bool unpackChunk(std::string_view packing, const BagBytes& packed, std::size_t size,
-                 BagBytes& unpacked) {
+bool unpackChunk(std::string_view packing, const std::uint8_t* packed, std::size_t packed_size,
+                 std::size_t size, BagBytes& unpacked) {
   unpacked.clear();
   if (packing.empty() || packing == "none") {
-    unpacked = packed;
-    return packed.size() == size;
+    unpacked.assign(packed, packed + packed_size);
+    return packed_size == size;
   }
-  if (packing == "bz2") return unpackBz2(packed, size, unpacked);
-  if (packing == "lz4") return unpackLz4(packed, size, unpacked);
-  if (packing == "zstd") return unpackZstd(packed, size, unpacked);
+  if (packing == "bz2") return unpackBz2(packed, packed_size, size, unpacked);
+  if (packing == "lz4") return unpackLz4(packed, packed_size, size, unpacked);
+  if (packing == "zstd") return unpackZstd(packed, packed_size, size, unpacked);
   return false;
 }
 

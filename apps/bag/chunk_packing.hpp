@@ -20,8 +20,8 @@ bool isKnownPacking(std::string_view packing);
 /// Unpacks a chunk as far as that goes, piece by piece: memory grows with what is really there.
 /// @param unpacked  Out: what could be unpacked, no more than `size`.
 /// @return whether all was.
-bool unpackChunk(std::string_view packing, const BagBytes& packed, std::size_t size,
-                 BagBytes& unpacked);
+bool unpackChunk(std::string_view packing, const std::uint8_t* packed, std::size_t packed_size,
+                 std::size_t size, BagBytes& unpacked);
 
 /// Packs by zstd; false, and nothing, if the result is hardly smaller.
 bool packByZstd(const BagBytes& bytes, BagBytes& packed);

@@ -241,8 +241,8 @@ bool McapBagReader::unpack(McapFields fields, std::uint64_t at, bool is_whole, B
     lose(error.what());
     return false;
   }
-  const BagBytes packed(fields.rest(), fields.rest() + fields.left());
-  const bool is_unpacked = unpackChunk(packing, packed, static_cast<std::size_t>(size), unpacked);
+  const bool is_unpacked =
+      unpackChunk(packing, fields.rest(), fields.left(), static_cast<std::size_t>(size), unpacked);
   if (!is_whole) return true;
   const bool is_right =
       is_unpacked && (crc == 0 || crc == mcapCrc(unpacked.data(), unpacked.size()));

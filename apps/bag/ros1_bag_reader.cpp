@@ -123,7 +123,8 @@ void Ros1BagReader::openChunk(const Chunk& chunk, BagBytes& unpacked, std::vecto
   }
   BagBytes packed;
   file_.read(data_at, data_size, packed);
-  if (!unpackChunk(*compression, packed, *size, unpacked)) lose(what + " is damaged");
+  if (!unpackChunk(*compression, packed.data(), packed.size(), *size, unpacked))
+    lose(what + " is damaged");
   if (!unpacked.empty()) listEntries(BagWindow(unpacked), 0, what, entries);
 }
 
@@ -167,7 +168,7 @@ void Ros1BagReader::rewindScan() {
   chunk_at_ = 0;
 }
 
-bool Ros1BagReader::readBytes(Ros1Bytes& bytes, std::size_t count) {
+bool Ros1BagReader::readBytes(BagBytes& bytes, std::size_t count) {
   const auto at = static_cast<std::uint64_t>(in_.tellg());
   bytes.resize(static_cast<std::size_t>(std::min<std::uint64_t>(count, file_.size() - at)));
   in_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
@@ -207,7 +208,7 @@ bool Ros1BagReader::nextRecord() {
   while (true) {
     const auto begin = static_cast<std::uint64_t>(in_.tellg());
     if (begin >= file_.size()) return false;
-    Ros1Bytes number;
+    BagBytes number;
     const auto readLength = [&](std::uint32_t& length) {
       if (!readBytes(number, 4)) return false;
       length = numberAt(number.data());
@@ -278,7 +279,7 @@ void Ros1BagReader::openScannedChunk() {
   chunk_.clear();
   const auto at = std::to_string(static_cast<std::uint64_t>(in_.tellg()));
   if (!size || !compression) return lose("a chunk that ends at byte " + at + " has no size");
-  if (*compression != "none" && *compression != "bz2" && *compression != "lz4") {
+  if (!isKnownPacking(*compression)) {
     return lose("a chunk is packed by '" + std::string(*compression) + "', which is unknown");
   }
   try {
@@ -286,7 +287,7 @@ void Ros1BagReader::openScannedChunk() {
   } catch (const std::runtime_error& error) {
     return lose(error.what());
   }
-  if (unpackChunk(*compression, data_, *size, chunk_)) return;
+  if (unpackChunk(*compression, data_.data(), data_.size(), *size, chunk_)) return;
   chunk_is_damaged_ = true;
   const bool is_last = static_cast<std::uint64_t>(in_.tellg()) >= file_.size();
   lose(is_last ? "the bag is cut off at byte " + at

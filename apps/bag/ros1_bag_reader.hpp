@@ -32,7 +32,7 @@ class Ros1BagReader final : public ChunkedBagReader {
   void listEntries(BagWindow window, std::uint64_t begin, const std::string& what,
                    std::vector<Entry>& entries);
   bool nextRecord();
-  bool readBytes(Ros1Bytes& bytes, std::size_t count);
+  bool readBytes(BagBytes& bytes, std::size_t count);
   bool seekNextChunk(std::uint64_t from);
   void openScannedChunk();
   std::size_t recordInChunk();
@@ -44,7 +44,7 @@ class Ros1BagReader final : public ChunkedBagReader {
   std::ifstream in_;
   std::uint64_t index_at_ = 1;  // 0 until the recorder has closed the bag
   Ros1Fields fields_, inner_;
-  Ros1Bytes header_, data_, chunk_;
+  BagBytes header_, data_, chunk_;
   std::size_t chunk_at_ = 0;
   bool chunk_is_damaged_ = false;  // and it has been told
   std::map<std::uint32_t, std::size_t> topic_of_connection_;

@@ -30,13 +30,13 @@ Ros1BagWriter::Ros1BagWriter(const BagPlan& plan)
   if (!out_) {
     throw OutputError(plan.path.string() + " cannot be written: " + std::strerror(errno));
   }
-  write(Ros1Bytes(kRos1Magic.begin(), kRos1Magic.end()));
+  write(BagBytes(kRos1Magic.begin(), kRos1Magic.end()));
   writeBagHeader(0);
 }
 
 Ros1BagWriter::~Ros1BagWriter() = default;
 
-void Ros1BagWriter::write(const Ros1Bytes& bytes) {
+void Ros1BagWriter::write(const BagBytes& bytes) {
   out_.write(reinterpret_cast<const char*>(bytes.data()),
              static_cast<std::streamsize>(bytes.size()));
   if (!out_) throw OutputError(output_->path().string() + " cannot be written: is the disk full?");
@@ -49,14 +49,14 @@ void Ros1BagWriter::writeBagHeader(std::uint64_t index_at) {
       .setLong("index_pos", index_at)
       .set("conn_count", static_cast<std::uint32_t>(topics_.size()))
       .set("chunk_count", static_cast<std::uint32_t>(chunks_.size()));
-  Ros1Bytes header;
+  BagBytes header;
   fields.append(header);
-  Ros1Bytes record;
-  appendRecord(record, fields, Ros1Bytes(kBagHeaderSize - header.size(), ' '));
+  BagBytes record;
+  appendRecord(record, fields, BagBytes(kBagHeaderSize - header.size(), ' '));
   write(record);
 }
 
-Ros1Bytes Ros1BagWriter::connection(std::size_t topic) const {
+BagBytes Ros1BagWriter::connection(std::size_t topic) const {
   const Topic& about = topics_[topic];
   Ros1Fields fields, details;
   fields.set(Ros1Record::kConnection)
@@ -67,14 +67,14 @@ Ros1Bytes Ros1BagWriter::connection(std::size_t topic) const {
       .set("md5sum", about.md5)
       .set("message_definition", about.definition);
   if (about.latched) details.set("latching", "1").set("callerid", "/heel");
-  Ros1Bytes data, record;
+  BagBytes data, record;
   details.append(data);
   appendRecord(record, fields, data);
   return record;
 }
 
 void Ros1BagWriter::add(std::size_t topic) {
-  const Ros1Bytes record = connection(topic);
+  const BagBytes record = connection(topic);
   chunk_bytes_.insert(chunk_bytes_.end(), record.begin(), record.end());
 }
 
@@ -100,7 +100,7 @@ void Ros1BagWriter::endChunk() {
   fields.set(Ros1Record::kChunk)
       .set("compression", "none")
       .set("size", static_cast<std::uint32_t>(chunk_bytes_.size()));
-  Ros1Bytes record;
+  BagBytes record;
   appendRecord(record, fields, chunk_bytes_);
   for (const auto& [connection, entries] : entries_) {
     Ros1Fields index;
@@ -108,7 +108,7 @@ void Ros1BagWriter::endChunk() {
         .set("ver", std::uint32_t{1})
         .set("conn", connection)
         .set("count", static_cast<std::uint32_t>(entries.size()));
-    Ros1Bytes data;
+    BagBytes data;
     for (const Entry& entry : entries) {
       appendNumber(data, static_cast<std::uint32_t>(entry.stamp_ns / 1000000000));
       appendNumber(data, static_cast<std::uint32_t>(entry.stamp_ns % 1000000000));
@@ -135,7 +135,7 @@ void Ros1BagWriter::commit(bool complete) {
         .setTime("start_time", chunk.first_ns)
         .setTime("end_time", chunk.last_ns)
         .set("count", static_cast<std::uint32_t>(chunk.counts.size()));
-    Ros1Bytes data, record;
+    BagBytes data, record;
     for (const auto& [connection, count] : chunk.counts) {
       appendNumber(data, connection);
       appendNumber(data, count);

@@ -32,8 +32,8 @@ class Ros1BagWriter final : public BagWriter {
            const std::vector<std::uint8_t>& bytes) override;
   void writeBagHeader(std::uint64_t index_at);
   void endChunk();
-  void write(const Ros1Bytes& bytes);
-  Ros1Bytes connection(std::size_t topic) const;
+  void write(const BagBytes& bytes);
+  BagBytes connection(std::size_t topic) const;
 
   /// Where a message is in its chunk.
   struct Entry {
@@ -50,7 +50,7 @@ class Ros1BagWriter final : public BagWriter {
   std::unique_ptr<Output> output_;
   std::ofstream out_;
   std::uint64_t at_ = 0;
-  Ros1Bytes chunk_bytes_;
+  BagBytes chunk_bytes_;
   Chunk chunk_;
   std::map<std::uint32_t, std::vector<Entry>> entries_;  // of this chunk, by connection
   std::vector<Chunk> chunks_;                            // done

@@ -31,7 +31,7 @@ std::uint32_t numberAt(const std::uint8_t* bytes) {
   return value;
 }
 
-void appendNumber(Ros1Bytes& bytes, std::uint32_t value) {
+void appendNumber(BagBytes& bytes, std::uint32_t value) {
   const std::string text = bytesOf(value);
   bytes.insert(bytes.end(), text.begin(), text.end());
 }
@@ -103,7 +103,7 @@ Ros1Fields& Ros1Fields::setTime(const std::string& name, std::int64_t ns) {
   return setLong(name, sec | (rest << 32U));
 }
 
-void Ros1Fields::append(Ros1Bytes& bytes) const {
+void Ros1Fields::append(BagBytes& bytes) const {
   for (const auto& [name, value] : values_) {
     appendNumber(bytes, static_cast<std::uint32_t>(name.size() + 1 + value.size()));
     bytes.insert(bytes.end(), name.begin(), name.end());
@@ -112,7 +112,7 @@ void Ros1Fields::append(Ros1Bytes& bytes) const {
   }
 }
 
-void appendRecord(Ros1Bytes& bytes, const Ros1Fields& fields, const Ros1Bytes& data) {
+void appendRecord(BagBytes& bytes, const Ros1Fields& fields, const BagBytes& data) {
   const std::size_t at = bytes.size();
   appendNumber(bytes, 0);
   fields.append(bytes);

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// The records of a ROS 1 bag (format 2.0), and how its chunks are packed.
+/// The records of a ROS 1 bag (format 2.0).
 #pragma once
+
+#include <heel/apps/bag/chunk_packing.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -27,8 +29,6 @@ enum class Ros1Record : std::uint8_t {
   kConnection = 7,
 };
 
-using Ros1Bytes = std::vector<std::uint8_t>;
-
 /// The fields "name=value" that begin each record.
 class Ros1Fields {
  public:
@@ -49,17 +49,17 @@ class Ros1Fields {
   Ros1Fields& setTime(const std::string& name, std::int64_t ns);
 
   /// The fields as bytes, without their length.
-  void append(Ros1Bytes& bytes) const;
+  void append(BagBytes& bytes) const;
 
  private:
   std::map<std::string, std::string, std::less<>> values_;
 };
 
 /// Appends a little-endian number.
-void appendNumber(Ros1Bytes& bytes, std::uint32_t value);
+void appendNumber(BagBytes& bytes, std::uint32_t value);
 std::uint32_t numberAt(const std::uint8_t* bytes);
 
 /// Appends a record: lengths, fields, data.
-void appendRecord(Ros1Bytes& bytes, const Ros1Fields& fields, const Ros1Bytes& data);
+void appendRecord(BagBytes& bytes, const Ros1Fields& fields, const BagBytes& data);
 
 }  // namespace heel

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 namespace heel {
+
 const char* toText(AcquisitionEnd end) {
   switch (end) {
     case AcquisitionEnd::kNotYet:

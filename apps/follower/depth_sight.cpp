@@ -9,8 +9,8 @@
 namespace heel {
 namespace {
 
-constexpr double kBody_m = 0.4;  // Depths this near to a place may be of somebody there.
-constexpr double kClose_m = 0.3;
+constexpr double kBody_m = 0.4;   // Depths this near to a place may be of somebody there.
+constexpr double kClose_m = 0.3;  // As much apart a surface may be and still go on.
 // Shares of what is observed in simulated rooms, of people and of things: those that are seen
 // through, and as many whose surface goes on at both sides.
 constexpr double kOfPeople = 0.02;

@@ -9,6 +9,7 @@
 #include <utility>
 
 namespace heel {
+
 RecordingPart::RecordingPart(std::unique_ptr<Recording> whole, const TimeSpan& span)
     : whole_(std::move(whole)) {
   info_ = whole_->info();

@@ -322,12 +322,12 @@ TEST(Ros2Bag, NeverReplacesAFolderOfOtherThings) {
 
 TEST(Ros1Bag, WhoseChunkAsksForTooMuchLosesItAndSaysSo) {
   const TempFolder folder;
-  Ros1Bytes bytes(kRos1Magic.begin(), kRos1Magic.end());
+  BagBytes bytes(kRos1Magic.begin(), kRos1Magic.end());
   Ros1Fields chunk;
   chunk.set(Ros1Record::kChunk)
       .set("compression", std::string_view("bz2"))
       .set("size", 0xF0000000U);
-  appendRecord(bytes, chunk, Ros1Bytes(40, 'B'));
+  appendRecord(bytes, chunk, BagBytes(40, 'B'));
   writeText(folder / "a.bag", {bytes.begin(), bytes.end()});
   const auto bag = openBag(folder / "a.bag");
   BagMessage raw;
