@@ -16,6 +16,26 @@ constexpr std::uint32_t kLongestHeader = 1U << 20U;
 /// What the index tells of a connection or of a chunk.
 constexpr std::uint64_t kLongestEntry = 64U << 20U;
 
+struct Record {
+  Ros1Fields fields;
+  std::uint64_t data_at = 0, data_size = 0;
+  std::uint64_t end() const { return data_at + data_size; }
+};
+
+/// False if no whole record begins there.
+bool recordAt(BagWindow& window, std::uint64_t at, Record& record) {
+  constexpr std::uint64_t kLeastHeader = 8;  // the field "op=.": seen soon, where all is 0
+  const std::uint8_t* length = window.at(at, 4);
+  const std::uint64_t header = length == nullptr ? 0 : numberAt(length);
+  if (header < kLeastHeader || header > kLongestHeader) return false;
+  const std::uint8_t* bytes = window.at(at + 4, header + 4);
+  if (bytes == nullptr) return false;
+  record.data_at = at + 8 + header;
+  record.data_size = numberAt(bytes + header);
+  return record.data_size <= window.size() - record.data_at &&
+         record.fields.parse(bytes, static_cast<std::size_t>(header)) && record.fields.kind();
+}
+
 }  // namespace
 
 Ros1BagReader::Ros1BagReader(const std::filesystem::path& file) : ChunkedBagReader(file) {
@@ -41,36 +61,22 @@ Ros1BagReader::Ros1BagReader(const std::filesystem::path& file) : ChunkedBagRead
 /// hold.
 bool Ros1BagReader::readIndex() {
   BagWindow file(file_, 0, file_.size());
-  Ros1Fields fields;
-  std::uint64_t size = 0;
-  // The record at `at` as fields and where its data is; it ends at `at + size`.
-  const auto record = [&](std::uint64_t at) -> std::optional<std::uint64_t> {
-    const std::uint8_t* length = file.at(at, 4);
-    if (length == nullptr || numberAt(length) > kLongestHeader) return std::nullopt;
-    const std::uint64_t header = numberAt(length);
-    const std::uint8_t* bytes = file.at(at + 4, header + 4);
-    if (bytes == nullptr || !fields.parse(bytes, static_cast<std::size_t>(header))) {
-      return std::nullopt;
-    }
-    size = 8 + header + numberAt(bytes + header);
-    if (size > file_.size() - at) return std::nullopt;
-    return at + 8 + header;
-  };
-  if (!record(kRos1Magic.size()) || fields.kind() != Ros1Record::kBagHeader) return false;
+  Record record;
+  const Ros1Fields& fields = record.fields;
+  if (!recordAt(file, kRos1Magic.size(), record) || fields.kind() != Ros1Record::kBagHeader) {
+    return false;
+  }
   const auto index_at = fields.longNumber("index_pos");
   const auto chunk_count = fields.number("chunk_count");
   if (!index_at || !chunk_count || *index_at < kRos1Magic.size()) return false;
   std::vector<Chunk> chunks;
   std::vector<std::size_t> counts;
-  for (std::uint64_t at = *index_at; at < file_.size(); at += size) {
-    const auto data_at = record(at);
-    if (!data_at) return false;
-    const std::uint64_t data_size = at + size - *data_at;
-    if (data_size > kLongestEntry) return false;
-    const std::uint8_t* data = file.at(*data_at, data_size);
+  for (std::uint64_t at = *index_at; at < file_.size(); at = record.end()) {
+    if (!recordAt(file, at, record) || record.data_size > kLongestEntry) return false;
+    const std::uint8_t* data = file.at(record.data_at, record.data_size);
     if (data == nullptr) return false;
     if (fields.kind() == Ros1Record::kConnection) {
-      addConnection(fields, data, static_cast<std::size_t>(data_size));
+      addConnection(fields, data, static_cast<std::size_t>(record.data_size));
       counts.resize(topics_.size());
       continue;
     }
@@ -78,7 +84,7 @@ bool Ros1BagReader::readIndex() {
     const auto first_ns = fields.time("start_time"), last_ns = fields.time("end_time");
     if (fields.kind() != Ros1Record::kChunkInfo || !chunk_at || !first_ns || !last_ns) return false;
     Chunk chunk{*chunk_at, *first_ns, *last_ns, {}};
-    for (std::uint64_t i = 0; i + 8 <= data_size; i += 8) {
+    for (std::uint64_t i = 0; i + 8 <= record.data_size; i += 8) {
       const auto topic = topic_of_connection_.find(numberAt(data + i));
       if (topic == topic_of_connection_.end()) return false;
       chunk.topics.push_back(topic->second);
@@ -94,35 +100,28 @@ bool Ros1BagReader::readIndex() {
 void Ros1BagReader::openChunk(const Chunk& chunk, BagBytes& unpacked, std::vector<Entry>& entries) {
   BagWindow file(file_, 0, file_.size());
   const std::string what = "the chunk at byte " + std::to_string(chunk.at);
-  const std::uint8_t* length = file.at(chunk.at, 4);
-  const std::uint64_t header =
-      length == nullptr ? kLongestHeader + 1 : std::uint64_t{numberAt(length)};
-  const std::uint8_t* bytes = header > kLongestHeader ? nullptr : file.at(chunk.at + 4, header + 4);
-  Ros1Fields fields;
-  if (bytes == nullptr || !fields.parse(bytes, static_cast<std::size_t>(header)) ||
-      fields.kind() != Ros1Record::kChunk) {
+  Record record;
+  if (!recordAt(file, chunk.at, record) || record.fields.kind() != Ros1Record::kChunk) {
     return lose(what + " is damaged");
   }
-  const std::uint64_t data_at = chunk.at + 8 + header, data_size = numberAt(bytes + header);
-  const auto size = fields.number("size");
-  const auto compression = fields.text("compression");
-  if (!size || !compression || data_size > file_.size() - data_at) {
-    return lose(what + " is damaged");
-  }
+  const auto size = record.fields.number("size");
+  const auto compression = record.fields.text("compression");
+  if (!size || !compression) return lose(what + " is damaged");
   if (*compression == "none") {
     // Of what is not wanted, no more is read than how long it is.
-    return listEntries(BagWindow(file_, data_at, data_size), data_at, what, entries);
+    return listEntries(BagWindow(file_, record.data_at, record.data_size), record.data_at, what,
+                       entries);
   }
   if (!isKnownPacking(*compression)) {
     return lose(what + " is packed by '" + printable(*compression) + "', which is unknown");
   }
   try {
-    checkMemory(what, *size, static_cast<std::size_t>(data_size));
+    checkMemory(what, *size, static_cast<std::size_t>(record.data_size));
   } catch (const std::runtime_error& error) {
     return lose(error.what());
   }
   BagBytes packed;
-  file_.read(data_at, data_size, packed);
+  file_.read(record.data_at, record.data_size, packed);
   if (!unpackChunk(*compression, packed.data(), packed.size(), *size, unpacked))
     lose(what + " is damaged");
   if (!unpacked.empty()) listEntries(BagWindow(unpacked), 0, what, entries);
@@ -131,33 +130,24 @@ void Ros1BagReader::openChunk(const Chunk& chunk, BagBytes& unpacked, std::vecto
 /// Lists the messages of a chunk whose bytes begin at `begin`.
 void Ros1BagReader::listEntries(BagWindow window, std::uint64_t begin, const std::string& what,
                                 std::vector<Entry>& entries) {
-  constexpr std::uint64_t kLeastHeader = 8;  // the field "op=.": seen soon, where all is 0
-  Ros1Fields fields;
+  Record record;
   bool is_told = false;
-  std::uint64_t at = 0;
-  while (at < window.size()) {
-    const std::uint8_t* length = window.at(at, 4);
-    const std::uint64_t header = length == nullptr ? 0 : numberAt(length);
-    const std::uint8_t* bytes =
-        header < kLeastHeader || header > kLongestHeader ? nullptr : window.at(at + 4, header + 4);
-    const std::uint64_t data_at = at + 8 + header;
-    if (bytes == nullptr || numberAt(bytes + header) > window.size() - data_at ||
-        !fields.parse(bytes, static_cast<std::size_t>(header)) || !fields.kind()) {
+  for (std::uint64_t at = 0; at < window.size();) {
+    if (!recordAt(window, at, record)) {
       if (!is_told) lose(what + " is damaged");
       is_told = true;
       ++at;  // to where a record begins again
       continue;
     }
-    const std::uint64_t data_size = numberAt(bytes + header);
-    const auto connection = fields.number("conn");
-    const auto time = fields.time("time");
+    at = record.end();
+    const auto connection = record.fields.number("conn");
+    const auto time = record.fields.time("time");
     const auto topic = topic_of_connection_.find(connection.value_or(0));
-    if (fields.kind() == Ros1Record::kMessage && connection && time &&
+    if (record.fields.kind() == Ros1Record::kMessage && connection && time &&
         topic != topic_of_connection_.end()) {
-      entries.push_back(
-          {*time, topic->second, begin + data_at, static_cast<std::size_t>(data_size)});
+      entries.push_back({*time, topic->second, begin + record.data_at,
+                         static_cast<std::size_t>(record.data_size)});
     }
-    at = data_at + data_size;
   }
 }
 
@@ -294,31 +284,21 @@ void Ros1BagReader::openScannedChunk() {
                : "the chunk that ends at byte " + at + " is damaged");
 }
 
-/// The size of the record that begins at chunk_at_, whose fields are then in inner_; 0 if there is
-/// none.
-std::size_t Ros1BagReader::recordInChunk() {
-  const std::uint8_t* at = chunk_.data() + chunk_at_;
-  const std::size_t left = chunk_.size() - chunk_at_;
-  constexpr std::size_t kLeastHeader = 8;  // the field "op=.": seen soon, where all is 0
-  if (left < 8 || numberAt(at) < kLeastHeader || numberAt(at) > left - 8) return 0;
-  const std::size_t header = numberAt(at), data = numberAt(at + 4 + header);
-  if (data > left - 8 - header || !inner_.parse(at + 4, header) || !inner_.kind()) return 0;
-  return 8 + header + data;
-}
-
 bool Ros1BagReader::nextInChunk(BagMessage& message) {
+  BagWindow window(chunk_);
+  Record record;
   while (chunk_at_ < chunk_.size()) {
-    const std::size_t size = recordInChunk();
-    if (size == 0) {
+    if (!recordAt(window, chunk_at_, record)) {
       if (!chunk_is_damaged_) lose("a chunk of the bag is damaged");
       chunk_is_damaged_ = true;
       ++chunk_at_;  // to where a record begins again
       continue;
     }
-    const std::uint8_t* at = chunk_.data() + chunk_at_;
-    const std::size_t header = numberAt(at);
-    chunk_at_ += size;
-    if (take(inner_, at + 8 + header, size - 8 - header, message)) return true;
+    chunk_at_ = static_cast<std::size_t>(record.end());
+    if (take(record.fields, chunk_.data() + record.data_at,
+             static_cast<std::size_t>(record.data_size), message)) {
+      return true;
+    }
   }
   chunk_.clear();
   return false;

@@ -35,7 +35,6 @@ class Ros1BagReader final : public ChunkedBagReader {
   bool readBytes(BagBytes& bytes, std::size_t count);
   bool seekNextChunk(std::uint64_t from);
   void openScannedChunk();
-  std::size_t recordInChunk();
   bool nextInChunk(BagMessage& message);
   bool take(const Ros1Fields& fields, const std::uint8_t* data, std::size_t size,
             BagMessage& message);
@@ -43,7 +42,7 @@ class Ros1BagReader final : public ChunkedBagReader {
 
   std::ifstream in_;
   std::uint64_t index_at_ = 1;  // 0 until the recorder has closed the bag
-  Ros1Fields fields_, inner_;
+  Ros1Fields fields_;
   BagBytes header_, data_, chunk_;
   std::size_t chunk_at_ = 0;
   bool chunk_is_damaged_ = false;  // and it has been told
