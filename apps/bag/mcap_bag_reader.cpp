@@ -20,6 +20,16 @@ bool isMagic(const BagBytes& bytes) {
                     [](std::uint8_t a, char b) { return a == static_cast<std::uint8_t>(b); });
 }
 
+/// Takes the first record off; false if it is not whole.
+bool takeRecord(McapFields& records, McapRecord& kind, McapFields& fields) {
+  kind = records.number<McapRecord>();
+  const auto size = records.number<std::uint64_t>();
+  if (!records.ok() || size > records.left()) return false;
+  fields = McapFields(records.rest(), static_cast<std::size_t>(size));
+  records = McapFields(records.rest() + size, records.left() - static_cast<std::size_t>(size));
+  return true;
+}
+
 }  // namespace
 
 McapBagReader::McapBagReader(const std::filesystem::path& file) : ChunkedBagReader(file) {
@@ -107,12 +117,10 @@ bool McapBagReader::readIndex(McapFields summary) {
   std::map<std::uint16_t, std::uint64_t> counts;
   std::uint64_t messages = 0, chunk_count = 0;
   bool has_statistics = false;
+  McapRecord kind{};
+  McapFields fields(nullptr, 0);
   while (summary.left() > 0) {
-    const auto kind = summary.number<McapRecord>();
-    const auto size = summary.number<std::uint64_t>();
-    if (!summary.ok() || size > summary.left()) return false;
-    McapFields fields(summary.rest(), static_cast<std::size_t>(size));
-    summary = McapFields(summary.rest() + size, summary.left() - static_cast<std::size_t>(size));
+    if (!takeRecord(summary, kind, fields)) return false;
     if (kind == McapRecord::kSchema) addSchema(fields);
     if (kind == McapRecord::kChannel) addChannel(fields);
     if (kind == McapRecord::kChunkIndex) {
@@ -262,15 +270,11 @@ void McapBagReader::openChunk(const Chunk& chunk, BagBytes& unpacked, std::vecto
   }
   if (!unpack(McapFields(content_.data(), content_.size()), chunk.at, true, unpacked)) return;
   McapFields records(unpacked.data(), unpacked.size());
+  McapRecord kind{};
+  McapFields fields(nullptr, 0);
   BagMessage message;
   while (records.left() > 0) {
-    const auto kind = records.number<McapRecord>();
-    const auto size = records.number<std::uint64_t>();
-    if (!records.ok() || size > records.left()) {
-      return lose("the chunk at " + byteOf(chunk.at) + " is damaged");
-    }
-    const McapFields fields(records.rest(), static_cast<std::size_t>(size));
-    records = McapFields(records.rest() + size, records.left() - static_cast<std::size_t>(size));
+    if (!takeRecord(records, kind, fields)) return lose(what + " is damaged");
     // All channels are known by the summary: one that is not has no place in the index.
     if (kind != McapRecord::kMessage || !take(kind, fields, message)) continue;
     entries.push_back({message.stamp_ns, message.topic,
@@ -286,18 +290,15 @@ void McapBagReader::rewindScan() {
 }
 
 bool McapBagReader::nextInChunk(BagMessage& message) {
-  while (chunk_at_ < chunk_.size()) {
-    McapFields records(chunk_.data() + chunk_at_, chunk_.size() - chunk_at_);
-    const auto kind = records.number<McapRecord>();
-    const auto size = records.number<std::uint64_t>();
-    if (!records.ok() || size > records.left()) {
-      // What was cut off has been told; there is no way to find the next one in what is damaged.
-      chunk_at_ = chunk_.size();
-      break;
-    }
-    chunk_at_ += kMcapRecordHead + static_cast<std::size_t>(size);
-    if (take(kind, McapFields(records.rest(), static_cast<std::size_t>(size)), message))
-      return true;
+  McapFields records(chunk_.data() + chunk_at_, chunk_.size() - chunk_at_);
+  McapRecord kind{};
+  McapFields fields(nullptr, 0);
+  while (records.left() > 0) {
+    // What was cut off has been told; there is no way to find the next one in what is damaged.
+    const bool is_whole = takeRecord(records, kind, fields);
+    chunk_at_ = chunk_.size() - (is_whole ? records.left() : 0);
+    if (!is_whole) return false;
+    if (take(kind, fields, message)) return true;
   }
   return false;
 }
