@@ -21,6 +21,7 @@ constexpr int kCells = 48;           // so many on each side of a square about t
 constexpr double kSurface_m = 0.05;  // So far behind a beam's end is the thing that it hit.
 constexpr double kRounding_m = 1e-9;
 constexpr double kSoon_s = 1e-9;
+constexpr double kOldest_s = 1.0;  // Of a motion from which to reckon.
 constexpr std::size_t kThings = 4096;
 
 bool isNumber(const VelocityCommand& v) {
@@ -44,7 +45,7 @@ double distanceToLine(const Vector2d& place, const Vector2d& from, const Vector2
 const char* describe(GateReason reason) {
   static constexpr std::array<const char*, 4> kTexts = {"", "brakes before what it sees",
                                                         "does not go where it has not looked",
-                                                        "the velocity is not finite"};
+                                                        "does not know how it moves"};
   return kTexts[static_cast<std::size_t>(reason)];
 }
 
@@ -263,8 +264,9 @@ GatedVelocity LastGate::pass(const VelocityCommand& wanted, const DriveState& no
                              double now_s) {
   GatedVelocity gated;
   if (!isNumber(wanted) || !isNumber(now.speed) || !now.pose.position.allFinite() ||
-      !std::isfinite(now.pose.yaw_rad) || !std::isfinite(now_s) || !(age_s >= 0.0)) {
-    gated.reason = GateReason::kNotFinite;
+      !std::isfinite(now.pose.yaw_rad) || !std::isfinite(now_s) ||
+      !(age_s >= 0.0 && age_s <= kOldest_s)) {
+    gated.reason = GateReason::kBadMotion;
   } else {
     const double then_s = now_s - age_s;
     const DriveState then = fastest(now, then_s);

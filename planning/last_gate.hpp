@@ -37,7 +37,7 @@ struct LastGateParams {
 };
 
 /// Why a velocity is let through, or not all of it.
-enum class GateReason { kFree, kThing, kUnseen, kNotFinite };
+enum class GateReason { kFree, kThing, kUnseen, kBadMotion };
 const char* describe(GateReason reason);
 
 struct GatedVelocity {

@@ -143,6 +143,15 @@ void Follower::lookAt(const Vector2d& place) {
   step_.velocity = {0.0, turn};
 }
 
+// Nothing gets to the wheels but through it.
+void Follower::passLastGate() {
+  const GatedVelocity gated = last_gate_.pass(step_.velocity, {motion_.pose(), speed_},
+                                              steady_s_ - motion_.stamp_s(), steady_s_);
+  step_.velocity = gated.velocity;
+  if (gated.reason == GateReason::kFree) return;
+  step_.reason += (step_.reason.empty() ? "" : "; ") + std::string(describe(gated.reason));
+}
+
 // +1: to the left.
 double Follower::sideOf(const Vector2d& place) const {
   return bearingOf(step_.robot.pose, place) < 0.0 ? -1.0 : 1.0;

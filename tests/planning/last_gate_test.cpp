@@ -132,7 +132,7 @@ TEST(LastGate, StopsOnWhatIsNotANumber) {
                                    Gate(3.0).pass(0.1, 0.1, {{{nan, 0.0}, 0.0}, {}})}) {
     EXPECT_EQ(out.velocity.forward_mps, 0.0);
     EXPECT_EQ(out.velocity.turn_radps, 0.0);
-    EXPECT_EQ(out.reason, GateReason::kNotFinite);
+    EXPECT_EQ(out.reason, GateReason::kBadMotion);
   }
 }
 
