@@ -156,6 +156,12 @@ void LastGate::keep(const Thing& thing) {
   things_.push_back(thing);
 }
 
+double LastGate::clearance(const Vector2d& place) const {
+  double least2 = std::numeric_limits<double>::infinity();
+  for (const Thing& thing : things_) least2 = std::min(least2, (thing.place - place).squaredNorm());
+  return std::sqrt(least2);
+}
+
 // What can be touched, and how near it may come.
 void LastGate::approach(const Vector2d& robot, double now_s) {
   near_.clear();

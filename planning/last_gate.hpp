@@ -71,6 +71,10 @@ class LastGate {
   /// All of a picture's points that are in the robot's way, in the base frame of `stamp_s` [m].
   void addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& base, double stamp_s);
 
+  /// Distance from a place to the nearest thing that was seen, as far as things are kept: a planner
+  /// that asks for it plans nothing that the gate holds back. [m]
+  double clearance(const Eigen::Vector2d& place) const;
+
   /// @param now    Where the base was by the last odometry, and its speed.
   /// @param age_s  How old that is.
   /// @param now_s  The time at which the velocity is sent, on the clock of the stamps.
