@@ -18,6 +18,7 @@ constexpr double kStep_s = 0.02;
 constexpr int kShares = 8;           // Shares of a velocity that are tried.
 constexpr double kCell_m = 0.05;     // Of the camera's points,
 constexpr int kCells = 48;           // so many on each side of a square about the robot.
+constexpr double kSame_m = 0.1;      // So far apart two pictures may see one thing.
 constexpr double kSurface_m = 0.05;  // So far behind a beam's end is the thing that it hit.
 constexpr double kRounding_m = 1e-9;
 constexpr double kSoon_s = 1e-9;
@@ -117,7 +118,7 @@ void LastGate::addScan(const LaserScan& scan, const FloorPose& base, double stam
     const double angle = scan.angle(i);
     const Vector2d place =
         look.scanner * Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
-    keep({place, stamp_s, true, 0.0, 0.0});
+    keep({place, stamp_s, true, true, 0.0, 0.0});
   }
 }
 
@@ -131,9 +132,6 @@ void LastGate::addPoints(const std::vector<Eigen::Vector3f>& points, const Floor
     return std::abs(std::atan2(at.y(), at.x())) < params_.camera_half_view_rad &&
            at.norm() > params_.camera_nearest_m && at.norm() < params_.camera_range_m;
   };
-  things_.erase(std::remove_if(things_.begin(), things_.end(),
-                               [&](const Thing& t) { return !t.by_laser && isInView(t.place); }),
-                things_.end());
   std::fill(cells_.begin(), cells_.end(), Cell{});
   for (const Eigen::Vector3f& point : points) {
     const Eigen::Vector2f at = point.head<2>();
@@ -144,9 +142,22 @@ void LastGate::addPoints(const std::vector<Eigen::Vector3f>& points, const Floor
     if (c.points == 0 || at.norm() < c.nearest.norm()) c.nearest = at;
     ++c.points;
   }
+  const auto placeOf = [&](const Cell& c) { return base * Vector2d(c.nearest.cast<double>()); };
+  for (Cell& cell : cells_) {
+    if (cell.points < params_.min_points) continue;
+    cell.is_sure = std::any_of(things_.begin(), things_.end(), [&](const Thing& thing) {
+      return !thing.by_laser && (thing.place - placeOf(cell)).norm() < kSame_m;
+    });
+  }
+  things_.erase(std::remove_if(things_.begin(), things_.end(),
+                               [&](const Thing& thing) {
+                                 return !thing.by_laser &&
+                                        (!thing.is_sure || isInView(thing.place));
+                               }),
+                things_.end());
   for (const Cell& cell : cells_) {
     if (cell.points < params_.min_points) continue;
-    keep({base * Vector2d(cell.nearest.cast<double>()), stamp_s, false, 0.0, 0.0});
+    keep({placeOf(cell), stamp_s, false, cell.is_sure, 0.0, 0.0});
   }
 }
 

@@ -31,9 +31,10 @@ struct LastGateParams {
   /// So many of a picture's points in a cell of 5 cm are a thing; fewer are errors of the stereo.
   int min_points = 6;
   Eigen::Vector2d camera_m = Eigen::Vector2d::Zero();  ///< Where the camera is, in the base frame.
-  double camera_half_view_rad = 0.0;  ///< A picture renews what is within this angle of ahead, ...
-  double camera_nearest_m = 0.45;     ///< ... further from the camera than this, ...
-  double camera_range_m = 2.0;        ///< ... and nearer than this.
+  /// A picture renews what is within this angle of straight ahead.
+  double camera_half_view_rad = 0.0;
+  double camera_nearest_m = 0.45;  ///< A picture renews what is further from the camera than this.
+  double camera_range_m = 2.0;     ///< A picture renews what is nearer to the camera than this.
 };
 
 /// Why a velocity is let through, or not all of it.
@@ -68,7 +69,9 @@ class LastGate {
   /// A scan that is not later than the last is left out.
   void addScan(const LaserScan& scan, const FloorPose& base, double stamp_s);
 
-  /// All of a picture's points that are in the robot's way, in the base frame of `stamp_s` [m].
+  /// What is out of the view of the next picture is known on if two pictures have seen it: one
+  /// alone may be an error of the stereo. All of a picture's points that are in the robot's way, in
+  /// the base frame of `stamp_s` [m].
   void addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& base, double stamp_s);
 
   /// Distance from a place to the nearest thing that was seen, as far as things are kept: a planner
@@ -86,6 +89,7 @@ class LastGate {
     Eigen::Vector2d place;  // in the odometry's frame
     double seen_s;
     bool by_laser;
+    bool is_sure;    // by the laser, or in two pictures one after the other
     double away_m;   // from the robot's middle,
     double allow_m;  // and how near it may come
   };
@@ -100,6 +104,7 @@ class LastGate {
   };
   struct Cell {
     std::uint16_t points = 0;
+    bool is_sure = false;
     Eigen::Vector2f nearest = Eigen::Vector2f::Zero();
   };
 

@@ -67,6 +67,7 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   gate.camera_m = robot.camera.T_base_camera.translation().head<2>();
   gate.camera_half_view_rad = 0.9 * robot.halfView_rad();  // things at the rim are half seen
   gate.camera_nearest_m = params.obstacle_points.nearest_m;
+  gate.min_points = params.obstacles.min_points;
   gate.camera_range_m = params.obstacle_points.max_range_m;
   if (const double half_rad = robot.halfView_rad(); half_rad > 0.0) {
     // A narrow camera sees no more than it does; a wide one sees badly at its rims.

@@ -117,6 +117,7 @@ TEST(LastGate, KnowsATableThatLeftThePicture) {
   Gate at(9.0);
   std::vector<Eigen::Vector3f> table(20, Eigen::Vector3f(0.6F, 0.0F, 0.7F));
   table.push_back({1.1F, 0.1F, 0.7F});  // an error of the stereo
+  at.gate.addPoints(table, {}, 9.9);
   at.gate.addPoints(table, {}, 10.0);
   const DriveState near{{{0.25, 0.0}, 0.0}, {0.3, 0.0}};
   EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.0).reason, GateReason::kThing);
@@ -124,6 +125,10 @@ TEST(LastGate, KnowsATableThatLeftThePicture) {
   EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.1).reason, GateReason::kThing);
   at.gate.addPoints({}, {}, 10.2);  // From there it would be seen.
   EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.2).reason, GateReason::kFree);
+  at.gate.addPoints(table, {}, 10.3);
+  EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.3).reason, GateReason::kThing);
+  at.gate.addPoints({}, near.pose, 10.4);  // One picture alone may be wrong.
+  EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.4).reason, GateReason::kFree);
 }
 
 TEST(LastGate, StopsOnWhatIsNotANumber) {
