@@ -83,8 +83,9 @@ void Localization::predict(const FloorPose& increment) {
   if (!search_everywhere_) estimate_.pose = cluster_pose_ * pending_.motion();
 }
 
-bool Localization::update(const LaserScan& scan, const std::vector<FloorDisc>& leave_out) {
-  if (beams_.choose(scan, leave_out).size() == 0) return false;
+bool Localization::update(const LaserScan& scan, const std::vector<FloorDisc>& leave_out,
+                          const FloorPose& T_base_then) {
+  if (beams_.choose(scan, leave_out, T_base_then).size() == 0) return false;
   const bool moved =
       pending_.way_m() >= params_.min_move_m || pending_.turned_rad() >= params_.min_turn_rad;
   if (!moved && !news_ && !unfit_) {

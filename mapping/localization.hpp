@@ -98,10 +98,12 @@ class Localization {
   /// increment that is not finite is passed over.
   void predict(const FloorPose& increment);
 
-  /// A scan that was taken at the place of the last increment.
+  /// @param T_base_then  Where the base was when the scan was measured, in the frame of where the
+  ///                     last increment led; the same place unless the scan came late.
   /// @return whether the scan was weighed: it was not if the robot has hardly moved since the last
   ///         one, or no beam was usable.
-  bool update(const LaserScan& scan, const std::vector<FloorDisc>& leave_out = {});
+  bool update(const LaserScan& scan, const std::vector<FloorDisc>& leave_out = {},
+              const FloorPose& T_base_then = {});
 
   const LocalizationEstimate& estimate() const { return estimate_; }
   const ParticleSet& particles() const { return particles_; }

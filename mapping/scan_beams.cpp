@@ -18,15 +18,17 @@ ScanBeams::ScanBeams(const FloorPose& T_base_scanner, const ScanBeamsParams& par
   ends_.reserve(params.beams);
 }
 
-const BeamEnds& ScanBeams::choose(const LaserScan& scan, const std::vector<FloorDisc>& leave_out) {
+const BeamEnds& ScanBeams::choose(const LaserScan& scan, const std::vector<FloorDisc>& leave_out,
+                                  const FloorPose& T_base_then) {
   usable_.clear();
+  const FloorPose scanner = T_base_then * T_base_scanner_;
   const Eigen::Rotation2Dd step(scan.step_rad);
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range_m = static_cast<double>(scan.ranges_m[i]);
     if (!(range_m >= params_.min_range_m && range_m <= params_.max_range_m)) continue;  // Or NaN.
     const double angle = scan.angle(i);
     const Eigen::Vector2d end =
-        T_base_scanner_ * Eigen::Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
+        scanner * Eigen::Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
     const bool masked = std::any_of(leave_out.begin(), leave_out.end(), [&](const FloorDisc& d) {
       return (end - d.center).squaredNorm() <= d.radius_m * d.radius_m;
     });

@@ -29,7 +29,9 @@ class ScanBeams {
   ScanBeams(const FloorPose& T_base_scanner, const ScanBeamsParams& params);
 
   /// @param leave_out  What ends in these is left out: people who are tracked, in the base frame.
-  const BeamEnds& choose(const LaserScan& scan, const std::vector<FloorDisc>& leave_out);
+  /// @param T_base_then  Where the base was when the scan was measured, in the base frame.
+  const BeamEnds& choose(const LaserScan& scan, const std::vector<FloorDisc>& leave_out,
+                         const FloorPose& T_base_then = {});
 
   const BeamEnds& ends() const { return ends_; }
   const FloorPose& T_base_scanner() const { return T_base_scanner_; }

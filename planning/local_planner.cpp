@@ -129,7 +129,7 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
     if (!(cost < least)) continue;
     least = cost;
     plan.costs = costs;
-    plan.command = slowed(futures_.commands[i], braking);
+    plan.command = slowed(scene, futures_.commands[i], braking.gap_m);
   }
   explain(scene, plan);
   last_ = plan.command;
@@ -280,18 +280,40 @@ std::size_t LocalPlanner::measure(const DriveScene& scene, std::size_t option,
   return clear;
 }
 
-VelocityCommand LocalPlanner::slowed(const VelocityCommand& command, const Braking& braking) const {
+VelocityCommand LocalPlanner::slowed(const DriveScene& scene, const VelocityCommand& command,
+                                     double gap_m) const {
   const double most = params_.limits.max_speed_mps;
-  const auto limit = [&](double gap, double from, double full) {
-    const double share = full > from ? std::clamp((gap - from) / (full - from), 0.0, 1.0) : 1.0;
-    return params_.least_speed_mps + share * (most - params_.least_speed_mps);
-  };
-  const double allowed =
-      std::min(limit(braking.gap_m, 0.0, params_.slow_gap_m),
-               limit(braking.people_gap_m, params_.people_margin_m, params_.slow_people_gap_m));
-  if (std::abs(command.forward_mps) <= allowed) return command;
-  const double share = allowed / std::abs(command.forward_mps);  // Along the same arc.
-  return {share * command.forward_mps, share * command.turn_radps};
+  const double share =
+      params_.slow_gap_m > 0.0 ? std::clamp(gap_m / params_.slow_gap_m, 0.0, 1.0) : 1.0;
+  double allowed = params_.least_speed_mps + share * (most - params_.least_speed_mps);
+  const double way = command.forward_mps < 0.0 ? -1.0 : 1.0;
+  for (const MovingPerson& person : *scene.people) {
+    allowed = std::min(allowed, allowedTowards(scene, person, way));
+  }
+  const double speed = std::abs(command.forward_mps);
+  if (speed <= allowed) return command;
+  return {allowed / speed * command.forward_mps,
+          allowed / speed * command.turn_radps};  // Same arc.
+}
+
+/// The speed forwards or backwards at which the robot may come towards somebody.
+double LocalPlanner::allowedTowards(const DriveScene& scene, const MovingPerson& person,
+                                    double way) const {
+  const DriveLimits& limits = params_.limits;
+  const Vector2d to = person.position - scene.now.pose.position;
+  const double yaw = scene.now.pose.yaw_rad;
+  const double towards = way * to.dot(Vector2d(std::cos(yaw), std::sin(yaw))) / to.norm();
+  if (!(towards > 0.0)) return kInfinite;
+  const double braked_s = (1.0 + params_.latency_periods) * limits.period_s +
+                          std::abs(scene.now.speed.forward_mps) / limits.max_acceleration_mps2;
+  const Vector2d their_way = braked_s * person.velocity;
+  const double length2 = their_way.squaredNorm();
+  const double share = length2 > 0.0 ? std::clamp(-to.dot(their_way) / length2, 0.0, 1.0) : 0.0;
+  const double room_m = (to + share * their_way).norm() - person.radius_m - limits.radius_m;
+  const double full_m = params_.slow_people_gap_m - params_.people_margin_m;
+  const double free_m = room_m - params_.people_margin_m;
+  const double free = full_m > 0.0 ? std::clamp(free_m / full_m, 0.0, 1.0) : 1.0;
+  return free < 1.0 ? free * limits.max_speed_mps / towards : kInfinite;
 }
 
 void LocalPlanner::explain(const DriveScene& scene, LocalPlan& plan) {

@@ -23,9 +23,11 @@ struct LocalPlannerParams {
   double margin_m = 0.04;  ///< Room that is left to things when the robot has braked.
   /// Room that is left to people when the robot has braked, wherever on their way they are then.
   double people_margin_m = 0.1;
-  double slow_gap_m = 0.08;        ///< With less room to things than this the robot slows down.
-  double least_speed_mps = 0.08;   ///< Speed where there is no room left to slow down for.
-  double slow_people_gap_m = 0.3;  ///< With less room to people than this the robot slows down.
+  double slow_gap_m = 0.08;       ///< With less room to things than this the robot slows down.
+  double least_speed_mps = 0.08;  ///< Speed where things leave no room to slow down for.
+  /// With less room to somebody than this, where they and the robot can be when it has braked, it
+  /// comes towards them more slowly, and at people_margin_m not at all.
+  double slow_people_gap_m = 0.3;
   /// A robot that has stood so long to keep a person in view may turn away from them.
   double look_away_s = 0.5;
   double give_way_gap_m = 0.2;  ///< The robot backs off when a person will come nearer than this.
@@ -111,7 +113,9 @@ class LocalPlanner {
   void layOut(const DriveScene& scene, bool threatened);
   Braking brake(const DriveScene& scene, const VelocityCommand& command, Clearance clearance) const;
   std::size_t measure(const DriveScene& scene, std::size_t option, Clearance clearance);
-  VelocityCommand slowed(const VelocityCommand& command, const Braking& braking) const;
+  VelocityCommand slowed(const DriveScene& scene, const VelocityCommand& command,
+                         double gap_m) const;
+  double allowedTowards(const DriveScene& scene, const MovingPerson& person, double way) const;
   void explain(const DriveScene& scene, LocalPlan& plan);
 
   LocalPlannerParams params_;

@@ -39,6 +39,7 @@ FollowSample sampleOf(const Readings& readings, const FollowStep& step,
   sample.person_distance_m = (person.position - readings.truth.robot.position).norm();
   sample.clearance_m = std::max(readings.truth.clearance_m, 0.0);
   sample.contact = readings.truth.contact;
+  sample.contact_by_robot = readings.truth.contact_by_robot;
   if (step.perception != nullptr) {
     const auto pixels = static_cast<double>(step.perception->mask.total());
     if (pixels > 0.0) sample.candidate_share = step.perception->color_pixels / pixels;
@@ -77,12 +78,17 @@ FollowLog runClosedLoop(const Scene& scene, const PetriPlan& plan, const ClosedL
   SimulatorOptions options;
   options.seed = params.seed;
   options.threads = params.threads;
-  Simulator simulator(scene, options);
+  const Latencies latencies = latenciesOf(params.rough, params.seed);
+  options.wheels_latency_s = latencies.wheels_s;
+  Simulator simulator(roughened(scene, params.rough, params.seed), options);
   RobotDescription robot = describeRobot(simulator);
   robot.drive.period_s = params.period_s;
-  Follower follower(robot, std::make_shared<WallMap>(wallMapOf(scene)), plan,
+  robot.scan_latency_s = latencies.laser_s;
+  robot.wheels_latency_s = latencies.wheels_s;
+  const WallMap map = wallMapOf(asMapped(scene, params.rough, params.seed));
+  Follower follower(robot, std::make_shared<WallMap>(map), plan,
                     FloorPose{scene.robot.start, scene.robot.start_yaw_rad}, params.follower);
-  FaultySensors sensors(params.faults, params.seed);
+  FaultySensors sensors(params.faults, params.seed, latencies);
 
   FollowLog log;
   log.scene = scene.name;

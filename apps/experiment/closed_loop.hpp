@@ -6,6 +6,7 @@
 #pragma once
 
 #include <heel/apps/experiment/faults.hpp>
+#include <heel/apps/experiment/rough_world.hpp>
 #include <heel/apps/follower/follower.hpp>
 #include <heel/apps/results/follow_log.hpp>
 #include <heel/apps/simulation/simulator.hpp>
@@ -26,6 +27,7 @@ struct ClosedLoopParams {
   double reached_s = 1.0;      ///< ... for so long, and they are reached.
   double wrong_apart_m = 0.5;  ///< See isWrongPerson().
   std::vector<Fault> faults;
+  RoughWorld rough;
   FollowerParams follower;
 };
 

@@ -6,6 +6,9 @@
 
 #include <opencv2/core.hpp>
 
+#include <algorithm>
+#include <utility>
+
 namespace heel {
 namespace {
 
@@ -42,7 +45,61 @@ const RobotReadings& FaultySensors::read(const Readings& readings) {
   readImages(readings);
   readOdometry(readings);
   if (active(Fault::Kind::kNoLaser, readings.stamp_s) == nullptr) result_.scan = readings.laser;
+  if (latencies_.camera_s + latencies_.laser_s + latencies_.wheels_s > 0.0) {
+    comeLate(readings.stamp_s);
+  }
   return result_;
+}
+
+template <typename Reading>
+void FaultySensors::Queue<Reading>::put(double comes_s, double stamp_s, Reading reading) {
+  if (!on_their_way.empty()) comes_s = std::max(comes_s, on_their_way.back().comes_s);
+  on_their_way.push_back({comes_s, stamp_s, std::move(reading)});
+}
+
+template <typename Reading>
+bool FaultySensors::Queue<Reading>::take(double now_s) {
+  constexpr double kRounding_s = 1e-6;
+  come.reset();
+  while (!on_their_way.empty() && on_their_way.front().comes_s <= now_s + kRounding_s) {
+    come = std::move(on_their_way.front());
+    on_their_way.pop_front();
+  }
+  return come.has_value();
+}
+
+void FaultySensors::comeLate(double now_s) {
+  const auto comes_s = [&](double latency_s) {
+    return now_s + (0.5 + 0.5 * uniformFrom(hashOf(seed_, ++readings_, 3))) * latency_s;
+  };
+  if (result_.frame != nullptr) {
+    Frame frame = *result_.frame;  // The simulator's own images are of the next step by then.
+    frame.image_bgr = frame.image_bgr.clone();
+    frame.right_bgr = frame.right_bgr.clone();
+    const double stamp_s = frame.stamp_s;
+    pictures_.put(comes_s(latencies_.camera_s), stamp_s, {std::move(frame), result_.pair_gap_s});
+  }
+  if (result_.scan != nullptr) {
+    scans_.put(comes_s(latencies_.laser_s), result_.stamp_s, *result_.scan);
+  }
+  if (result_.odometry) {
+    odometries_.put(comes_s(latencies_.wheels_s), result_.stamp_s, *result_.odometry);
+  }
+  result_.frame = nullptr;
+  result_.scan = nullptr;
+  result_.odometry.reset();
+  if (pictures_.take(now_s)) {
+    result_.frame = &pictures_.come->reading.frame;
+    result_.pair_gap_s = pictures_.come->reading.pair_gap_s;
+  }
+  if (scans_.take(now_s)) {
+    result_.scan = &scans_.come->reading;
+    result_.scan_stamp_s = scans_.come->stamp_s;
+  }
+  if (odometries_.take(now_s)) {
+    result_.odometry = odometries_.come->reading;
+    result_.odometry_stamp_s = odometries_.come->stamp_s;
+  }
 }
 
 void FaultySensors::readImages(const Readings& readings) {

@@ -9,6 +9,7 @@
 #include <heel/apps/simulation/simulator.hpp>
 
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 namespace heel {
@@ -30,11 +31,20 @@ struct Fault {
   double to_s = 0.0;
 };
 
+/// How late readings come at most, and commands act [s]: each by between half of it and all of it,
+/// drawn. None overtakes another of its sensor. The stamps are those of the measuring.
+struct Latencies {
+  double camera_s = 0.0;
+  double laser_s = 0.0;
+  double wheels_s = 0.0;  ///< Of the odometry, and of the commands.
+};
+
 /// What a robot with these faults reads. Holds copies of what it changes.
 class FaultySensors {
  public:
-  explicit FaultySensors(std::vector<Fault> faults, std::uint64_t seed = 1)
-      : faults_(std::move(faults)), seed_(seed) {}
+  explicit FaultySensors(std::vector<Fault> faults, std::uint64_t seed = 1,
+                         const Latencies& latencies = {})
+      : faults_(std::move(faults)), latencies_(latencies), seed_(seed) {}
 
   /// What is read of the simulator's true readings; valid until the next call.
   const RobotReadings& read(const Readings& readings);
@@ -43,8 +53,34 @@ class FaultySensors {
   const Fault* active(Fault::Kind kind, double stamp_s) const;
   void readImages(const Readings& readings);
   void readOdometry(const Readings& readings);
+  void comeLate(double now_s);
+
+  /// Readings of one sensor on their way.
+  template <typename Reading>
+  struct Queue {
+    struct Late {
+      double comes_s;
+      double stamp_s;
+      Reading reading;
+    };
+    std::deque<Late> on_their_way;
+    std::optional<Late> come;  // the newest that has come since the step before
+
+    void put(double comes_s, double stamp_s, Reading reading);
+    /// Whether something has come by now.
+    bool take(double now_s);
+  };
+  struct Picture {
+    Frame frame;
+    double pair_gap_s;
+  };
 
   std::vector<Fault> faults_;
+  Latencies latencies_;
+  Queue<Picture> pictures_;
+  Queue<LaserScan> scans_;
+  Queue<FloorPose> odometries_;
+  std::uint64_t readings_ = 0;
   std::uint64_t seed_;
   RobotReadings result_;
   Frame frame_;

@@ -44,6 +44,7 @@ std::vector<Job> jobsOf(const FollowExperimentParams& params,
     job.episode.name = "Episode " + std::to_string(job.episode.seed);
     job.episode.plan = plans.back();
     job.episode.command = "heel follow --random --seed " + std::to_string(job.episode.seed);
+    if (!params.rough.empty()) job.episode.command += " --rough " + params.rough;
   }
   return jobs;
 }
@@ -58,6 +59,7 @@ void run(Job& job, const FollowExperimentParams& params) {
   loop.seed = episode.seed;
   loop.threads = 1;  // Whole runs are what goes on side by side.
   loop.limit_s = params.limit_s;
+  if (job.is_random) loop.rough = roughWorldOf(params.rough);
   const FollowLog log = runClosedLoop(scene, plan, loop);
   episode.summary = summarize(log);
   episode.cause = causeOfFailure(log, episode.summary);
@@ -73,7 +75,7 @@ std::string atTime(const char* what, double stamp_s) {
 
 std::string causeOfFailure(const FollowLog& log, const FollowSummary& summary) {
   const auto contact = std::find_if(log.samples.begin(), log.samples.end(),
-                                    [](const FollowSample& s) { return s.contact; });
+                                    [](const FollowSample& s) { return s.contact_by_robot; });
   if (contact != log.samples.end()) {
     return atTime(("contact while '" + contact->state + "'").c_str(), contact->stamp_s);
   }
@@ -87,6 +89,7 @@ std::string causeOfFailure(const FollowLog& log, const FollowSummary& summary) {
 
 FollowExperiment runFollowExperiment(const FollowExperimentParams& params,
                                      const std::function<void(const FollowEpisode&)>& done) {
+  roughWorldOf(params.rough);  // or it is told now what is wrong with it
   FollowExperiment experiment;
   experiment.plans = {"paper", "search"};
   std::vector<Job> jobs = jobsOf(params, experiment.plans);

@@ -23,6 +23,7 @@ struct FollowExperimentParams {
   int episodes = 100;            ///< Random ones; with our plan.
   std::uint64_t first_seed = 1;  ///< Of the random episodes.
   double limit_s = 600.0;        ///< Of each run.
+  std::string rough;             ///< Of the random ones' world; see roughWorldOf().
   int jobs = 0;                  ///< Runs at a time; 0: as many as the machine has threads.
 };
 

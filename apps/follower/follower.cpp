@@ -59,6 +59,7 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
       room_(floor_, 1.0),
       planner_(floor_, params_.paths),
       local_planner_(params_.drive),
+      last_gate_(params_.last_gate),
       goal_chooser_(params_.goal),
       search_(floor_, walls_->floorGrid({1.1, 1.4}), params_.search),
       doorways_(findDoorways(floor_)) {
@@ -73,7 +74,7 @@ const FollowStep& Follower::step(const RobotReadings& readings, const StageDone&
   step_.stamp_s = readings.stamp_s;
   step_.acquisition = nullptr;
   step_.perception = nullptr;
-  const RobotReadings usable = watch_.step(readings);
+  const RobotReadings usable = watch_.step(stamped(readings));
   tellTime(readings.stamp_s);
 
   localize(usable);
@@ -91,6 +92,7 @@ const FollowStep& Follower::step(const RobotReadings& readings, const StageDone&
   finished(FollowStage::kDecide);
 
   drive();
+  passLastGate();
   finished(FollowStage::kDrive);
   return step_;
 }
@@ -105,12 +107,22 @@ void Follower::tellTime(double stamp_s) {
   }
 }
 
+RobotReadings Follower::stamped(const RobotReadings& readings) const {
+  RobotReadings all = readings;
+  if (!all.scan_stamp_s) all.scan_stamp_s = readings.stamp_s - robot_.scan_latency_s;
+  if (!all.odometry_stamp_s) all.odometry_stamp_s = readings.stamp_s - robot_.wheels_latency_s;
+  return all;
+}
+
+// Where the robot was, by odometry back from where it is.
+FloorPose Follower::poseAt(double steady_s) const {
+  return step_.robot.pose * motion_.seenFromNow(steady_s);
+}
+
 // A frame is as old as it says, unless it was taken before the clock jumped; never older than one
 // before it.
 Frame Follower::onSteadyClock(const Frame& frame) {
-  const double age_s = step_.stamp_s - frame.stamp_s;
-  const bool is_of_this_clock = age_s >= 0.0 && age_s <= params_.watch.max_gap_s;
-  frame_s_ = std::max(frame_s_, is_of_this_clock ? steady_s_ - age_s : steady_s_);
+  frame_s_ = std::max(frame_s_, steady_s_ - watch_.imageAge_s());
   Frame steady = frame;
   steady.stamp_s = frame_s_;
   return steady;
@@ -122,19 +134,22 @@ void Follower::localize(const RobotReadings& readings) {
     const FloorPose& moved = watch_.increment();
     const double in_s = watch_.increment_s();
     localization_.predict(moved);
+    motion_.add(steady_s_ - watch_.odometryAge_s(), moved);
     if (in_s > 0.0) speed_ = {moved.position.x() / in_s, moved.yaw_rad / in_s};
   }
   if (readings.scan != nullptr) {
+    scan_s_ = std::max(scan_s_, steady_s_ - watch_.scanAge_s());
+    last_gate_.addScan(*readings.scan, motion_.at(scan_s_), scan_s_);
     masked_.clear();
     const FloorPose T_base_world = localization_.estimate().pose.inverse();
     for (const MovingPerson& person : people_) {
       masked_.push_back({T_base_world * person.position, params_.target_radius_m});
     }
-    localization_.update(*readings.scan, masked_);
+    localization_.update(*readings.scan, masked_, motion_.seenFromNow(scan_s_));
   }
   step_.robot = localization_.estimate();
   legs_.step(
-      readings.scan, step_.robot.pose * robot_.T_base_scanner,
+      readings.scan, poseAt(scan_s_) * robot_.T_base_scanner,
       [this](const Vector2d& p) { return localization_.field().distance_m(p); }, dt_s_);
 }
 
@@ -146,12 +161,14 @@ void Follower::lookAround(const RobotReadings& readings) {
   if (step_.target) own = FloorDisc{*step_.target, params_.target_radius_m};
   layer_.begin(steady_s_, pose, own);
   if (readings.scan != nullptr) {
-    layer_.addScan(*readings.scan, robot_.T_base_scanner,
+    layer_.addScan(*readings.scan, motion_.seenFromNow(scan_s_) * robot_.T_base_scanner,
                    [this](const Vector2d& p) { return isMapped(p); });
   }
   obstacles_age_s_ += dt_s_;
   if (readings.frame != nullptr && obstacles_age_s_ > params_.obstacles_every_s - 1e-6) {
-    keepUnmapped(obstacle_points_.of(*readings.frame));
+    const std::vector<Eigen::Vector3f>& points = obstacle_points_.of(*readings.frame);
+    last_gate_.addPoints(points, motion_.at(frame_s_), frame_s_);
+    keepUnmapped(points, motion_.seenFromNow(frame_s_));
     layer_.addPoints(unmapped_);
     obstacles_age_s_ = 0.0;
   }
@@ -203,11 +220,14 @@ bool Follower::isSomebody(const Vector2d& place) const {
   });
 }
 
-void Follower::keepUnmapped(const std::vector<Eigen::Vector3f>& points) {
+void Follower::keepUnmapped(const std::vector<Eigen::Vector3f>& points,
+                            const FloorPose& T_base_then) {
   unmapped_.clear();
   for (const Eigen::Vector3f& point : points) {
-    const Vector2d place = step_.robot.pose * Vector2d(point.head<2>().cast<double>());
-    if (!isMapped(place) && !isSomebody(place)) unmapped_.push_back(point);
+    const Vector2d seen = T_base_then * Vector2d(point.head<2>().cast<double>());
+    const Vector2d place = step_.robot.pose * seen;
+    if (isMapped(place) || isSomebody(place)) continue;
+    unmapped_.emplace_back(static_cast<float>(seen.x()), static_cast<float>(seen.y()), point.z());
   }
 }
 
@@ -230,15 +250,19 @@ void Follower::learn(const Frame& frame) {
 
 // Phase 2 (section 3.1, 3.2), by camera and laser.
 void Follower::see(const Frame* frame) {
-  const RobotPlace place{step_.robot.pose, step_.robot.covariance.topLeftCorner<2, 2>()};
+  const auto placeAt = [this](double stamp_s) -> RobotPlace {
+    return {poseAt(stamp_s), step_.robot.covariance.topLeftCorner<2, 2>()};
+  };
   const LaserBodies* legs = legs_.isFresh() ? &legs_ : nullptr;
   if (frame != nullptr) {
-    Frame now = *frame;
-    now.stamp_s = tracked_s_ = steady_s_;
-    step_.perception = &perception_->step(now, place, legs);
+    tracked_s_ = steady_s_;
+    const Frame now = onSteadyClock(*frame);
+    step_.perception = &perception_->step(now, placeAt(now.stamp_s), legs);
     target_ = step_.perception->target;
   } else if (legs != nullptr && steady_s_ - tracked_s_ > params_.no_frame_s) {
-    target_ = perception_->step(tracked_s_ = steady_s_, place, *legs).target;
+    tracked_s_ = steady_s_;
+    frame_s_ = std::max(frame_s_, scan_s_);  // tracks only go on
+    target_ = perception_->step(frame_s_, placeAt(frame_s_), *legs).target;
   }
   noteTarget();
 }
@@ -265,9 +289,9 @@ void Follower::decide(const RobotReadings& readings) {
   if (step_.is_learning) return;
   if (!person_) {
     search_.wait(dt_s_);
-    if (readings.frame != nullptr) search_.look(step_.robot.pose, dt_s_);
+    if (readings.frame != nullptr) search_.look(poseAt(frame_s_), dt_s_);
     if (readings.scan != nullptr) {
-      search_.scan(*readings.scan, step_.robot.pose * robot_.T_base_scanner, dt_s_);
+      search_.scan(*readings.scan, poseAt(scan_s_) * robot_.T_base_scanner, dt_s_);
     }
   }
   checkFacts();

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <heel/apps/follower/follower_params.hpp>
+#include <heel/apps/follower/motion_history.hpp>
 #include <heel/apps/follower/sensor_watch.hpp>
 #include <heel/mapping/wall_distance.hpp>
 #include <heel/mapping/wall_map.hpp>
@@ -76,7 +77,9 @@ class Follower {
 
  private:
   void tellTime(double stamp_s);
+  RobotReadings stamped(const RobotReadings& readings) const;
   Frame onSteadyClock(const Frame& frame);
+  FloorPose poseAt(double steady_s) const;
   void localize(const RobotReadings& readings);
   void lookAround(const RobotReadings& readings);
   void learn(const Frame& frame);
@@ -89,7 +92,7 @@ class Follower {
   void notePeople();
   bool isMapped(const Eigen::Vector2d& place) const;
   bool isSomebody(const Eigen::Vector2d& place) const;
-  void keepUnmapped(const std::vector<Eigen::Vector3f>& points);
+  void keepUnmapped(const std::vector<Eigen::Vector3f>& points, const FloorPose& T_base_then);
   void driveTo(const Eigen::Vector2d& goal);
   VelocityCommand localCommand();
   void follow();
@@ -107,6 +110,7 @@ class Follower {
   void search();
   void lookAt(const Eigen::Vector2d& place);
   double sideOf(const Eigen::Vector2d& place) const;
+  void passLastGate();
 
   RobotDescription robot_;
   FollowerParams params_;
@@ -115,6 +119,7 @@ class Follower {
   WallDistance to_walls_;
 
   SensorWatch watch_;
+  MotionHistory motion_;  // by odometry, on the steady clock
   Localization localization_;
   ObstacleLayer layer_;
   ObstaclePoints obstacle_points_;
@@ -125,6 +130,7 @@ class Follower {
   ClearanceMap room_;  // to what stands, people apart
   GlobalPlanner planner_;
   LocalPlanner local_planner_;
+  LastGate last_gate_;
   GoalChooser goal_chooser_;
   PersonSearch search_;
   std::vector<DoorwayOnMap> doorways_;
@@ -140,6 +146,7 @@ class Follower {
   MovingPerson last_;                   // where it was when last seen,
   double unseen_s_ = 0.0;               // so long ago
   double tracked_s_ = 0.0;              // when the tracks were stepped last, on the steady clock
+  double scan_s_ = 0.0;                 // the newest scan's stamp, on the steady clock
   FollowingFacts facts_;
   FollowingAction action_ = FollowingAction::kStop;
   double obstacles_age_s_ = 0.0;

@@ -143,6 +143,15 @@ void Follower::lookAt(const Vector2d& place) {
   step_.velocity = {0.0, turn};
 }
 
+// Nothing gets to the wheels but through it.
+void Follower::passLastGate() {
+  const GatedVelocity gated = last_gate_.pass(step_.velocity, {motion_.pose(), speed_},
+                                              steady_s_ - motion_.stamp_s(), steady_s_);
+  step_.velocity = gated.velocity;
+  if (gated.reason == GateReason::kFree) return;
+  step_.reason += (step_.reason.empty() ? "" : "; ") + std::string(describe(gated.reason));
+}
+
 // +1: to the left.
 double Follower::sideOf(const Vector2d& place) const {
   return bearingOf(step_.robot.pose, place) < 0.0 ? -1.0 : 1.0;
@@ -246,7 +255,13 @@ void Follower::driveTo(const Vector2d& goal) {
 
 // Along the path, if there is one, without touching anything; in view of the target.
 VelocityCommand Follower::localCommand() {
-  const auto room = [this](const Vector2d& p) { return room_.clearance(p); };
+  // The map's walls may be off, and what is near them is left out of the layer: not so what the
+  // last gate sees, which leaves as little room as this.
+  const FloorPose to_motion = motion_.pose() * step_.robot.pose.inverse();
+  const double spare_m = params_.drive.margin_m - params_.last_gate.margin_m;
+  const auto room = [&](const Vector2d& p) {
+    return std::min(room_.clearance(p), last_gate_.clearance(to_motion * p) + spare_m);
+  };
   const LocalPlan now = local_planner_.step(step_.robot.pose, speed_, plan_.path, room, people_,
                                             looks_away_ ? std::nullopt : step_.target);
   has_arrived_ = now.status == DriveStatus::kArrived || now.blocked_s > params_.give_up_s;

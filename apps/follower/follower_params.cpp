@@ -52,6 +52,7 @@ double RobotDescription::halfView_rad() const {
 
 FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   check(params);
+  requireNotNegative("RobotDescription", {robot.scan_latency_s, robot.wheels_latency_s});
   params.obstacles.max_height_m = params.obstacle_points.max_height_m = robot.height_m;
   params.obstacles.laser_height_m = robot.scanner_height_m;
   params.gate.eye_height_m = robot.camera.T_base_camera.translation().z();
@@ -59,6 +60,15 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   params.goal.radius_m = robot.drive.radius_m;
   params.wayside.radius_m = robot.drive.radius_m;
   params.drive.limits = robot.drive;
+  LastGateParams& gate = params.last_gate;
+  gate.limits = robot.drive;
+  gate.T_base_scanner = robot.T_base_scanner;
+  gate.wheels_latency_s = robot.wheels_latency_s;
+  gate.camera_m = robot.camera.T_base_camera.translation().head<2>();
+  gate.camera_half_view_rad = 0.9 * robot.halfView_rad();  // things at the rim are half seen
+  gate.camera_nearest_m = params.obstacle_points.nearest_m;
+  gate.min_points = params.obstacles.min_points;
+  gate.camera_range_m = params.obstacle_points.max_range_m;
   if (const double half_rad = robot.halfView_rad(); half_rad > 0.0) {
     // A narrow camera sees no more than it does; a wide one sees badly at its rims.
     double& field_rad = params.search.map.field_of_view_rad;

@@ -16,6 +16,7 @@
 #include <heel/mapping/obstacle_layer.hpp>
 #include <heel/planning/global_planner.hpp>
 #include <heel/planning/goal_chooser.hpp>
+#include <heel/planning/last_gate.hpp>
 #include <heel/planning/local_planner.hpp>
 #include <heel/planning/wayside.hpp>
 
@@ -28,13 +29,19 @@ struct RobotDescription {
   FloorPose T_base_scanner;       ///< Where the laser scanner is, in the base frame.
   double scanner_height_m = 0.3;  ///< Height of the laser's plane over the floor.
   CameraSetup camera;             ///< Its camera, which looks ahead along the base frame's X axis.
+  /// A scan that comes without a stamp of its own was measured so long before.
+  double scan_latency_s = 0.0;
+  /// A command acts on the wheels at most so long after it was sent, and odometry that comes
+  /// without a stamp of its own was measured so long before.
+  double wheels_latency_s = 0.0;
 
   double halfView_rad() const;  ///< Half the camera's horizontal field of view; 0: unknown.
 };
 
 /// All that can be set of a Follower. Some of it the robot tells, whatever is written here:
 /// drive.limits, paths.robot_radius_m, goal.radius_m, wayside.radius_m, obstacles.max_height_m,
-/// obstacles.laser_height_m, obstacle_points.max_height_m and gate.eye_height_m; see fittedTo().
+/// obstacles.laser_height_m, obstacle_points.max_height_m, gate.eye_height_m, and of last_gate all
+/// but margin_m and remembers_s; see fittedTo().
 struct FollowerParams {
   LearnPersonParams learn;
   PerceptionParams perception;
@@ -49,6 +56,7 @@ struct FollowerParams {
   GoalChooserParams goal;
   WaysideParams wayside;
   PersonSearchParams search;
+  LastGateParams last_gate;
 
   FollowerParams();  ///< With what suits following where a part's own default is for other uses.
 

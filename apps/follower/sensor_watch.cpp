@@ -40,20 +40,22 @@ RobotReadings SensorWatch::step(const RobotReadings& readings) {
   stamp_s_ = readings.stamp_s;
 
   image_is_good_ = isUsable(readings);
-  image_age_s_ = image_is_good_ ? 0.0 : image_age_s_ + elapsed_s_;
+  image_age_s_ = image_is_good_ ? ageOf(readings.frame->stamp_s) : image_age_s_ + elapsed_s_;
 
   scan_is_good_ = readings.scan != nullptr && heel::isUsable(*readings.scan);
-  scan_age_s_ = scan_is_good_ ? 0.0 : scan_age_s_ + elapsed_s_;
+  scan_age_s_ = scan_is_good_ ? ageOf(readings.scan_stamp_s.value_or(readings.stamp_s))
+                              : scan_age_s_ + elapsed_s_;
 
   odometry_is_good_ = false;
   increment_ = {};
   increment_s_ = 0.0;
-  since_odometry_s_ += elapsed_s_;
+  last_odometry_age_s_ += elapsed_s_;
   if (readings.odometry && readings.odometry->position.allFinite() &&
       std::isfinite(readings.odometry->yaw_rad)) {
-    measureIncrement(*readings.odometry);
+    measureIncrement(*readings.odometry,
+                     ageOf(readings.odometry_stamp_s.value_or(readings.stamp_s)));
   }
-  odometry_age_s_ = odometry_is_good_ ? 0.0 : odometry_age_s_ + elapsed_s_;
+  odometry_age_s_ = odometry_is_good_ ? last_odometry_age_s_ : odometry_age_s_ + elapsed_s_;
 
   blindness_.clear();
   if (time_jumped_) blindness_ = "the clock jumped";
@@ -68,21 +70,27 @@ RobotReadings SensorWatch::step(const RobotReadings& readings) {
   return usable;
 }
 
-void SensorWatch::measureIncrement(const FloorPose& now) {
+// A stamp of another clock, or of before this one jumped, says nothing.
+double SensorWatch::ageOf(double stamp_s) const {
+  const double age_s = stamp_s_ - stamp_s;
+  return age_s >= 0.0 && age_s <= params_.max_gap_s ? age_s : 0.0;
+}
+
+void SensorWatch::measureIncrement(const FloorPose& now, double age_s) {
+  const double since_s = std::max(last_odometry_age_s_ - age_s, 0.0);
   if (odometry_) {
     const FloorPose moved = odometry_->inverse() * now;
-    odometry_is_good_ =
-        moved.position.norm() <= params_.max_speed_mps * since_odometry_s_ + 0.01 &&
-        std::abs(moved.yaw_rad) <= params_.max_turn_radps * since_odometry_s_ + 0.01;
+    odometry_is_good_ = moved.position.norm() <= params_.max_speed_mps * since_s + 0.01 &&
+                        std::abs(moved.yaw_rad) <= params_.max_turn_radps * since_s + 0.01;
     if (odometry_is_good_) {
       increment_ = moved;
-      increment_s_ = since_odometry_s_;
+      increment_s_ = since_s;
     }
   } else {
     odometry_is_good_ = true;
   }
   odometry_ = now;
-  since_odometry_s_ = 0.0;
+  last_odometry_age_s_ = age_s;
 }
 
 bool SensorWatch::isUsable(const RobotReadings& readings) const {

@@ -18,13 +18,18 @@
 
 namespace heel {
 
-/// What is new since the step before; a sensor that did not measure is null or absent.
+/// What has come since the step before; a sensor of which nothing came is null or absent. All
+/// stamps are of one clock.
 struct RobotReadings {
-  double stamp_s = 0.0;
-  const Frame* frame = nullptr;
-  double pair_gap_s = 0.0;  ///< Between the frame's left and right image.
+  double stamp_s = 0.0;          ///< Now.
+  const Frame* frame = nullptr;  ///< With the stamp of when it was taken.
+  double pair_gap_s = 0.0;       ///< Between the frame's left and right image.
   const LaserScan* scan = nullptr;
+  /// When the scan was measured; absent: RobotDescription::scan_latency_s ago.
+  std::optional<double> scan_stamp_s;
   std::optional<FloorPose> odometry;  ///< In a frame of its own, drifting.
+  /// When the odometry was measured; absent: RobotDescription::wheels_latency_s ago.
+  std::optional<double> odometry_stamp_s;
 };
 
 struct SensorWatchParams {
@@ -52,6 +57,10 @@ class SensorWatch {
 
   /// Time since the step before; none where the clock jumped.
   double elapsed_s() const { return elapsed_s_; }
+  /// How long ago the newest good reading was measured.
+  double imageAge_s() const { return image_age_s_; }
+  double scanAge_s() const { return scan_age_s_; }
+  double odometryAge_s() const { return odometry_age_s_; }
   bool timeJumped() const { return time_jumped_; }
   bool imageIsGood() const { return image_is_good_; }  ///< There is one, and it can be used.
   bool scanIsGood() const { return scan_is_good_; }
@@ -65,9 +74,10 @@ class SensorWatch {
   const std::string& blindness() const { return blindness_; }
 
  private:
+  double ageOf(double stamp_s) const;
   bool isUsable(const RobotReadings& readings) const;
   bool fitsCamera(const Frame& frame) const;
-  void measureIncrement(const FloorPose& now);
+  void measureIncrement(const FloorPose& now, double age_s);
 
   SensorWatchParams params_;
   SensorKind sensor_;
@@ -79,7 +89,7 @@ class SensorWatch {
   bool time_jumped_ = false;
   bool image_is_good_ = false, scan_is_good_ = false, odometry_is_good_ = false;
   std::optional<FloorPose> odometry_;  // the last that was a number, good or not,
-  double since_odometry_s_ = 0.0;      // and its age
+  double last_odometry_age_s_ = 0.0;   // and its age
   FloorPose increment_;
   double increment_s_ = 0.0;
   std::string blindness_;

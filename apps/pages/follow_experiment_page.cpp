@@ -129,7 +129,9 @@ std::string failures(const FollowExperiment& experiment) {
     for (const FollowEpisode& e : *all) {
       if (!isFailure(e)) continue;
       std::string what = escapedHtml(e.summary.outcome);
-      if (e.summary.contacts > 0) what += ", " + std::to_string(e.summary.contacts) + " contacts";
+      if (const int contacts = e.summary.contacts_by_robot; contacts > 0) {
+        what += ", " + std::to_string(contacts) + " contacts";
+      }
       if (e.summary.wrongShare() >= kWrongShareLimit) {
         what += ", wrong person " + share(e.summary.wrongShare());
       }
@@ -157,7 +159,8 @@ std::string episodeRows(const Episodes& episodes) {
             cell(escapedHtml(s.outcome), std::string("text ") + classOf(toneOf(s.outcome))) +
             cell(shownNumber(s.distance_m, 1, "m")) + cell(shownNumber(s.elapsed_s, 0, "s")) +
             cell(share(s.seekShare(), 0)) + cell(shownNumber(s.moving_speed_mps, 2, "m/s")) +
-            cell(std::to_string(s.contacts), s.contacts > 0 ? "bad" : "") +
+            cell(std::to_string(s.contacts_by_robot), s.contacts_by_robot > 0 ? "bad" : "") +
+            cell(std::to_string(s.contactsByPeople())) +
             cell(shownNumber(s.wrong_person_s, 1, "s")) +
             cell(shownNumber(s.min_clearance_m, 2, "m")) +
             cell(shownNumber(s.position_rms_m, 3, "m")) + "</tr>\n";
@@ -178,8 +181,10 @@ std::string tiles(const FollowExperiment& experiment) {
   const double reached = n.episodes > 0 ? static_cast<double>(n.reached) / n.episodes : kNotKnown;
   return tile("Person reached", std::to_string(n.reached) + " of " + std::to_string(n.episodes),
               "random episodes", n.episodes > 0 ? tone(reached >= 0.95) : Tone::kNeutral) +
-         tile("Episodes with a contact", std::to_string(n.with_contact),
-              std::to_string(n.contacts) + " contacts in " + shownNumber(n.distance_m, 0, "m"),
+         tile("Episodes with a contact by the robot", std::to_string(n.with_contact),
+              std::to_string(n.contacts_by_robot) + " contacts in " +
+                  shownNumber(n.distance_m, 0, "m") + "; " + std::to_string(n.contacts_by_people) +
+                  " by people",
               tone(n.with_contact == 0)) +
          tile("Wrong person followed", share(n.wrongShare(), 2), "of the time",
               tone(n.wrongShare() < kWrongShareLimit)) +
@@ -193,7 +198,8 @@ void addRows(CsvWriter& csv, const std::string& group, const Episodes& episodes)
     const FollowSummary& s = e.summary;
     csv.text(group).text(e.name).integer(static_cast<std::int64_t>(e.seed)).text(e.plan);
     csv.text(s.outcome).number(s.distance_m, 3).number(s.elapsed_s, 3).number(s.seek_s, 3);
-    csv.number(s.moving_speed_mps, 4).integer(s.contacts).number(s.wrong_person_s, 3);
+    csv.number(s.moving_speed_mps, 4).integer(s.contacts_by_robot);
+    csv.integer(s.contactsByPeople()).number(s.wrong_person_s, 3);
     csv.number(s.min_clearance_m, 3).integer(s.losses).number(s.position_rms_m, 4);
     csv.number(s.yaw_rms_rad, 5).text(e.cause).text(e.command).endRow();
   }
@@ -203,7 +209,7 @@ void addRows(CsvWriter& csv, const std::string& group, const Episodes& episodes)
 
 bool isFailure(const FollowEpisode& episode) {
   const FollowSummary& s = episode.summary;
-  return s.outcome != "reached" || s.contacts > 0 || s.wrongShare() >= kWrongShareLimit;
+  return s.outcome != "reached" || s.contacts_by_robot > 0 || s.wrongShare() >= kWrongShareLimit;
 }
 
 EpisodeCounts countEpisodes(const Episodes& episodes, const std::string& plan) {
@@ -212,8 +218,9 @@ EpisodeCounts countEpisodes(const Episodes& episodes, const std::string& plan) {
     if (e.plan != plan) continue;
     ++counts.episodes;
     counts.reached += e.summary.outcome == "reached" ? 1 : 0;
-    counts.with_contact += e.summary.contacts > 0 ? 1 : 0;
-    counts.contacts += e.summary.contacts;
+    counts.with_contact += e.summary.contacts_by_robot > 0 ? 1 : 0;
+    counts.contacts_by_robot += e.summary.contacts_by_robot;
+    counts.contacts_by_people += e.summary.contactsByPeople();
     counts.elapsed_s += e.summary.elapsed_s;
     counts.seek_s += e.summary.seek_s;
     counts.wrong_person_s += e.summary.wrong_person_s;
@@ -251,8 +258,8 @@ void writeFollowExperimentPage(const OutputPath& file, const FollowExperiment& e
 void writeEpisodesCsv(const OutputPath& file, const FollowExperiment& experiment) {
   CsvWriter csv(file,
                 {"group", "name", "seed", "plan", "outcome", "distance_m", "elapsed_s", "seek_s",
-                 "moving_speed_mps", "contacts", "wrong_person_s", "min_clearance_m", "losses",
-                 "position_rms_m", "yaw_rms_rad", "cause", "command"});
+                 "moving_speed_mps", "contacts_by_robot", "contacts_by_people", "wrong_person_s",
+                 "min_clearance_m", "losses", "position_rms_m", "yaw_rms_rad", "cause", "command"});
   addRows(csv, "table1", experiment.table1);
   addRows(csv, "random", experiment.episodes);
   csv.close();

@@ -34,16 +34,17 @@ struct FollowExperiment {
   std::string command;
 };
 
-/// Whether an episode counts as failed: the person was not reached, or something was touched, or
-/// somebody else was followed for a hundredth of the time or more.
+/// Whether an episode counts as failed: the person was not reached, or the robot touched something,
+/// or somebody else was followed for a hundredth of the time or more.
 bool isFailure(const FollowEpisode& episode);
 
 /// Figures of all episodes with one plan.
 struct EpisodeCounts {
   int episodes = 0;
   int reached = 0;
-  int with_contact = 0;
-  int contacts = 0;
+  int with_contact = 0;  ///< By the robot.
+  int contacts_by_robot = 0;
+  int contacts_by_people = 0;
   double elapsed_s = 0.0;
   double seek_s = 0.0;
   double wrong_person_s = 0.0;

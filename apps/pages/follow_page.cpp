@@ -30,8 +30,12 @@ std::string lead(const FollowLog& log, const FollowSummary& sum) {
   }
   text += sum.losses == 0 ? ". It never lost sight of them for more than half a second."
                           : ". It lost them " + timesText(sum.losses) + ".";
-  if (sum.contacts > 0) {
-    text += " <strong class=\"bad\">It touched something " + timesText(sum.contacts) + ".</strong>";
+  if (sum.contacts_by_robot > 0) {
+    text += " <strong class=\"bad\">It touched something " + timesText(sum.contacts_by_robot) +
+            ".</strong>";
+  }
+  if (sum.contactsByPeople() > 0) {
+    text += " It was bumped into " + timesText(sum.contactsByPeople()) + ".";
   }
   return text;
 }
@@ -45,9 +49,10 @@ std::string tiles(const FollowSummary& sum) {
               shownNumber(sum.driving_speed_mps, 3, "m/s") + " while driving") +
          tile("Time seeking", share(sum.seekShare()),
               shownNumber(sum.seek_s, 1, "s") + "; the paper: 57 to 62\u00a0%") +
-         tile("Contacts", std::to_string(sum.contacts),
-              "least clearance " + shownNumber(sum.min_clearance_m, 2, "m"),
-              sum.contacts == 0 ? Tone::kGood : Tone::kBad) +
+         tile("Contacts by the robot", std::to_string(sum.contacts_by_robot),
+              std::to_string(sum.contactsByPeople()) + " by people; least clearance " +
+                  shownNumber(sum.min_clearance_m, 2, "m"),
+              sum.contacts_by_robot == 0 ? Tone::kGood : Tone::kBad) +
          tile("Target in view", share(sum.elapsed_s > 0 ? sum.with_target_s / sum.elapsed_s : 0.0),
               "lost " + timesText(sum.losses)) +
          tile("Wrong person", shownNumber(sum.wrong_person_s, 1, "s"),

@@ -40,7 +40,8 @@ struct FollowSample {
   double clearance_m = kNotKnown;        ///< True gap between the robot and the nearest thing.
   double candidate_share = kNotKnown;    ///< Of the picture's pixels: with the target's colours.
   bool contact = false;
-  bool wrong_person = false;  ///< See isWrongPerson().
+  bool contact_by_robot = false;  ///< The robot moved towards what it touched.
+  bool wrong_person = false;      ///< See isWrongPerson().
 };
 
 /// Whether the estimate is somebody else's place: further than `apart_m` from the person (or the

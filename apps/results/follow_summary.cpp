@@ -61,6 +61,7 @@ CsvWriter followCsv(const OutputPath& file) {
            "distance_m",
            "clearance_m",
            "contact",
+           "contact_by_robot",
            "wrong_person"}};
 }
 
@@ -84,7 +85,7 @@ void addRows(CsvWriter& csv, const FollowLog& log) {
     addPlace(csv, s.person_true);
     addPlace(csv, s.target_estimate);
     csv.number(s.person_distance_m, 3).number(s.clearance_m, 3);
-    csv.flag(s.contact).flag(s.wrong_person);
+    csv.flag(s.contact).flag(s.contact_by_robot).flag(s.wrong_person);
     csv.endRow();
   }
 }
@@ -109,7 +110,7 @@ FollowSummary summarize(const FollowLog& log) {
   double driven_m = 0.0, driven_s = 0.0;
   double candidates = 0.0;
   int pictures = 0;
-  bool was_contact = false;
+  bool was_contact = false, was_by_robot = false;
   for (std::size_t i = 0; i < log.samples.size(); ++i) {
     const FollowSample& s = log.samples[i];
     const FollowSample& next = log.samples[std::min(i + 1, log.samples.size() - 1)];
@@ -129,6 +130,9 @@ FollowSummary summarize(const FollowLog& log) {
     if (s.target_estimate) sum.with_target_s += dt_s;
     if (s.wrong_person) sum.wrong_person_s += dt_s;
     if (s.contact && !was_contact) ++sum.contacts;
+    if (!s.contact) was_by_robot = false;
+    if (s.contact_by_robot && !was_by_robot) ++sum.contacts_by_robot;
+    was_by_robot = was_by_robot || s.contact_by_robot;
     was_contact = s.contact;
     sum.min_clearance_m = least(sum.min_clearance_m, s.contact ? 0.0 : s.clearance_m);
     sum.best_distance_m = least(sum.best_distance_m, s.person_distance_m);
@@ -170,6 +174,8 @@ nlohmann::ordered_json followJson(const FollowLog& log, const FollowSummary& sum
   json["moving_speed_mps"] = numberOrNull(sum.moving_speed_mps, 4);
   json["driving_speed_mps"] = numberOrNull(sum.driving_speed_mps, 4);
   json["contacts"] = sum.contacts;
+  json["contacts_by_robot"] = sum.contacts_by_robot;
+  json["contacts_by_people"] = sum.contactsByPeople();
   json["wrong_person_s"] = numberOrNull(sum.wrong_person_s, 3);
   json["min_clearance_m"] = numberOrNull(sum.min_clearance_m, 3);
   json["losses"] = sum.losses;

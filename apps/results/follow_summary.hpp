@@ -34,6 +34,7 @@ struct FollowSummary {
   double wrong_person_s = 0.0;
   int losses = 0;                      ///< Of the target; see targetEvents().
   int contacts = 0;                    ///< Separate ones: from a touch until it ends.
+  int contacts_by_robot = 0;           ///< In which the robot moved towards what it touched.
   double min_clearance_m = kNotKnown;  ///< 0 in contact.
   double localized_s = 0.0;            ///< The next two are over this time.
   double position_rms_m = kNotKnown;   ///< Of the estimated against the true pose.
@@ -42,6 +43,7 @@ struct FollowSummary {
   double candidate_share = kNotKnown;  ///< Mean over the pictures: pixels of the target's colours.
 
   double seekShare() const { return elapsed_s > 0.0 ? seek_s / elapsed_s : 0.0; }
+  int contactsByPeople() const { return contacts - contacts_by_robot; }
   double wrongShare() const { return elapsed_s > 0.0 ? wrong_person_s / elapsed_s : 0.0; }
 };
 

@@ -45,7 +45,9 @@ void WheelOdometry::add(double distance_m, double turn_rad) {
   const double distance_error = params_.distance_noise * way * random_.gaussian();
   const double turn_error = params_.turn_noise * turn * random_.gaussian() +
                             params_.drift_noise * way * random_.gaussian();
-  pose_ = alongArc(pose_, distance_m + distance_error, turn_rad + turn_error);
+  const double bias_m = params_.distance_bias * distance_m;
+  const double bias_rad = params_.turn_bias * turn_rad + params_.drift_bias * std::abs(distance_m);
+  pose_ = alongArc(pose_, distance_m + distance_error + bias_m, turn_rad + turn_error + bias_rad);
 }
 
 }  // namespace heel

@@ -39,7 +39,7 @@ class DriveBase {
 ///
 /// After a way of d metres and turns of a radians in all, the error of the heading is normally
 /// distributed with variance turn_noise^2 a + drift_noise^2 d, that of the way gone with variance
-/// distance_noise^2 d.
+/// distance_noise^2 d. The biases come on top of that.
 class WheelOdometry {
  public:
   WheelOdometry(const OdometryParams& params, std::uint64_t seed);

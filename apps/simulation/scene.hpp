@@ -131,6 +131,9 @@ struct ScenePerson {
   double start_yaw_rad = 0.0;
   std::vector<PathStep> path;
   bool repeat = false;  ///< Begins again when the path is done.
+  /// Who does not see the robot bumps into it, then steps round it; they neither wait for it nor
+  /// come back nor make room for it.
+  bool sees_robot = true;
 };
 
 /// A rectified stereo pair of cameras, mounted on the robot.
@@ -169,8 +172,11 @@ struct LaserParams {
 struct OdometryParams {
   double rate_hz = 10.0;         ///< Readings per second.
   double distance_noise = 0.02;  ///< Error of the distance, per square root of a metre gone [m].
-  double turn_noise = 0.02;   ///< Error of the heading, per square root of a radian turned [rad].
-  double drift_noise = 0.01;  ///< Error of the heading, per square root of a metre gone [rad].
+  double turn_noise = 0.02;    ///< Error of the heading, per square root of a radian turned [rad].
+  double drift_noise = 0.01;   ///< Error of the heading, per square root of a metre gone [rad].
+  double distance_bias = 0.0;  ///< Error of the distance that stays, as a share of it.
+  double turn_bias = 0.0;      ///< Error of a turn that stays, as a share of it.
+  double drift_bias = 0.0;     ///< Error of the heading that stays, per metre gone [rad].
 };
 
 /// A differential-drive robot. The defaults are a Pioneer 3-DX at the paper's speed.

@@ -103,6 +103,7 @@ ScenePerson readPerson(YamlMap& map, const Scene& scene) {
     person.path.push_back(step);
   }
   person.repeat = map.flag("repeat", false);
+  person.sees_robot = map.flag("sees_robot", true);
   if (person.repeat && person.path.empty()) map.fail("repeat", "needs a path");
   map.done();
   return person;

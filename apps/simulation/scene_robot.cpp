@@ -44,6 +44,9 @@ OdometryParams readOdometry(YamlMap& map) {
   odometry.distance_noise = map.number("distance_noise", odometry.distance_noise, kNotNegative);
   odometry.turn_noise = map.number("turn_noise", odometry.turn_noise, kNotNegative);
   odometry.drift_noise = map.number("drift_noise", odometry.drift_noise, kNotNegative);
+  odometry.distance_bias = map.number("distance_bias", odometry.distance_bias, {-1, 1});
+  odometry.turn_bias = map.number("turn_bias", odometry.turn_bias, {-1, 1});
+  odometry.drift_bias = map.number("drift_bias", odometry.drift_bias, {-1, 1});
   map.done();
   return odometry;
 }

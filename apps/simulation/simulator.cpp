@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <stdexcept>
 #include <utility>
 
@@ -16,7 +17,8 @@ namespace heel {
 namespace {
 
 constexpr double kTick_s = 0.01;
-constexpr int kTicksPerStride = 2;  // People decide where to step every other tick.
+constexpr int kTicksPerStride = 2;   // People decide where to step every other tick.
+constexpr double kMoves_mps = 0.02;  // Slower is no move of the robot's towards somebody.
 
 Eigen::Isometry3d mountedCamera(const CameraParams& params) {
   Eigen::Matrix3d optical;  // Columns: the optical axes in a frame that looks forward.
@@ -76,11 +78,13 @@ struct Simulator::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  void tick(const VelocityCommand& command);
+  void tick();
   void placeBodies();
   void render();
   void tellTruth();
   double clearance(const Eigen::Vector2d& p) const;
+  bool isDrivenInto(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
+  void give(const VelocityCommand& command);
 
   Scene scene;
   SimulatorOptions options;
@@ -97,6 +101,12 @@ struct Simulator::State {
   WheelOdometry odometry;
   SensorClock camera_clock, laser_clock, odometry_clock;
   std::int64_t ticks = 0;
+  struct Given {
+    std::int64_t acts = 0;  // at this tick
+    VelocityCommand command;
+  };
+  std::deque<Given> given;
+  VelocityCommand obeyed;
   Readings readings;
   StereoReading stereo;
   LaserScan scan;
@@ -112,13 +122,43 @@ double Simulator::State::clearance(const Eigen::Vector2d& p) const {
   return least - scene.robot.radius_m;
 }
 
-void Simulator::State::tick(const VelocityCommand& command) {
-  robot.accelerate(kTick_s, command);
+/// Whether the robot, on its way from one place to another, moves towards what it touches there.
+bool Simulator::State::isDrivenInto(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+  if (plan.clearance(to) < scene.robot.radius_m) return true;
+  return std::any_of(walkers.begin(), walkers.end(), [&](const Walker& walker) {
+    const Mover mover = walker.mover();
+    const double before_m = (mover.position - from).norm();
+    const double after_m = (mover.position - to).norm();
+    return after_m < mover.radius_m + scene.robot.radius_m &&
+           before_m - after_m > kMoves_mps * kTick_s;
+  });
+}
+
+// Commands do not overtake each other.
+void Simulator::State::give(const VelocityCommand& command) {
+  const double share =
+      0.5 + 0.5 * uniformFrom(hashOf(options.seed, 6, static_cast<std::uint64_t>(ticks)));
+  std::int64_t acts = ticks + std::llround(share * options.wheels_latency_s / kTick_s);
+  if (!given.empty()) acts = std::max(acts, given.back().acts);
+  given.push_back({acts, command});
+}
+
+void Simulator::State::tick() {
+  while (!given.empty() && given.front().acts <= ticks) {
+    obeyed = given.front().command;
+    given.pop_front();
+  }
+  robot.accelerate(kTick_s, obeyed);
   // Something in the way stops the robot, but it may always back out of it.
   const double now_m = clearance(robot.pose().position);
   const double next_m = clearance(robot.ahead(kTick_s).position);
   const bool blocked = next_m < 0.0 && next_m < now_m;
-  readings.truth.contact = readings.truth.contact || next_m < 0.0;
+  if (next_m < 0.0) {
+    WorldTruth& truth = readings.truth;
+    truth.contact = true;
+    truth.contact_by_robot = truth.contact_by_robot ||
+                             isDrivenInto(robot.pose().position, robot.ahead(kTick_s).position);
+  }
   robot.go(kTick_s, !blocked);
   odometry.add(robot.speed().forward_mps * kTick_s, robot.speed().turn_radps * kTick_s);
   ++ticks;
@@ -132,7 +172,7 @@ void Simulator::State::tick(const VelocityCommand& command) {
     for (std::size_t j = 0; j < walkers.size(); ++j) {
       if (j != i) others.push_back(walkers[j].mover());
     }
-    others.push_back({robot.pose().position, robot_velocity, scene.robot.radius_m + 0.05});
+    others.push_back({robot.pose().position, robot_velocity, scene.robot.radius_m + kRobotRoom_m});
     walkers[i].step(kTicksPerStride * kTick_s, plan, others, others.back());
   }
 }
@@ -198,8 +238,9 @@ const Readings& Simulator::step(double dt_s, const VelocityCommand& command) {
   if (!(dt_s >= 0.0) || std::abs(wanted_ticks - std::round(wanted_ticks)) > 1e-6) {
     throw std::invalid_argument("Simulator::step: dt_s must be a multiple of 0.01 s");
   }
-  s.readings.truth.contact = false;
-  for (auto n = std::lround(wanted_ticks); n > 0; --n) s.tick(command);
+  s.readings.truth.contact = s.readings.truth.contact_by_robot = false;
+  s.give(command);
+  for (auto n = std::lround(wanted_ticks); n > 0; --n) s.tick();
   const double now_s = static_cast<double>(s.ticks) * kTick_s;
   s.readings.stamp_s = now_s;
   s.readings.stereo = nullptr;

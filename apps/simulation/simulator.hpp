@@ -23,6 +23,8 @@ struct SimulatorOptions {
   std::uint64_t seed = 1;  ///< Of all noise.
   int threads = 0;         ///< 0 = as many as the machine has; results do not depend on it.
   bool render = true;      ///< Without it there are no stereo readings, and all is much faster.
+  /// A command acts on the wheels between half of this and all of it after it was given, drawn.
+  double wheels_latency_s = 0.0;
 };
 
 /// What the stereo cameras see at one moment, and what is true of it.
@@ -49,6 +51,9 @@ struct WorldTruth {
   std::vector<PersonTruth> people;
   double clearance_m = 0.0;  ///< From the robot's rim to the nearest thing or person.
   bool contact = false;      ///< Whether the robot touched anything since the last step.
+  /// Whether the robot moved towards what it touched then, at more than 0.02 m/s; things that are
+  /// not people are always touched by the robot.
+  bool contact_by_robot = false;
 };
 
 /// All that a step yields. A sensor that did not measure is null or absent.

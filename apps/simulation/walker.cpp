@@ -25,7 +25,9 @@ constexpr double kMakesRoom_s = 6.0;  // ... for so long,
 constexpr double kHeldUp_m = 1.0;     // if it is this near;
 constexpr double kRoom_m = 1.4;       // this far is far enough.
 constexpr double kAside_mps = 0.4;
-constexpr double kHair_m = 0.01;     // Nobody comes nearer to the robot than this.
+constexpr double kHair_m = 0.01;     // Who sees the robot comes no nearer to it than this.
+constexpr double kBump_m = 0.01;     // Who does not runs into it by so much,
+constexpr double kFeels_s = 3.0;     // and steps round it for so long.
 constexpr double kMeets_s = 5.0;     // Who came back for the robot gives it so long to turn round.
 constexpr double kGivesUp_s = 10.0;  // Someone who can't get to a place goes to the next.
 
@@ -100,7 +102,8 @@ void Walker::step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& 
   }
   makes_room_s_ = std::max(makes_room_s_ - dt_s, 0.0);
   const double to_robot_m = (robot.position - pose_.position).norm();
-  if (stuck_s_ > kPatience_s && to_robot_m < kHeldUp_m) {
+  feels_s_ = std::max(feels_s_ - dt_s, 0.0);
+  if (person_->sees_robot && stuck_s_ > kPatience_s && to_robot_m < kHeldUp_m) {
     makes_room_s_ = kMakesRoom_s;
     stuck_s_ = 0.0;
   }
@@ -109,7 +112,7 @@ void Walker::step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& 
   }
   const bool walks = !wanted.isZero();
   const Vector2d way = wanted.normalized();
-  if (walks) wanted = chooseVelocity(wanted, plan, others);
+  if (walks) wanted = chooseVelocity(wanted, plan, others, noticesRobot() ? nullptr : &robot);
   accelerate(dt_s, wanted);
   keepOff(dt_s, robot);
   move(dt_s);
@@ -121,6 +124,10 @@ void Walker::step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& 
 }
 
 Vector2d Walker::waitForRobot(double dt_s, const FloorPlan& plan, const Vector2d& robot) {
+  if (!person_->sees_robot) {
+    finishStep();
+    return Vector2d::Zero();
+  }
   if (back_to_) return comeBack(dt_s, plan, robot);
   const PathStep& now = person_->path[step_];
   waited_s_ += dt_s;
@@ -182,7 +189,7 @@ Vector2d Walker::wayAside(const FloorPlan& plan, const Vector2d& robot) const {
 }
 
 Vector2d Walker::chooseVelocity(const Vector2d& wanted, const FloorPlan& plan,
-                                const std::vector<Mover>& others) const {
+                                const std::vector<Mover>& others, const Mover* unseen) const {
   static constexpr std::array<double, 13> kTurns = {0.0,   -0.3, 0.3,  -0.6, 0.6,  -0.95, 0.95,
                                                     -1.35, 1.35, -1.8, 1.8,  -2.6, 2.6};
   const double speed = wanted.norm();
@@ -196,6 +203,7 @@ Vector2d Walker::chooseVelocity(const Vector2d& wanted, const FloorPlan& plan,
       double cost = (velocity - wanted).norm() / speed + (turn > 0.0 ? 0.08 : 0.0);
       if (pace == 0.0) cost += 0.4 * stuck_s_;  // Nobody waits for ever.
       for (const Mover& other : others) {
+        if (&other == unseen) continue;
         const Vector2d offset = other.position - pose_.position;
         const Vector2d approach = other.velocity - velocity;
         const double reach = other.radius_m + kRadius_m;
@@ -223,10 +231,12 @@ void Walker::accelerate(double dt_s, const Vector2d& wanted) {
   velocity_ += change.norm() > most ? Vector2d(change.normalized() * most) : change;
 }
 
-// Nobody walks into a robot, however late they see it.
+// Who sees the robot does not walk into it, however late; nobody walks through it.
 void Walker::keepOff(double dt_s, const Mover& robot) {
   const Vector2d to = robot.position - pose_.position;
-  const double room_m = to.norm() - robot.radius_m - kRadius_m - kHair_m;
+  const double gap_m = to.norm() - robot.radius_m - kRadius_m;
+  const double room_m = person_->sees_robot ? gap_m - kHair_m : gap_m + kRobotRoom_m + kBump_m;
+  if (!person_->sees_robot && gap_m + kRobotRoom_m <= 0.0) feels_s_ = kFeels_s;
   const Vector2d way = to.normalized();
   const double most_mps = std::max(room_m, 0.0) / dt_s;
   if (velocity_.dot(way) > most_mps) velocity_ += (most_mps - velocity_.dot(way)) * way;

@@ -21,6 +21,9 @@ struct Mover {
   double radius_m = 0.25;
 };
 
+/// Who sees the robot leaves it so much room.
+inline constexpr double kRobotRoom_m = 0.05;
+
 /// One person of a scene, living.
 class Walker {
  public:
@@ -29,7 +32,7 @@ class Walker {
 
   /// Lives on for `dt_s` (a few hundredths of a second).
   /// @param others  Everyone else, and the robot.
-  /// @param robot   One of `others`: who waits for it, and nobody walks into it.
+  /// @param robot   One of `others`: who sees it waits for it, and does not walk into it.
   void step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& others,
             const Mover& robot);
 
@@ -48,8 +51,9 @@ class Walker {
   std::optional<std::size_t> walkBefore(std::size_t step) const;
   Eigen::Vector2d wayAside(const FloorPlan& plan, const Eigen::Vector2d& robot) const;
   Eigen::Vector2d chooseVelocity(const Eigen::Vector2d& wanted, const FloorPlan& plan,
-                                 const std::vector<Mover>& others) const;
+                                 const std::vector<Mover>& others, const Mover* unseen) const;
   void accelerate(double dt_s, const Eigen::Vector2d& wanted);
+  bool noticesRobot() const { return person_->sees_robot || feels_s_ > 0.0; }
   void keepOff(double dt_s, const Mover& robot);
   void move(double dt_s);
   void turnTo(double yaw_rad, double dt_s);
@@ -63,6 +67,7 @@ class Walker {
   double with_robot_s_ = 0.0;           // since they did
   double makes_room_s_ = 0.0;           // still, for the robot
   double stuck_s_ = 0.0;                // How long somebody has been in the way.
+  double feels_s_ = 0.0;                // Still, for who bumped into the robot unseen.
 };
 
 }  // namespace heel

@@ -103,6 +103,12 @@ TEST(Call, WithANumberThatCannotBeNamesIt) {
   }
 }
 
+TEST(Call, OfAnUnknownSwitchNamesTheSwitches) {
+  EXPECT_TRUE(failsWith(heel({"follow", "home", "--rough", "people,rain"}),
+                        {"'rain'", "people, latency, map, laser, light, odometry, and all"}));
+  EXPECT_TRUE(failsWith(heel({"experiment", "follow", "--rough", "rain"}), {"'rain'"}));
+}
+
 TEST(Call, TellsTheLimitOfMemoryThatItWasGiven) {
   const TempFolder folder;
   writeText(folder / "a.jpg", std::string("\xFF\xD8\xFF\xC0\0\x0B\x08\xFF\xFF\xFF\xFF", 11));

@@ -27,10 +27,11 @@ struct FollowExperimentOptions {
 void printRow(const FollowEpisode& episode) {
   const FollowSummary& s = episode.summary;
   std::printf(
-      "%-14s %-7s %-8s %6.2f m %6.1f s  seek %4.0f %%  %.2f m/s  contacts %d  wrong %.1f s%s%s\n",
+      "%-14s %-7s %-8s %6.2f m %6.1f s  seek %4.0f %%  %.2f m/s  contacts by the robot %d, by "
+      "people %d  wrong %.1f s%s%s\n",
       episode.name.c_str(), episode.plan.c_str(), s.outcome.c_str(), s.distance_m, s.elapsed_s,
-      100.0 * s.seekShare(), s.moving_speed_mps, s.contacts, s.wrong_person_s,
-      episode.cause.empty() ? "" : "  ", episode.cause.c_str());
+      100.0 * s.seekShare(), s.moving_speed_mps, s.contacts_by_robot, s.contactsByPeople(),
+      s.wrong_person_s, episode.cause.empty() ? "" : "  ", episode.cause.c_str());
   std::fflush(stdout);
 }
 
@@ -50,9 +51,11 @@ void run(FollowExperimentOptions& options) {
                        std::to_string(options.params.episodes) + " --seed " +
                        std::to_string(options.params.first_seed);
   if (!options.params.table1) experiment.command += " --no-table1";
+  if (!options.params.rough.empty()) experiment.command += " --rough " + options.params.rough;
   const EpisodeCounts all = countEpisodes(experiment.episodes, experiment.plans.back());
   std::printf(
-      "%d random episodes: %d reached, %d with a contact, wrong person %.2f %% of the time, "
+      "%d random episodes: %d reached, %d with a contact by the robot, wrong person %.2f %% of the "
+      "time, "
       "seeking %.0f %%\n",
       all.episodes, all.reached, all.with_contact, 100.0 * all.wrongShare(),
       all.elapsed_s > 0.0 ? 100.0 * all.seek_s / all.elapsed_s : 0.0);
@@ -82,6 +85,7 @@ void addFollowExperiment(CLI::App& experiment) {
       ->capture_default_str();
   verb->add_option("--limit", options->params.limit_s, "a run ends after so long [s]")
       ->capture_default_str();
+  addRough(*verb, options->params.rough);
   verb->add_option("--jobs", options->params.jobs, "runs side by side; 0: one for each thread")
       ->capture_default_str();
   verb->add_option("--out", options->out, "folder for the results")->capture_default_str();

@@ -43,6 +43,7 @@ struct FollowOptions {
   ClosedLoopParams loop;
   std::string image_size;  // empty: the scene's
   std::string light;       // the same
+  std::string rough;       // empty: nothing
   double rate_hz = 0.0;    // 0: the scene's camera's, and ten commands a second
   bool random = false;
   RandomEpisodeParams episode;
@@ -77,6 +78,7 @@ std::string commandOf(const FollowOptions& options) {
   if (options.alone) command << " --alone";
   if (!options.image_size.empty()) command << " --image-size " << options.image_size;
   if (!options.light.empty()) command << " --light " << options.light;
+  if (!options.rough.empty()) command << " --rough " << options.rough;
   if (options.rate_hz > 0.0) command << " --rate " << options.rate_hz;
   command << " --plan " << options.plan << " --seed " << options.loop.seed;
   if (options.loop.limit_s != shortest.loop.limit_s) {
@@ -113,7 +115,8 @@ void print(const FollowSummary& summary, const FollowOutput& output) {
                 summary.seek_s);
   }
   std::printf("\n");
-  std::printf("  contacts %d, wrong person %.1f s", summary.contacts, summary.wrong_person_s);
+  std::printf("  contacts by the robot %d, by people %d, wrong person %.1f s",
+              summary.contacts_by_robot, summary.contactsByPeople(), summary.wrong_person_s);
   if (std::isfinite(summary.min_clearance_m)) {
     std::printf(", least clearance %.2f m", summary.min_clearance_m);
   }
@@ -128,6 +131,7 @@ void run(FollowOptions& options) {
   if (options.rate_hz > 0.0) {  // The simulator's clock ticks in hundredths of a second.
     options.loop.period_s = std::max(1.0, std::round(100.0 / options.rate_hz)) / 100.0;
   }
+  options.loop.rough = roughWorldOf(options.rough);
   const Scene scene = sceneOf(options);
   const std::filesystem::path plan_file = planFile(options.plan);
   const PetriPlan plan = loadPlan(plan_file, followingVocabulary());
@@ -169,7 +173,12 @@ void addFollow(CLI::App& app) {
       "Example:\n"
       "  heel follow home --out out/home\n"
       "Writes report.html (open it in a browser), the film follow.mp4, summary.json, follow.csv\n"
-      "(one row a step, with the truth) and timing.csv.");
+      "(one row a step, with the truth) and timing.csv.\n"
+      "--rough people: they do not see the robot, bump into it, and do not wait for it.\n"
+      "--rough latency: pictures, scans, odometry and wheels are late, by up to 0.25 s.\n"
+      "--rough map: furniture is up to 0.1 m off in the robot's map, and a piece is missing.\n"
+      "--rough laser: it sees 220 degrees ahead. --rough light: the camera's light is drawn.\n"
+      "--rough odometry: the wheels' errors of up to 3 % stay.");
   verb->add_option("SCENE", options->scene, "a scene's name (home, office, ...) or its YAML file")
       ->capture_default_str();
   CLI::Option* random =
@@ -195,6 +204,7 @@ void addFollow(CLI::App& app) {
                    "scene's pictures, 10 commands)")
       ->check(CLI::Range(1.0, 100.0));
   addLight(*verb, options->light);
+  addRough(*verb, options->rough);
   verb->add_flag("--no-film", options->no_film, "write no film");
   addResultBag(*verb, options->bag);
   verb->callback([options] { run(*options); });

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <heel/apps/experiment/rough_world.hpp>
 #include <heel/apps/heel/shared/arguments.hpp>
 
 #include <CLI/CLI.hpp>
@@ -40,6 +41,12 @@ void addLight(CLI::App& verb, std::string& light) {
                   "exposure, white balance, gamma, motion blur and flicker: 'fixed', or 'drawn' "
                   "from the seed (default: as the scene says)")
       ->check(CLI::IsMember({"fixed", "drawn"}));
+}
+
+void addRough(CLI::App& verb, std::string& rough) {
+  verb.add_option("--rough", rough,
+                  "what is rough in the world, with commas: " + roughSwitches() +
+                      ", or all; drawn from the seed (default: nothing)");
 }
 
 void setLight(Scene& scene, const std::string& light) {

@@ -31,6 +31,9 @@ void addLight(CLI::App& verb, std::string& light);
 /// Gives the scene's camera that light.
 void setLight(Scene& scene, const std::string& light);
 
+/// Adds --rough: what is rough in the world; see roughWorldOf().
+void addRough(CLI::App& verb, std::string& rough);
+
 /// What a map is made of: a path, or the name of a scene that comes with Heel; see openMap().
 /// @throws std::runtime_error  if it is a name, and there is no such scene.
 std::filesystem::path mapSource(const std::string& map);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
+#include <cmath>
 #include <memory>
 
 namespace heel {
@@ -209,6 +210,36 @@ TEST_F(Faults, AClockThatIsSetBackMovesAllStampsAndNothingElse) {
   expectTrueImages(read);
   expectTrueRest(read);
   expectTrue(next());
+}
+
+TEST_F(Faults, LateReadingsKeepTheirStampsAndTheirOrder) {
+  Latencies latencies;
+  latencies.camera_s = 0.25;
+  latencies.laser_s = latencies.wheels_s = 0.1;
+  sensors_ = FaultySensors({}, 7, latencies);
+  int pictures = 0, scans = 0;
+  double picture_s = -1.0;
+  for (int i = 0; i < 20; ++i) {
+    const RobotReadings& read = next();
+    if (read.frame != nullptr) {
+      ++pictures;
+      const double age_s = read.stamp_s - read.frame->stamp_s;
+      EXPECT_GE(age_s, 0.125 - 1e-6);
+      EXPECT_LT(age_s, 0.25 + 0.1);
+      EXPECT_GT(read.frame->stamp_s, picture_s);
+      picture_s = read.frame->stamp_s;
+      EXPECT_EQ(read.frame->image_bgr.at<cv::Vec3b>(0, 0)[0], 10 + std::lround(10.0 * picture_s))
+          << "the picture of then";
+    }
+    if (read.scan != nullptr) {
+      ++scans;
+      EXPECT_NEAR(read.stamp_s - *read.scan_stamp_s, 0.1, 1e-6) << "the next step's";
+      ASSERT_TRUE(read.odometry);
+      EXPECT_NEAR(read.odometry->position.x(), *read.odometry_stamp_s, 1e-9);
+    }
+  }
+  EXPECT_GT(pictures, 10);
+  EXPECT_EQ(scans, 19);
 }
 
 TEST_F(Faults, SeveralCanBeAtOnce) {

@@ -25,6 +25,7 @@ class SensorWatchTest : public testing::Test {
   /// A tenth of a second later. What a test has taken away stays away.
   void step(double dt_s = 0.1) {
     readings.stamp_s += dt_s;
+    frame.stamp_s = readings.stamp_s;
     readings.frame = has_frame ? &frame : nullptr;
     readings.scan = has_scan ? &scan : nullptr;
     readings.odometry.reset();
@@ -68,6 +69,26 @@ TEST_F(SensorWatchTest, LetsARobotMoveWhoseSensorsWork) {
   EXPECT_TRUE(watch.imageIsGood());
   EXPECT_TRUE(watch.odometryIsGood());
   EXPECT_FALSE(watch.timeJumped());
+}
+
+TEST_F(SensorWatchTest, TellsHowOldReadingsAreByTheirStamps) {
+  after(5);
+  readings.stamp_s += 0.1;
+  readings.frame = &frame;
+  readings.scan = &scan;
+  readings.odometry = odometry;
+  frame.stamp_s = readings.stamp_s - 0.2;
+  readings.scan_stamp_s = readings.stamp_s - 0.05;
+  readings.odometry_stamp_s = readings.stamp_s - 0.02;
+  watch.step(readings);
+  EXPECT_NEAR(watch.imageAge_s(), 0.2, 1e-9);
+  EXPECT_NEAR(watch.scanAge_s(), 0.05, 1e-9);
+  EXPECT_NEAR(watch.odometryAge_s(), 0.02, 1e-9);
+  EXPECT_NEAR(watch.increment_s(), 0.08, 1e-9);
+  readings.scan_stamp_s = readings.stamp_s + 50.0;  // of another clock
+  readings.stamp_s += 0.1;
+  watch.step(readings);
+  EXPECT_EQ(watch.scanAge_s(), 0.0);
 }
 
 TEST_F(SensorWatchTest, BearsEachSensorsSilenceForItsTime) {

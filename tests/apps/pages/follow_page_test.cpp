@@ -186,7 +186,7 @@ TEST(FollowExperimentPage, IsWellFormedAndListsEveryFailure) {
   EXPECT_THAT(page, HasSubstr("Failures: 2"));
   EXPECT_THAT(page, HasSubstr("heel follow home-43 --seed 43"));
   experiment.episodes[0].name = experiment.episodes[0].cause = kHostile;
-  experiment.episodes[0].summary.contacts = 2;
+  experiment.episodes[0].summary.contacts = experiment.episodes[0].summary.contacts_by_robot = 2;
   experiment.plans[0] = experiment.title = kHostile;
   page = followExperimentPage(experiment);
   EXPECT_THAT(page, Not(HasSubstr("<script>")));
@@ -197,13 +197,13 @@ TEST(FollowExperimentPage, IsWellFormedAndListsEveryFailure) {
 
 TEST(CountEpisodes, SumsThoseOfOnePlan) {
   heel::FollowExperiment experiment = heel::test::followExperiment();
-  experiment.episodes[1].summary.contacts = 2;
+  experiment.episodes[1].summary.contacts = experiment.episodes[1].summary.contacts_by_robot = 2;
   experiment.episodes[1].summary.wrong_person_s = 3.0;
   const auto counts = heel::countEpisodes(experiment.episodes, "look-around");
   EXPECT_EQ(counts.episodes, 100);
   EXPECT_EQ(counts.reached, 99);
   EXPECT_EQ(counts.with_contact, 1);
-  EXPECT_EQ(counts.contacts, 2);
+  EXPECT_EQ(counts.contacts_by_robot, 2);
   EXPECT_DOUBLE_EQ(counts.wrong_person_s, 3.0);
   EXPECT_TRUE(heel::isFailure(experiment.episodes[1]));
   EXPECT_EQ(heel::countEpisodes(experiment.episodes, "none").episodes, 0);

@@ -68,8 +68,12 @@ TEST(FollowSummary, AContactLastsUntilItEnds) {
   log.samples[3].clearance_m = 0.2;
   const FollowSummary sum = summarize(log);
   EXPECT_EQ(sum.contacts, 2);
+  EXPECT_EQ(sum.contactsByPeople(), 2);
   EXPECT_EQ(sum.min_clearance_m, 0.0);
-  for (FollowSample& sample : log.samples) sample.contact = false;
+  log.samples[2].contact_by_robot = true;  // It drove on.
+  EXPECT_EQ(summarize(log).contacts_by_robot, 1);
+  EXPECT_EQ(summarize(log).contactsByPeople(), 1);
+  for (FollowSample& sample : log.samples) sample.contact = sample.contact_by_robot = false;
   EXPECT_EQ(summarize(log).contacts, 0);
   EXPECT_EQ(summarize(log).min_clearance_m, 0.2);
 }
@@ -175,8 +179,9 @@ TEST(FollowFiles, HoldTheRunAndAreTheSameOnEveryRun) {
               readText(folder / (std::string("b") + name)));
   }
   const auto json = nlohmann::json::parse(readText(folder / "a/summary.json"));
-  for (const char* key : {"outcome", "distance_m", "elapsed_s", "seek_s", "moving_speed_mps",
-                          "contacts", "wrong_person_s", "min_clearance_m"}) {
+  for (const char* key :
+       {"outcome", "distance_m", "elapsed_s", "seek_s", "moving_speed_mps", "contacts_by_robot",
+        "contacts_by_people", "wrong_person_s", "min_clearance_m"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
   heel::CsvReader csv(folder / "a/follow.csv", {"stamp_s", "x_m", "localized"});

@@ -123,9 +123,20 @@ TEST(Simulator, StopsTheRobotAtAWallAndSaysSo) {
   for (int i = 0; i < 200; ++i) {
     const Readings& readings = simulator.step(0.1, {0.3, 0.0});
     contact = contact || readings.truth.contact;
+    EXPECT_EQ(readings.truth.contact_by_robot, readings.truth.contact) << "walls do not move";
     ASSERT_GT(readings.truth.clearance_m, -0.01);
   }
   EXPECT_TRUE(contact);
+}
+
+TEST(Simulator, ObeysLateWhereTheWheelsAreLate) {
+  SimulatorOptions options{1, 0, false};
+  options.wheels_latency_s = 0.2;
+  Simulator simulator(test::squareRoom(), options);
+  const double at_first = simulator.step(0.1, {0.3, 0.0}).truth.robot.position.x();
+  EXPECT_EQ(at_first, simulator.step(0.0, {0.3, 0.0}).truth.robot.position.x());
+  EXPECT_EQ(simulator.step(0.0).truth.robot_speed.forward_mps, 0.0);
+  EXPECT_GT(simulator.step(0.2, {0.3, 0.0}).truth.robot_speed.forward_mps, 0.0);
 }
 
 TEST(Simulator, RefusesTimeThatRunsBackwards) {

@@ -147,6 +147,36 @@ TEST(Walker, NeverPushesARobotInItsWay) {
   }
 }
 
+TEST(Walker, BumpsIntoARobotThatItDoesNotSeeAndStepsRoundIt) {
+  Scene scene = test::squareRoom();
+  scene.people.push_back(test::standingPerson("eva", -2.2, 0.0));
+  scene.people[0].sees_robot = false;
+  PathStep wait;
+  wait.kind = PathStep::Kind::kWaitForRobot;
+  wait.robot_within_m = 0.1;
+  scene.people[0].path = {wait, walkTo(2.2, 0.0)};
+  Simulator simulator(scene, {1, 0, false});
+  bool touches = false;
+  live(simulator, 12.0, [&](const WorldTruth& truth) {
+    touches = touches || truth.contact;
+    EXPECT_FALSE(truth.contact_by_robot) << "it stands";
+    EXPECT_GT(truth.clearance_m, -0.03);
+  });
+  EXPECT_TRUE(touches);
+  EXPECT_TRUE(simulator.everyoneIsDone());
+}
+
+TEST(Walker, IsTouchedByARobotThatDrivesIntoIt) {
+  Scene scene = test::squareRoom();
+  scene.people.push_back(test::standingPerson("eva", 1.0, 0.0));
+  Simulator simulator(scene, {1, 0, false});
+  bool by_robot = false;
+  for (int i = 0; i < 40; ++i) {
+    by_robot = by_robot || simulator.step(0.1, {0.3, 0.0}).truth.contact_by_robot;
+  }
+  EXPECT_TRUE(by_robot);
+}
+
 TEST(Walker, MakesRoomForARobotThatHoldsItUp) {
   Scene scene = test::squareRoom();
   for (const double y : {-0.45, 0.45}) {

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Switches that make a simulated world less kind to the robot.
+#pragma once
+
+#include <heel/apps/experiment/faults.hpp>
+#include <heel/apps/simulation/scene.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace heel {
+
+/// What is rough; how rough is drawn from the run's seed.
+struct RoughWorld {
+  bool people = false;   ///< People do not see the robot: see ScenePerson::sees_robot.
+  bool latency = false;  ///< Pictures, scans and the wheels are late, with jitter: see Latencies.
+  bool map = false;    ///< In the robot's map furniture is up to 0.1 m off, and a piece is missing.
+  bool laser = false;  ///< The laser sees 220 degrees ahead.
+  bool light = false;  ///< The camera's light is drawn: see CameraParams::drawn_light.
+  bool odometry = false;  ///< Odometry has errors of up to 3 % that stay.
+};
+
+/// The switches' names, as a list for people.
+const std::string& roughSwitches();
+
+/// @param list  Names with commas between them, or "all"; empty: none.
+/// @throws std::invalid_argument  naming the switches, if one is not known.
+RoughWorld roughWorldOf(const std::string& list);
+
+/// The scene with what is rough in the world itself; the map is left as it is.
+Scene roughened(Scene scene, const RoughWorld& rough, std::uint64_t seed);
+
+/// The scene as the robot's map has it.
+Scene asMapped(Scene scene, const RoughWorld& rough, std::uint64_t seed);
+
+/// How late things are: pictures up to 0.1 to 0.25 s, scans 0.04 to 0.1 s, the wheels 0.04 to
+/// 0.1 s.
+Latencies latenciesOf(const RoughWorld& rough, std::uint64_t seed);
+
+}  // namespace heel

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// The last gate before the wheels: no more speed than the robot can brake from before it touches
+/// what its sensors saw.
+#pragma once
+
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/laser_scan.hpp>
+#include <heel/planning/trajectory.hpp>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace heel {
+
+struct LastGateParams {
+  DriveLimits limits;        ///< The robot's; it brakes as fast as it accelerates.
+  FloorPose T_base_scanner;  ///< Where the laser scanner is, in the base frame.
+  /// A command acts on the wheels at most so long after it was sent [s].
+  double wheels_latency_s = 0.0;
+  /// Room that is left to what was seen: two standard deviations of a laser's ranges.
+  double margin_m = 0.02;
+  /// What no sensor looks at any more is known for so long: longer than a robot takes to turn
+  /// about, shorter than people stay. A user's choice.
+  double remembers_s = 4.0;
+  /// So many of a picture's points in a cell of 5 cm are a thing; fewer are errors of the stereo.
+  int min_points = 6;
+  Eigen::Vector2d camera_m = Eigen::Vector2d::Zero();  ///< Where the camera is, in the base frame.
+  /// A picture renews what is within this angle of straight ahead.
+  double camera_half_view_rad = 0.0;
+  double camera_nearest_m = 0.45;  ///< A picture renews what is further from the camera than this.
+  double camera_range_m = 2.0;     ///< A picture renews what is nearer to the camera than this.
+};
+
+/// Why a velocity is let through, or not all of it.
+enum class GateReason { kFree, kThing, kUnseen, kBadMotion };
+const char* describe(GateReason reason);
+
+struct GatedVelocity {
+  VelocityCommand velocity;
+  GateReason reason = GateReason::kFree;
+};
+
+/// Takes a velocity and gives one with which the robot stops in time, from raw readings alone:
+/// neither the map nor the tracks nor who is followed. The robot is a disc about its base's origin.
+///
+/// It lets a velocity through if the robot, with it for a control period and then braking, with
+/// each command at once or `wheels_latency_s` late, comes no nearer than `margin_m` to what was
+/// seen (or no nearer than it is), and goes only where a scan of the last `remembers_s` has seen.
+/// Else it scales forward speed and turn alike; else it lets only the turn through; else nothing.
+///
+/// So, if stamps, odometry and latencies are as described: what stands still and was seen before
+/// the robot had to brake for it is not driven into. No component is ever larger than that which
+/// was asked for, nor of the other sign.
+///
+/// All poses are of the base in one frame that does not jump, the odometry's. Nothing is allocated
+/// once as many things have been seen as ever will be.
+class LastGate {
+ public:
+  /// @throws std::invalid_argument  if a parameter is out of its range.
+  explicit LastGate(const LastGateParams& params);
+
+  /// @param base     Where the base was at `stamp_s`, when the scan was measured.
+  /// A scan that is not later than the last is left out.
+  void addScan(const LaserScan& scan, const FloorPose& base, double stamp_s);
+
+  /// What is out of the view of the next picture is known on if two pictures have seen it: one
+  /// alone may be an error of the stereo. All of a picture's points that are in the robot's way, in
+  /// the base frame of `stamp_s` [m].
+  void addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& base, double stamp_s);
+
+  /// Distance from a place to the nearest thing that was seen, as far as things are kept: a planner
+  /// that asks for it plans nothing that the gate holds back. [m]
+  double clearance(const Eigen::Vector2d& place) const;
+
+  /// @param now    Where the base was by the last odometry, and its speed.
+  /// @param age_s  How old that is.
+  /// @param now_s  The time at which the velocity is sent, on the clock of the stamps.
+  GatedVelocity pass(const VelocityCommand& wanted, const DriveState& now, double age_s,
+                     double now_s);
+
+ private:
+  struct Thing {
+    Eigen::Vector2d place;  // in the odometry's frame
+    double seen_s;
+    bool by_laser;
+    bool is_sure;    // by the laser, or in two pictures one after the other
+    double away_m;   // from the robot's middle,
+    double allow_m;  // and how near it may come
+  };
+  struct Look {
+    FloorPose scanner;
+    double stamp_s = 0.0;
+    LaserScan scan;
+  };
+  struct Sent {
+    double stamp_s;
+    VelocityCommand velocity;
+  };
+  struct Cell {
+    std::uint16_t points = 0;
+    bool is_sure = false;
+    Eigen::Vector2f nearest = Eigen::Vector2f::Zero();
+  };
+
+  static bool sees(const Look& look, const Eigen::Vector2d& place);
+  bool isSeen(const Eigen::Vector2d& place, double now_s) const;
+  void keep(const Thing& thing);
+  void approach(const Eigen::Vector2d& robot, double now_s);
+  Sent sentAt(double time_s) const;
+  DriveState fastest(const DriveState& now, double at_s);
+  GateReason judge(const VelocityCommand& velocity, const DriveState& then, double then_s,
+                   double now_s, double latency_s) const;
+  GateReason judge(const VelocityCommand& velocity, const DriveState& then, double then_s,
+                   double now_s) const;
+  bool isFreeBetween(const FloorPose& from, const FloorPose& to) const;
+  bool isSeenAhead(const DriveState& state, const Eigen::Vector2d& start, double now_s) const;
+
+  LastGateParams params_;
+  double reach_m_;  // what is further away can't be touched before the robot stands
+  std::vector<Thing> things_;
+  std::vector<Thing*> near_;
+  std::array<Look, 20> looks_;  // a ring; looks_[newest_] is the last
+  std::size_t newest_ = 0;
+  std::array<Sent, 32> sent_;  // a ring
+  std::size_t sent_newest_ = 0;
+  std::vector<Cell> cells_;
+  double points_s_;
+  DriveState believed_;  // the speed that the commands should have come to,
+  double believed_s_;    // and when
+};
+
+}  // namespace heel

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tests/support/allocation_count.hpp"
+#include "tests/support/gate_trial.hpp"
+#include <heel/planning/last_gate.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+namespace heel {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kPi = 3.14159265358979;
+
+LastGateParams usual() {
+  LastGateParams params;
+  params.T_base_scanner.position = {0.1, 0.0};
+  params.camera_m = {0.05, 0.0};
+  params.camera_half_view_rad = 0.5;
+  return params;
+}
+
+/// A scan that sees a wall across the robot's way, and nothing else.
+LaserScan wallAhead(double at_m, double view_rad = 2.0 * kPi) {
+  LaserScan scan;
+  scan.first_rad = -0.5 * view_rad;
+  scan.step_rad = view_rad / 360.0;
+  for (int i = 0; i < 360; ++i) {
+    const double cosine = std::cos(scan.angle(static_cast<std::size_t>(i)));
+    const double range_m = cosine > 0.2 ? (at_m - 0.1) / cosine : kInfinite;
+    scan.ranges_m.push_back(static_cast<float>(range_m));
+  }
+  return scan;
+}
+
+/// A robot that stands at the origin and has seen this wall just now.
+struct Gate {
+  explicit Gate(double wall_m, double view_rad = 2.0 * kPi) : gate(usual()) {
+    gate.addScan(wallAhead(wall_m, view_rad), {}, 10.0);
+  }
+  GatedVelocity pass(double forward_mps, double turn_radps, const DriveState& now = {}) {
+    return gate.pass({forward_mps, turn_radps}, now, 0.0, 10.0);
+  }
+  LastGate gate;
+};
+
+TEST(LastGate, LetsThroughWhatIsFree) {
+  const GatedVelocity out = Gate(3.0).pass(0.3, 0.2);
+  EXPECT_EQ(out.velocity.forward_mps, 0.3);
+  EXPECT_EQ(out.velocity.turn_radps, 0.2);
+  EXPECT_EQ(out.reason, GateReason::kFree);
+}
+
+TEST(LastGate, SlowsOnTheSameArcBeforeAWall) {
+  const GatedVelocity out = Gate(0.38).pass(0.3, 0.2, {{}, {0.25, 0.15}});
+  EXPECT_EQ(out.reason, GateReason::kThing);
+  EXPECT_GT(out.velocity.forward_mps, 0.0);
+  EXPECT_LT(out.velocity.forward_mps, 0.3);
+  EXPECT_NEAR(out.velocity.turn_radps / out.velocity.forward_mps, 0.2 / 0.3, 1e-9);
+}
+
+TEST(LastGate, TurnsWhereItCanNotGoOn) {
+  const GatedVelocity out = Gate(0.27).pass(0.3, 0.5);
+  EXPECT_EQ(out.velocity.forward_mps, 0.0);
+  EXPECT_EQ(out.velocity.turn_radps, 0.5);
+  EXPECT_EQ(out.reason, GateReason::kThing);
+}
+
+TEST(LastGate, DrivesAwayFromWhatItTouches) {
+  EXPECT_EQ(Gate(0.2).pass(-0.15, 0.0).velocity.forward_mps, -0.15);
+  EXPECT_EQ(Gate(0.2).pass(0.1, 0.0).velocity.forward_mps, 0.0);
+}
+
+TEST(LastGate, DrivesAlongAWall) {
+  LaserScan scan = wallAhead(9.0);  // and one to the left, with an inch to spare
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const double sine = std::sin(scan.angle(i));
+    if (sine > 0.1) scan.ranges_m[i] = static_cast<float>(0.285 / sine);
+  }
+  LastGate gate(usual());
+  gate.addScan(scan, {}, 10.0);
+  const DriveState now{{}, {0.3, 0.0}};
+  EXPECT_EQ(gate.pass({0.3, 0.0}, now, 0.0, 10.0).velocity.forward_mps, 0.3);
+  const DriveState turning{{}, {0.3, 0.6}};
+  EXPECT_LT(gate.pass({0.3, 0.6}, turning, 0.0, 10.0).velocity.forward_mps, 0.3);
+}
+
+TEST(LastGate, BacksUpOnlyWhereItHasLooked) {
+  const double ahead_rad = 220.0 / 180.0 * kPi;
+  EXPECT_EQ(Gate(3.0, ahead_rad).pass(0.3, 0.0).reason, GateReason::kFree);
+  const GatedVelocity back = Gate(3.0, ahead_rad).pass(-0.15, 0.0);
+  EXPECT_EQ(back.velocity.forward_mps, 0.0);
+  EXPECT_EQ(back.reason, GateReason::kUnseen);
+  // Where it stands now it has looked before.
+  LastGate gate(usual());
+  gate.addScan(wallAhead(3.0, ahead_rad), {}, 10.0);
+  const FloorPose there{{1.0, 0.0}, 0.0};
+  gate.addScan(wallAhead(2.0, ahead_rad), there, 13.0);
+  EXPECT_EQ(gate.pass({-0.15, 0.0}, {there, {}}, 0.0, 13.0).velocity.forward_mps, -0.15);
+  EXPECT_EQ(gate.pass({-0.15, 0.0}, {there, {}}, 0.0, 15.0).velocity.forward_mps, 0.0)
+      << "that was long ago";
+}
+
+TEST(LastGate, KnowsNothingWithoutAScan) {
+  LastGate gate(usual());
+  EXPECT_EQ(gate.pass({0.1, 0.0}, {}, 0.0, 1.0).velocity.forward_mps, 0.0);
+  EXPECT_EQ(gate.pass({0.1, 0.3}, {}, 0.0, 1.0).velocity.turn_radps, 0.3) << "a disc may turn";
+}
+
+TEST(LastGate, KnowsATableThatLeftThePicture) {
+  Gate at(9.0);
+  std::vector<Eigen::Vector3f> table(20, Eigen::Vector3f(0.6F, 0.0F, 0.7F));
+  table.push_back({1.1F, 0.1F, 0.7F});  // an error of the stereo
+  at.gate.addPoints(table, {}, 9.9);
+  at.gate.addPoints(table, {}, 10.0);
+  const DriveState near{{{0.25, 0.0}, 0.0}, {0.3, 0.0}};
+  EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.0).reason, GateReason::kThing);
+  at.gate.addPoints({}, near.pose, 10.1);  // It is too near to be seen now.
+  EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.1).reason, GateReason::kThing);
+  at.gate.addPoints({}, {}, 10.2);  // From there it would be seen.
+  EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.2).reason, GateReason::kFree);
+  at.gate.addPoints(table, {}, 10.3);
+  EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.3).reason, GateReason::kThing);
+  at.gate.addPoints({}, near.pose, 10.4);  // One picture alone may be wrong.
+  EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.4).reason, GateReason::kFree);
+}
+
+TEST(LastGate, StopsOnWhatIsNotANumber) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const GatedVelocity& out : {Gate(3.0).pass(nan, 0.0), Gate(3.0).pass(0.1, kInfinite),
+                                   Gate(3.0).pass(0.1, 0.1, {{{nan, 0.0}, 0.0}, {}})}) {
+    EXPECT_EQ(out.velocity.forward_mps, 0.0);
+    EXPECT_EQ(out.velocity.turn_radps, 0.0);
+    EXPECT_EQ(out.reason, GateReason::kBadMotion);
+  }
+}
+
+TEST(LastGate, RefusesBadParameters) {
+  for (double LastGateParams::*field : {&LastGateParams::wheels_latency_s,
+                                        &LastGateParams::margin_m, &LastGateParams::remembers_s}) {
+    LastGateParams params = usual();
+    params.*field = -0.1;
+    EXPECT_THROW(LastGate{params}, std::invalid_argument);
+  }
+}
+
+TEST(LastGate, AllocatesNothingOnceWarm) {
+  LastGate gate(usual());
+  const LaserScan scan = wallAhead(0.6);
+  const std::vector<Eigen::Vector3f> points(50, Eigen::Vector3f(0.6F, 0.0F, 0.7F));
+  long warm = 0;
+  for (int i = 0; i < 200; ++i) {
+    if (i == 100) warm = test::allocations();
+    const double now_s = 0.1 * i;
+    gate.addScan(scan, {}, now_s);
+    gate.addPoints(points, {}, now_s);
+    gate.pass({0.3, 0.1}, {}, 0.0, now_s);
+  }
+  EXPECT_EQ(test::allocations(), warm);
+}
+
+// The gate's promise, in drawn situations.
+TEST(LastGate, NeverDrivesIntoWhatStoodInView) {
+  int situations = 0, held_back = 0;
+  double way_m = 0.0;
+  for (std::uint64_t seed = 1; situations < 50'000; ++seed) {
+    const test::GateTrial trial = test::runGateTrial(seed);
+    ASSERT_LT(trial.deepest_m, test::kGateTouches_m) << "seed " << seed;
+    ASSERT_FALSE(trial.adds_speed) << "seed " << seed;
+    situations += trial.situations;
+    held_back += trial.held_back;
+    way_m += trial.way_m;
+  }
+  EXPECT_GT(held_back, situations / 10) << "posts were in the way";
+  EXPECT_GT(way_m, 0.005 * situations) << "and it drove all the same";
+}
+
+}  // namespace
+}  // namespace heel

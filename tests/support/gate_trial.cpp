@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tests/support/gate_trial.hpp"
+
+#include <heel/planning/last_gate.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace heel::test {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kPeriods = 20;
+constexpr int kTicks = 20;  // a period
+constexpr double kTick_s = 0.005;
+constexpr std::size_t kBeams = 360;
+
+struct Post {
+  Vector2d at;
+  double radius_m;
+  double nearest_m;  // from its rim to the robot's; where that is less than 0, the most so far
+  bool is_seen = false;
+};
+
+/// A robot among posts, all of it drawn. Keeps its memory from trial to trial.
+struct World {
+  void draw(std::mt19937_64& random);
+  double between(double low, double high) { return low + (high - low) * share(); }
+  double share() { return std::uniform_real_distribution<double>(0.0, 1.0)(*random_); }
+  void scan(const FloorPose& base, LaserScan& out);
+  double touch(Post& post, const DriveState& robot) const;
+
+  LastGateParams params;
+  int scan_ticks = 0, odometry_ticks = 0, wheel_ticks = 0;  // how late they are
+  bool looks_round = true;
+  std::vector<Post> posts;
+  std::mt19937_64* random_ = nullptr;
+};
+
+void World::draw(std::mt19937_64& random) {
+  random_ = &random;
+  DriveLimits& limits = params.limits;
+  limits.radius_m = between(0.15, 0.35);
+  limits.max_speed_mps = between(0.2, 1.0);
+  limits.max_reverse_mps = limits.max_speed_mps;
+  limits.max_acceleration_mps2 = between(0.3, 1.5);
+  params.T_base_scanner.position = {0.1, 0.0};
+  const bool is_late = share() < 0.7;
+  scan_ticks = is_late ? static_cast<int>(between(0.0, kTicks)) : 0;
+  odometry_ticks = is_late ? static_cast<int>(between(0.0, kTicks)) : 0;
+  wheel_ticks = is_late ? static_cast<int>(between(0.0, 1.5 * kTicks)) : 0;
+  params.wheels_latency_s = wheel_ticks * kTick_s;
+  looks_round = share() < 0.7;
+  posts.clear();
+  const int count = 1 + static_cast<int>(between(0.0, 12.0));
+  for (int i = 0; i < count; ++i) {
+    Post post;
+    post.radius_m = between(0.02, 0.15);
+    const double away_m = between(0.3, 1.6), angle = between(-M_PI, M_PI);
+    post.at = away_m * Vector2d(std::cos(angle), std::sin(angle));
+    post.nearest_m = away_m - post.radius_m - limits.radius_m;
+    if (post.nearest_m > -0.03) posts.push_back(post);
+  }
+}
+
+void World::scan(const FloorPose& base, LaserScan& out) {
+  const FloorPose scanner = base * params.T_base_scanner;
+  const double view_rad = looks_round ? 2.0 * M_PI : 220.0 / 180.0 * M_PI;
+  out.first_rad = -0.5 * view_rad;
+  out.step_rad = view_rad / kBeams;
+  out.ranges_m.resize(kBeams);
+  for (std::size_t i = 0; i < kBeams; ++i) {
+    const double angle = scanner.yaw_rad + out.angle(i);
+    const Vector2d way(std::cos(angle), std::sin(angle));
+    Post* hit = nullptr;
+    double range_m = std::numeric_limits<double>::infinity();
+    for (Post& post : posts) {
+      const Vector2d to = post.at - scanner.position;
+      const double along = to.dot(way), aside2 = to.squaredNorm() - along * along;
+      const double depth2 = post.radius_m * post.radius_m - aside2;
+      if (along <= 0.0 || depth2 <= 0.0 || along - std::sqrt(depth2) >= range_m) continue;
+      range_m = along - std::sqrt(depth2);
+      hit = &post;
+    }
+    if (hit != nullptr) hit->is_seen = true;
+    out.ranges_m[i] = static_cast<float>(range_m);
+  }
+}
+
+// How much deeper in the post the robot is than it ever was since it touched it.
+double World::touch(Post& post, const DriveState& robot) const {
+  if (!post.is_seen) return 0.0;
+  const double away_m = (post.at - robot.pose.position).norm();
+  const double gap_m = std::min(away_m - post.radius_m - params.limits.radius_m, 0.0);
+  post.nearest_m = std::max(std::min(post.nearest_m, 0.0), gap_m);
+  return post.nearest_m - gap_m;
+}
+
+bool adds(double given, double asked) {
+  return std::abs(given) > std::abs(asked) || given * asked < 0.0;
+}
+
+}  // namespace
+
+GateTrial runGateTrial(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  static thread_local World world;
+  static thread_local LaserScan scan;
+  world.draw(random);
+  const DriveLimits& limits = world.params.limits;
+  LastGate gate(world.params);
+  GateTrial trial;
+  VelocityCommand wanted;
+  std::array<VelocityCommand, kPeriods> sent;
+  DriveState state;
+  std::array<DriveState, kTicks> past;  // at the beginning of each tick of the last period
+  past.fill(state);
+  const auto before = [&](int ticks) {
+    return ticks == 0 ? state : past[static_cast<std::size_t>(kTicks - ticks)];
+  };
+  for (int period = 0; period < kPeriods; ++period) {
+    const double now_s = period * limits.period_s;
+    if (period > 0) {
+      const FloorPose base = before(world.scan_ticks).pose;
+      world.scan(base, scan);
+      gate.addScan(scan, base, now_s - world.scan_ticks * kTick_s);
+    }
+    if (period % 5 == 0 || world.share() < 0.2) {
+      wanted = {world.between(-1.3, 1.3) * limits.max_speed_mps, world.between(-1.2, 1.2)};
+      if (world.share() < 0.3) wanted.turn_radps = 0.0;
+    }
+    const int ticks = world.odometry_ticks;
+    const GatedVelocity out = gate.pass(wanted, before(ticks), ticks * kTick_s, now_s);
+    sent[static_cast<std::size_t>(period)] = out.velocity;
+    trial.adds_speed = trial.adds_speed || adds(out.velocity.forward_mps, wanted.forward_mps) ||
+                       adds(out.velocity.turn_radps, wanted.turn_radps);
+    ++trial.situations;
+    trial.held_back += out.reason != GateReason::kFree ? 1 : 0;
+    for (int tick = 0; tick < kTicks; ++tick) {
+      const int sent_tick = period * kTicks + tick - world.wheel_ticks;
+      const VelocityCommand obeyed =
+          sent_tick < 0 ? VelocityCommand{} : sent[static_cast<std::size_t>(sent_tick / kTicks)];
+      past[static_cast<std::size_t>(tick)] = state;
+      state = driven(limits, state, obeyed, kTick_s);
+      trial.way_m += std::abs(state.speed.forward_mps) * kTick_s;
+      for (Post& post : world.posts)
+        trial.deepest_m = std::max(trial.deepest_m, world.touch(post, state));
+    }
+  }
+  return trial;
+}
+
+}  // namespace heel::test
