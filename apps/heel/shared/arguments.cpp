@@ -94,13 +94,17 @@ void addOdometryTopic(CLI::App& verb, BagTopics& topics) {
   add(verb, "--odometry-topic", topics.odometry, "odometry");
 }
 
+void addScanTopic(CLI::App& verb, BagTopics& topics) {
+  add(verb, "--scan-topic", topics.scan, "laser scans");
+}
+
 void addPoseTopics(CLI::App& verb, BagTopics& topics) {
   addOdometryTopic(verb, topics);
   add(verb, "--truth-topic", topics.truth, "odometry that tells the truth");
 }
 
 void addLaserTopics(CLI::App& verb, BagTopics& topics) {
-  add(verb, "--scan-topic", topics.scan, "laser scans");
+  addScanTopic(verb, topics);
   addPoseTopics(verb, topics);
   addBaseFrame(verb, topics);
 }
