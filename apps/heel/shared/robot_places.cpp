@@ -61,8 +61,34 @@ LogMap openLogMap(const LogMapOptions& options) {
   return map;
 }
 
-RobotPlaces::RobotPlaces(const Recording& recording, const CameraSetup& setup)
-    : T_base_camera_(setup.T_base_camera) {
+LogLaser openLogLaser(const std::filesystem::path& path, const BagTopics& topics,
+                      const LogMap& map) {
+  LogLaser laser;
+  laser.scans = openLaserLog(path, topics);
+  laser.T_base_scanner =
+      map.scanner ? *map.scanner : laser.scans->T_base_scanner().value_or(map.scene_scanner);
+  laser.height_m = laser.scans->scannerHeight_m().value_or(map.scanner_height_m);
+  return laser;
+}
+
+std::optional<RobotMotion> motionInMap(const std::filesystem::path& path,
+                                       const RecordingParams& opening) {
+  RecordingParams in_map = opening;
+  in_map.topics.world_frame = kMapFrame;
+  auto motion = openRecording(path, in_map)->readMotion();
+  if (motion && motion->frame_id != kMapFrame) motion.reset();
+  return motion;
+}
+
+std::optional<FloorPose> startOnMap(const LogMap& map, const std::optional<RobotMotion>& in_map,
+                                    const LaserReading& first, const CameraSetup& setup) {
+  if (map.start) return map.start;
+  const auto pose = in_map ? in_map->poses.at(first.stamp_s) : std::nullopt;
+  if (!pose) return first.reference;
+  return onFloor(in_map->of_camera ? *pose * setup.T_base_camera.inverse() : *pose);
+}
+
+RobotPlaces::RobotPlaces(const Recording& recording, const CameraSetup& setup) : setup_(setup) {
   auto motion = recording.readMotion();
   if (!motion) return;
   motion_ = std::move(*motion);
@@ -80,13 +106,12 @@ RobotPlaces::RobotPlaces(const Recording& recording, const CameraSetup& setup)
 
 void RobotPlaces::putOnMap(const std::filesystem::path& path, const RecordingParams& opening,
                            const LogMap& map) {
-  RecordingParams on_map = opening;
-  on_map.topics.world_frame = kMapFrame;
-  in_map_ = openRecording(path, on_map)->readMotion();
-  if (in_map_ && in_map_->frame_id != kMapFrame) in_map_.reset();
+  in_map_ = motionInMap(path, opening);
   on_map_ = true;
+  map_ = map;
+  LogLaser laser;
   try {
-    scans_ = openLaserLog(path, opening.topics);
+    laser = openLogLaser(path, opening.topics, map);
   } catch (const std::runtime_error& error) {
     if (!in_map_) {
       throw std::runtime_error(std::string(error.what()) +
@@ -98,13 +123,12 @@ void RobotPlaces::putOnMap(const std::filesystem::path& path, const RecordingPar
     T_world_motion_ = Eigen::Isometry3d::Identity();
     return;
   }
-  const FloorPose scanner =
-      map.scanner ? *map.scanner : scans_->T_base_scanner().value_or(map.scene_scanner);
-  const double height_m = scans_->scannerHeight_m().value_or(map.scanner_height_m);
-  const HeightBand plane{height_m - map.walls->cell_size_m(), height_m + map.walls->cell_size_m()};
-  localization_ =
-      std::make_unique<Localization>(map.walls->floorGrid(plane), scanner, map.localization);
-  start_ = map.start;
+  scans_ = std::move(laser.scans);
+  // A cell of the map to both sides of the laser's plane.
+  const double cell_m = map.walls->cell_size_m();
+  localization_ = std::make_unique<Localization>(
+      map.walls->floorGrid({laser.height_m - cell_m, laser.height_m + cell_m}),
+      laser.T_base_scanner, map.localization);
   has_scan_ = scans_->next(scan_);
 }
 
@@ -118,7 +142,7 @@ std::optional<FloorPose> RobotPlaces::odometryAt(double stamp_s) {
   const auto pose = motion_.poses.at(stamp_s);
   if (!pose) return std::nullopt;
   const Eigen::Isometry3d T_motion_base =
-      motion_.of_camera ? *pose * T_base_camera_.inverse() : *pose;
+      motion_.of_camera ? *pose * setup_.T_base_camera.inverse() : *pose;
   if (!T_world_motion_) T_world_motion_ = T_motion_base.inverse();
   const Eigen::Isometry3d T = *T_world_motion_ * T_motion_base;
   if (!first_height_m_) first_height_m_ = T.translation().z();
@@ -156,7 +180,8 @@ void RobotPlaces::takeScans(double until_s, const std::vector<Eigen::Vector2d>& 
     if (scan_odometry_) {
       localization_->predict(scan_odometry_->inverse() * *odometry);
     } else {
-      startOnMap(scan_.stamp_s);
+      const auto start = startOnMap(map_, in_map_, scan_, setup_);
+      if (start) localization_->startAt(*start);
     }
     scan_odometry_ = odometry;
     masked_.clear();
@@ -164,16 +189,6 @@ void RobotPlaces::takeScans(double until_s, const std::vector<Eigen::Vector2d>& 
     for (const Eigen::Vector2d& place : people) masked_.push_back({T_base_map * place, radius_m});
     localization_->update(scan_.scan, masked_);
   }
-}
-
-void RobotPlaces::startOnMap(double stamp_s) {
-  if (!start_ && in_map_) {
-    if (const auto pose = in_map_->poses.at(stamp_s)) {
-      start_ = onFloor(in_map_->of_camera ? *pose * T_base_camera_.inverse() : *pose);
-    }
-  }
-  if (!start_) start_ = scan_.reference;
-  if (start_) localization_->startAt(*start_);
 }
 
 std::string RobotPlaces::warning() const {

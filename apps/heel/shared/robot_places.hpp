@@ -49,6 +49,27 @@ struct LogMap {
 /// @throws std::runtime_error  as mapSource() and openMap().
 LogMap openLogMap(const LogMapOptions& options);
 
+/// The laser of a log, and where it is on the robot.
+struct LogLaser {
+  std::unique_ptr<LaserLog> scans;
+  FloorPose T_base_scanner;
+  double height_m = 0.0;
+};
+
+/// @throws std::runtime_error  as openLaserLog().
+LogLaser openLogLaser(const std::filesystem::path& path, const BagTopics& topics,
+                      const LogMap& map);
+
+/// How the robot moved on its map, as the tf of its bag tells; absent if it does not.
+/// @throws std::runtime_error  as openRecording().
+std::optional<RobotMotion> motionInMap(const std::filesystem::path& path,
+                                       const RecordingParams& opening);
+
+/// Where the robot is on its map at a moment: as it is given, as tf tells (`in_map`), or as the
+/// log's reference of that moment does; absent if nothing tells.
+std::optional<FloorPose> startOnMap(const LogMap& map, const std::optional<RobotMotion>& in_map,
+                                    const LaserReading& first, const CameraSetup& setup);
+
 /// The base frame's places in the frame of the results: on a map, the map's; else of a robot that
 /// moves, its odometry's; of one that stands, as far as the recording tells, the base frame itself.
 ///
@@ -91,9 +112,8 @@ class RobotPlaces {
  private:
   std::optional<FloorPose> odometryAt(double stamp_s);
   void takeScans(double until_s, const std::vector<Eigen::Vector2d>& people);
-  void startOnMap(double stamp_s);
 
-  Eigen::Isometry3d T_base_camera_;
+  CameraSetup setup_;
   RobotMotion motion_;
   bool are_known_ = false;
   std::optional<double> leaves_s_;
@@ -106,7 +126,7 @@ class RobotPlaces {
   LaserReading scan_;                // the next one, if there is one
   bool has_scan_ = false;
   std::unique_ptr<Localization> localization_;
-  std::optional<FloorPose> start_;
+  LogMap map_;
   std::optional<RobotMotion> in_map_;       // as tf tells
   std::optional<FloorPose> scan_odometry_;  // of the last scan
   std::vector<FloorDisc> masked_;
