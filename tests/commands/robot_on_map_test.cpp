@@ -218,6 +218,26 @@ robot: {start: [23, 1]}
   EXPECT_GT(summary("out")["frames_skipped"].size(), 70U) << "of 90";
 }
 
+TEST_F(RobotsOnAMap, AreFollowedInTheShadow) {
+  const HeelRun run = heel({"follow", made() / "roam.bag", "--map", made() / "map/walls.bt",
+                            "--model", made() / "rosa.yaml", "--out", folder_ / "out"});
+  ASSERT_TRUE(succeeds(run));
+  EXPECT_THAT(run.out, HasSubstr("would have driven otherwise by"));
+  const nlohmann::json summary = this->summary("out");
+  EXPECT_EQ(summary["outcome"], "end of log");
+  EXPECT_GT(summary["distance_m"], 0.5) << "the robot's own way";
+  EXPECT_LT(summary["position_rms_m"], 0.15);
+  EXPECT_GT(summary["with_target_s"], 2.0);
+  EXPECT_GT(summary["command_off_mps"], 0.0);
+  EXPECT_THAT(readText(folder_ / "out/report.html"),
+              HasSubstr("Speed that Heel would have driven"));
+}
+
+TEST_F(RobotsOnAMap, AreNotFollowedInTheShadowWithoutAMap) {
+  EXPECT_TRUE(failsWith(heel({"follow", made() / "roam.bag", "--out", folder_ / "out"}),
+                        {"roam.bag", "--map"}));
+}
+
 TEST_F(RobotsOnAMap, AreShownOnIt) {
   const HeelRun run = heel({"view", made() / "roam.bag", "--map", made() / "gym.yaml", "--out",
                             folder_ / "view", "--pictures", "2"});

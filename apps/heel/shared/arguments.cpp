@@ -76,7 +76,7 @@ void addCameraTopics(CLI::App& verb, BagTopics& topics) {
   add(verb, "--left-topic", topics.left, "stereo: the left images");
   add(verb, "--right-topic", topics.right, "stereo: the right images");
   add(verb, "--color-topic", topics.color, "RGB-D: the colour images");
-  add(verb, "--depth-topic", topics.depth, "RGB-D: the depth images, registered to colour");
+  add(verb, "--depth-topic", topics.depth, "RGB-D: the depth images");
   add(verb, "--cloud-topic", topics.cloud, "coloured clouds");
   addBaseFrame(verb, topics);
 }
