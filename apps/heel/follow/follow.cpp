@@ -50,6 +50,7 @@ struct FollowOptions {
   RandomEpisodeParams episode;
   bool alone = false;
   bool no_film = false;
+  bool has_limit = false;       // given; else a log ends with its last frame
   std::filesystem::path model;  // of the person in a log
   LogMapOptions map;            // empty: no log
   RecordingParams opening;
@@ -144,7 +145,7 @@ ShadowParams shadowOf(const FollowOptions& options) {
   params.opening = options.opening;
   params.map = openLogMap(options.map);
   if (!options.model.empty()) params.model = loadAppearance(options.model);
-  params.limit_s = options.loop.limit_s;
+  if (options.has_limit) params.limit_s = options.loop.limit_s;
   return params;
 }
 
@@ -171,12 +172,14 @@ void run(FollowOptions& options) {
     inputs.push_back(sceneFile(options.scene));
   }
   FollowOutput output(options.out, !options.no_film, options.bag, inputs);
-  ProgressBar progress("following", static_cast<std::size_t>(options.loop.limit_s));
+  // Of a log, runShadow() tells.
+  ProgressBar progress("following", is_log ? 0 : static_cast<std::size_t>(options.loop.limit_s));
   MemoryWatch memory;
   LapClock clock;
   const LoopObserver observer = [&](const Readings& readings, const FollowStep& step,
                                     const Follower& follower, const FollowSample& sample) {
     output.add(readings, step, follower, sample);
+    if (is_log) return;  // its clock may count from anywhere
     progress.show(static_cast<std::size_t>(readings.stamp_s));
     memory.at(readings.stamp_s);
   };
@@ -227,8 +230,9 @@ void addFollow(CLI::App& app) {
   verb->add_option("--out", options->out, "folder for the results")->capture_default_str();
   verb->add_option("--seed", options->loop.seed, "of all noise; with --random, of the home too")
       ->capture_default_str();
-  verb->add_option("--limit", options->loop.limit_s, "the run ends after so long [s]")
-      ->capture_default_str();
+  CLI::Option* limit = verb->add_option("--limit", options->loop.limit_s,
+                                        "the run ends after so long [s] (a log: at its end)")
+                           ->capture_default_str();
   verb->add_option("--image-size", options->image_size,
                    "of the camera [px], for instance 640x480 (default: the scene's)");
   verb->add_option("--rate", options->rate_hz,
@@ -249,7 +253,10 @@ void addFollow(CLI::App& app) {
   addCameraTopics(*verb, options->opening.topics);
   addOdometryTopic(*verb, options->opening.topics);
   addResultBag(*verb, options->bag);
-  verb->callback([options] { run(*options); });
+  verb->callback([options, limit] {
+    options->has_limit = limit->count() > 0;
+    run(*options);
+  });
 }
 
 }  // namespace heel

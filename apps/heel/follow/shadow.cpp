@@ -3,6 +3,7 @@
 
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/follow/shadow.hpp>
+#include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/run_end.hpp>
 
 #include <algorithm>
@@ -153,6 +154,7 @@ FollowLog runShadow(const ShadowParams& params, const PetriPlan& plan, const Loo
   }
   log.is_shadow = true;
   log.outcome = "end of log";
+  ProgressBar progress("following", static_cast<std::size_t>(info.duration_s));
   DrivenSpeed driven;
   RobotReadings now;
   StereoReading picture;
@@ -181,7 +183,9 @@ FollowLog runShadow(const ShadowParams& params, const PetriPlan& plan, const Loo
       log.outcome = step->outcome == PlanOutcome::kFailed ? "failed" : "done";
       break;
     }
-    if (now.stamp_s >= log.samples.front().stamp_s + params.limit_s) {
+    const double elapsed_s = now.stamp_s - log.samples.front().stamp_s;
+    progress.show(static_cast<std::size_t>(elapsed_s));
+    if (elapsed_s >= params.limit_s) {
       log.outcome = "timeout";
       break;
     }

@@ -10,6 +10,7 @@
 #include <heel/segmentation/appearance_model.hpp>
 
 #include <filesystem>
+#include <limits>
 #include <optional>
 
 namespace heel {
@@ -18,8 +19,8 @@ struct ShadowParams {
   std::filesystem::path recording;  ///< With camera, laser scans and odometry.
   RecordingParams opening;
   LogMap map;
-  std::optional<AppearanceModel> model;  ///< Else the log begins with phase 1.
-  double limit_s = 600.0;                ///< It ends here, whatever comes.
+  std::optional<AppearanceModel> model;                      ///< Else the log begins with phase 1.
+  double limit_s = std::numeric_limits<double>::infinity();  ///< It ends here, whatever comes.
 };
 
 /// Gives the follower a log's readings, at each moment in which camera or laser measured. Its robot
