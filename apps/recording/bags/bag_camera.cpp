@@ -144,6 +144,13 @@ std::optional<BagCamera> findKnown(const BagSurvey& survey) {
         return is_second(t) && nameBefore(t, known.second) == camera;
       };
       const BagTopicSummary* second = best(survey, fits, rankOf);
+      const auto fits_better = [&](const BagTopicSummary& t) {
+        return isDepthImage(t) && isNamedRegistered(t) && t.topic.name.rfind(*camera, 0) == 0;
+      };
+      if (known.sensor == SensorKind::kRgbd && second != nullptr && !isNamedRegistered(*second) &&
+          std::any_of(survey.topics.begin(), survey.topics.end(), fits_better)) {
+        continue;
+      }
       const auto same = [&](const BagTopicSummary& t) {
         return isColorImage(t) && nameBefore(t, known.first) == camera;
       };

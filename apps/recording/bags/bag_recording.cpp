@@ -172,8 +172,10 @@ void BagRecording::setUpDepth(const BagSurvey& survey, const BagCamera& camera) 
     throw std::runtime_error(origin + ": depth is not registered to the colour of " +
                              color.topic.name + ", and has no camera_info to do so");
   }
-  auto T_color_depth = survey.transformBetween(color.frame_id, depth.frame_id);
-  if (same_frame) T_color_depth = Eigen::Isometry3d::Identity();
+  std::optional<Eigen::Isometry3d> T_color_depth;
+  if (!color.frame_id.empty() && !depth.frame_id.empty()) {
+    T_color_depth = survey.transformBetween(color.frame_id, depth.frame_id);
+  }
   if (!T_color_depth) {
     throw std::runtime_error(origin + ": depth is not registered to the colour of " +
                              color.topic.name + ", and tf does not tell where '" + depth.frame_id +
