@@ -159,9 +159,8 @@ void RecordingWriter::addFrame(const Readings& readings) {
     if (seen[i + 1] < 12 || share < 0.05) continue;
     const Eigen::Vector3d place =
         T_ground_world_ * Eigen::Vector3d(in_world.x(), in_world.y(), 0.0);
-    for (const auto& [name, at] :
-         {std::pair("truth.csv", Eigen::Vector2d(place.head<2>())),
-          std::pair("truth_map.csv", Eigen::Vector2d(person.position))}) {
+    for (const auto& [name, at] : {std::pair("truth.csv", Eigen::Vector2d(place.head<2>())),
+                                   std::pair("truth_map.csv", Eigen::Vector2d(person.position))}) {
       writeLine(name, header,
                 format("%.3f,%zu,", readings.stamp_s, frames_) + csvText(person.name) +
                     format(",%.4f,%.4f,%d", at.x(), at.y(), share >= 0.25 ? 1 : 0));
