@@ -43,12 +43,13 @@ void SetupCheck::add(double stamp_s, const cv::Mat& image_bgr, const cv::Mat& ra
   last_stamp_s_ = stamp_s;
   ++sums_.frames;
 
-  int black = 0, white = 0, found = 0;
+  int black = 0, white = 0, colored = 0, found = 0;
   for (int v = 0; v < image_bgr.rows; ++v) {
     const auto* bgr = image_bgr.ptr<cv::Vec3b>(v);
     for (int u = 0; u < image_bgr.cols; ++u) {
       const std::uint8_t brightest = std::max({bgr[u][0], bgr[u][1], bgr[u][2]});
       black += brightest == 0 ? 1 : 0;
+      colored += bgr[u][0] != bgr[u][1] || bgr[u][1] != bgr[u][2] ? 1 : 0;
       white += brightest == 255 ? 1 : 0;
     }
     if (range.empty()) continue;
@@ -58,6 +59,7 @@ void SetupCheck::add(double stamp_s, const cv::Mat& image_bgr, const cv::Mat& ra
   const auto pixels = static_cast<double>(image_bgr.total());
   sums_.black_share += black / pixels;
   sums_.white_share += white / pixels;
+  sums_.color_share += colored / pixels;
   if (!range.empty()) {
     sums_.found_share += found / pixels;
     ++ranges_;
@@ -76,6 +78,7 @@ SetupReport SetupCheck::report() const {
   r.found_share = mean(sums_.found_share, ranges_);
   r.black_share = mean(sums_.black_share, r.frames);
   r.white_share = mean(sums_.white_share, r.frames);
+  r.color_share = mean(sums_.color_share, r.frames);
 
   const std::string of_frames = " of " + std::to_string(r.frames) + " frames";
   const auto warn = [&](const std::string& sentence) { r.warnings.push_back(sentence); };
@@ -100,6 +103,11 @@ SetupReport SetupCheck::report() const {
          std::to_string(static_cast<int>(std::lround(1e3 * params_.max_gap_s))) +
          " ms went by, at most " +
          std::to_string(static_cast<int>(std::lround(1e3 * r.longest_step_s))) + " ms.");
+  }
+  if (r.frames > 0 && r.color_share == 0.0) {
+    warn(
+        "The pictures are grey: whom to follow is told by brightness alone, and who is as bright "
+        "as they are, or a wall that is, is taken for them.");
   }
   if (r.black_share > params_.max_clipped_share) {
     warn(percent(r.black_share) + " of the pixels are quite black: expose longer or add light.");

@@ -30,6 +30,7 @@ struct SetupReport {
   double found_share = 0.0;         ///< Mean share of pixels with a depth or disparity.
   double black_share = 0.0;         ///< Mean share of pixels whose channels are all 0.
   double white_share = 0.0;         ///< Mean share of pixels with a channel at 255.
+  double color_share = 0.0;         ///< Mean share of pixels whose channels differ.
   std::size_t backward_stamps = 0;  ///< Stamps that lie before the previous one.
   std::size_t stalled_stamps = 0;   ///< Stamps that equal the previous one.
   std::size_t gaps = 0;             ///< Steps longer than max_gap_s.

@@ -69,6 +69,8 @@ CameraSetup findCameraSetup(Recording& recording, const CameraSetupParams& param
   if (!first_s) throw std::runtime_error(nothingReadMessage(recording));
   setup.report = check.report();
   setup.warnings = setup.report.warnings;
+  const std::vector<std::string>& read = recording.info().warnings;
+  setup.warnings.insert(setup.warnings.end(), read.begin(), read.end());
   if (!recording.info().lost.empty()) setup.warnings.push_back(recording.info().lost);
   if (setup.report.swapped) {
     throw std::runtime_error(recording.info().name +

@@ -238,12 +238,18 @@ void Follower::learn(const Frame& frame) {
   if (!learner_->hasPerson()) {
     throw NobodyLearned("nobody entered to be learned, or several did together");
   }
-  PerceptionParams params = params_.perception;
-  params.gate = wallGate(walls_, params_.gate);
-  perception_.emplace(robot_.camera, learner_->learn(), params);
   const Vector2d place = step_.robot.pose * learner_->result().last_place_m;
+  follow(learner_->learn());
   perception_->startAt(place);
   last_.position = place;
+}
+
+void Follower::follow(const AppearanceModel& whom) {
+  PerceptionParams params = params_.perception;
+  params.gate = wallGate(walls_, params_.gate);
+  perception_.emplace(robot_.camera, whom, params);
+  last_.position = localization_.estimate().pose.position;  // for want of a better place
+  search_.lose(last_, 0.0);
   learner_.reset();
   step_.is_learning = false;
 }

@@ -72,7 +72,9 @@ void addSimulate(CLI::App& app) {
       "  heel simulate home --out recordings/home --bag home.bag --drive roam\n"
       "Writes what 'heel learn' and 'heel track' read, and truth.csv: where everyone really was.\n"
       "A robot that drives has odometry (odometry.csv; /odom and /tf of the bag), truth.csv is in\n"
-      "the frame of its start, and robot.csv tells where it really was.");
+      "the frame of its start, truth_map.csv in that of the scene's map ('heel map'), and "
+      "robot.csv\n"
+      "tells where it really was.");
   verb->add_option(
           "SCENE", options->scene,
           "a scene's name (wardrobe, pair, home, office, corridor, crowd) or its YAML file")

@@ -21,6 +21,15 @@ std::string timesText(int count) {
 }
 
 std::string lead(const FollowLog& log, const FollowSummary& sum) {
+  if (log.is_shadow) {
+    return "The robot of this log went <strong>" + shownNumber(sum.distance_m, 1, "m") +
+           "</strong> in <strong>" + shownNumber(sum.elapsed_s, 0, "s") +
+           "</strong>. Beside it ran Heel, which moved nothing: at each moment it would have "
+           "driven otherwise by " +
+           shownNumber(sum.command_off_mps, 2, "m/s") + " and " +
+           shownNumber(sum.command_off_radps, 2, "rad/s") +
+           " (root mean squares). Contacts, clearance and the truth of people are not known.";
+  }
   const std::string who = log.person.empty() ? "the person" : escapedHtml(log.person);
   std::string text = "The robot went <strong>" + shownNumber(sum.distance_m, 1, "m") +
                      "</strong> behind " + who + " in <strong>" +
@@ -118,6 +127,8 @@ std::string charts(const FollowLog& log, const TimeScale& scale) {
   clearance.least_top = 0.5;
   clearance.most_top = 2.0;
   clearance.limit_text = "gap between the robot and the nearest thing or person";
+  ChartParams commanded = speed;
+  commanded.title = "Speed that Heel would have driven";
   const std::string lost = lostTimes(log.samples, scale);
   return timeChart(
              log.samples, scale, [](const auto& s) { return s.person_distance_m; }, distance,
@@ -125,6 +136,11 @@ std::string charts(const FollowLog& log, const TimeScale& scale) {
          timeChart(
              log.samples, scale, [](const auto& s) { return std::abs(s.speed_true.forward_mps); },
              speed) +
+         (log.is_shadow
+              ? timeChart(
+                    log.samples, scale,
+                    [](const auto& s) { return std::abs(s.command.forward_mps); }, commanded)
+              : std::string()) +
          timeChart(
              log.samples, scale, [](const auto& s) { return s.clearance_m; }, clearance, lost);
 }

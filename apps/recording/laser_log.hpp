@@ -38,6 +38,9 @@ class LaserLog {
   /// Where the scanner is on the robot, if the log knows.
   virtual std::optional<FloorPose> T_base_scanner() const { return std::nullopt; }
 
+  /// How high its plane is over the base frame's origin, if the log knows.
+  virtual std::optional<double> scannerHeight_m() const { return std::nullopt; }
+
   /// What of a damaged log can't be read, in a sentence; empty: nothing.
   virtual std::string lost() const { return {}; }
 };

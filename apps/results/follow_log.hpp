@@ -70,7 +70,9 @@ inline constexpr const char* kStoppedRun = "stopped";
 struct FollowLog {
   std::string scene;
   unsigned long seed = 0;
-  std::string plan;     ///< Name of the Petri net plan.
+  std::string plan;  ///< Name of the Petri net plan.
+  /// The follower ran on a log: its commands moved nothing, and `speed_true` is what the robot did.
+  bool is_shadow = false;
   std::string command;  ///< The command line that repeats the run; may be empty.
   std::string outcome;  ///< The follower's own word: "reached", "failed", "done", "timeout", ...
   std::string person;   ///< Whom to follow.

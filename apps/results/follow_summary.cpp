@@ -106,7 +106,7 @@ FollowSummary summarize(const FollowLog& log) {
   FollowSummary sum;
   sum.outcome = log.outcome;
   for (const TargetEvent& event : targetEvents(log.samples)) sum.losses += event.is_found ? 0 : 1;
-  MeanSquare position, yaw, person;
+  MeanSquare position, yaw, person, forward, turn;
   double driven_m = 0.0, driven_s = 0.0;
   double candidates = 0.0;
   int pictures = 0;
@@ -129,6 +129,10 @@ FollowSummary summarize(const FollowLog& log) {
     }
     if (s.target_estimate) sum.with_target_s += dt_s;
     if (s.wrong_person) sum.wrong_person_s += dt_s;
+    if (log.is_shadow) {
+      forward.add(s.command.forward_mps - s.speed_true.forward_mps, dt_s);
+      turn.add(s.command.turn_radps - s.speed_true.turn_radps, dt_s);
+    }
     if (s.contact && !was_contact) ++sum.contacts;
     if (!s.contact) was_by_robot = false;
     if (s.contact_by_robot && !was_by_robot) ++sum.contacts_by_robot;
@@ -156,6 +160,8 @@ FollowSummary summarize(const FollowLog& log) {
   sum.position_rms_m = position.root();
   sum.yaw_rms_rad = yaw.root();
   sum.person_error_rms_m = person.root();
+  sum.command_off_mps = forward.root();
+  sum.command_off_radps = turn.root();
   if (pictures > 0) sum.candidate_share = candidates / pictures;
   return sum;
 }
@@ -187,6 +193,10 @@ nlohmann::ordered_json followJson(const FollowLog& log, const FollowSummary& sum
   json["position_rms_m"] = numberOrNull(sum.position_rms_m, 4);
   json["yaw_rms_deg"] = numberOrNull(sum.yaw_rms_rad * 180.0 / M_PI, 3);
   json["person_error_rms_m"] = numberOrNull(sum.person_error_rms_m, 4);
+  if (log.is_shadow) {
+    json["command_off_mps"] = numberOrNull(sum.command_off_mps, 4);
+    json["command_off_radps"] = numberOrNull(sum.command_off_radps, 4);
+  }
   json["candidate_share"] = numberOrNull(sum.candidate_share, 4);
   return json;
 }

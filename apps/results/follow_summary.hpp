@@ -40,6 +40,9 @@ struct FollowSummary {
   double position_rms_m = kNotKnown;   ///< Of the estimated against the true pose.
   double yaw_rms_rad = kNotKnown;
   double person_error_rms_m = kNotKnown;  ///< Of the target's estimate, while it is the person's.
+  /// Of a shadow: root mean squares of what it would have driven against what the robot did.
+  double command_off_mps = kNotKnown;
+  double command_off_radps = kNotKnown;
   double candidate_share = kNotKnown;  ///< Mean over the pictures: pixels of the target's colours.
 
   double seekShare() const { return elapsed_s > 0.0 ? seek_s / elapsed_s : 0.0; }

@@ -17,6 +17,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace heel {
@@ -146,6 +147,7 @@ void RecordingWriter::addFrame(const Readings& readings) {
     ++seen[*it];
   const std::string header = "stamp_s,frame,person,x_m,y_m,exact";
   table("truth.csv", header);
+  table("truth_map.csv", header);
   for (std::size_t i = 0; i < readings.truth.people.size() && i + 1 < seen.size(); ++i) {
     const PersonTruth& person = readings.truth.people[i];
     const Eigen::Vector3d in_world(person.position.x(), person.position.y(), 1.0);
@@ -157,9 +159,12 @@ void RecordingWriter::addFrame(const Readings& readings) {
     if (seen[i + 1] < 12 || share < 0.05) continue;
     const Eigen::Vector3d place =
         T_ground_world_ * Eigen::Vector3d(in_world.x(), in_world.y(), 0.0);
-    writeLine("truth.csv", header,
-              format("%.3f,%zu,", readings.stamp_s, frames_) + csvText(person.name) +
-                  format(",%.4f,%.4f,%d", place.x(), place.y(), share >= 0.25 ? 1 : 0));
+    for (const auto& [name, at] : {std::pair("truth.csv", Eigen::Vector2d(place.head<2>())),
+                                   std::pair("truth_map.csv", Eigen::Vector2d(person.position))}) {
+      writeLine(name, header,
+                format("%.3f,%zu,", readings.stamp_s, frames_) + csvText(person.name) +
+                    format(",%.4f,%.4f,%d", at.x(), at.y(), share >= 0.25 ? 1 : 0));
+    }
   }
 }
 

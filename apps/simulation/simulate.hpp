@@ -44,6 +44,7 @@ struct SimulateResult {
 /// | `camera.yaml` | intrinsics, and `T_ground_camera` at the start |
 /// | `truth.csv` | `stamp_s,frame,person,x_m,y_m,exact`: everyone in view, in the ground frame (the
 ///   robot's base frame at the start); exact = 0 where less than a quarter of them is seen |
+/// | `truth_map.csv` | the same in the scene's frame, which its maps have |
 /// | `people.csv`, `robot.csv` | everyone's and the robot's place in the world, seen or not |
 /// | `scan.csv`, `odometry.csv` | laser ranges and wheel odometry |
 /// | `summary.json` | how much there is, and whether it is complete |

@@ -18,8 +18,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const cv::Mat& greyImage() {
-  static const cv::Mat image(60, 80, CV_8UC3, cv::Scalar::all(120));
+const cv::Mat& plainImage() {
+  static const cv::Mat image(60, 80, CV_8UC3, cv::Scalar(120, 121, 122));
   return image;
 }
 
@@ -32,7 +32,7 @@ cv::Mat depths(double share) {
 
 TEST(SetupCheck, IsContentWithAGoodRecording) {
   SetupCheck check;
-  for (int i = 0; i < 10; ++i) check.add(0.1 * i, greyImage(), depths(0.5));
+  for (int i = 0; i < 10; ++i) check.add(0.1 * i, plainImage(), depths(0.5));
   const SetupReport report = check.report();
   EXPECT_EQ(report.frames, 10U);
   EXPECT_DOUBLE_EQ(report.found_share, 0.5);
@@ -42,8 +42,8 @@ TEST(SetupCheck, IsContentWithAGoodRecording) {
 
 TEST(SetupCheck, SaysThatFewPixelsHaveADepth) {
   SetupCheck check;
-  check.add(0.0, greyImage(), depths(0.1));
-  check.add(0.1, greyImage(), depths(0.2));
+  check.add(0.0, plainImage(), depths(0.1));
+  check.add(0.1, plainImage(), depths(0.2));
   EXPECT_DOUBLE_EQ(check.report().found_share, 0.15);
   EXPECT_THAT(check.report().warnings, ElementsAre(HasSubstr("Only 15 % of the pixels")));
 }
@@ -51,7 +51,7 @@ TEST(SetupCheck, SaysThatFewPixelsHaveADepth) {
 TEST(SetupCheck, SaysThatStampsRunBackwardsOrStall) {
   SetupCheck check;
   for (const double stamp : {0.0, 0.1, 0.05, 0.2, 0.2, 0.3, 2.8}) {
-    check.add(stamp, greyImage(), cv::Mat());
+    check.add(stamp, plainImage(), cv::Mat());
   }
   const SetupReport report = check.report();
   EXPECT_EQ(report.backward_stamps, 1U);
@@ -63,7 +63,7 @@ TEST(SetupCheck, SaysThatStampsRunBackwardsOrStall) {
 }
 
 TEST(SetupCheck, SaysThatTheExposureIsClipped) {
-  cv::Mat dark(60, 80, CV_8UC3, cv::Scalar::all(100));
+  cv::Mat dark(60, 80, CV_8UC3, cv::Scalar(100, 101, 102));
   dark.rowRange(0, 30) = cv::Scalar::all(0);
   SetupCheck black;
   black.add(0.0, dark, cv::Mat());
@@ -71,12 +71,20 @@ TEST(SetupCheck, SaysThatTheExposureIsClipped) {
   EXPECT_THAT(black.report().warnings,
               ElementsAre(HasSubstr("50 % of the pixels are quite black")));
 
-  cv::Mat bright = greyImage().clone();
+  cv::Mat bright = plainImage().clone();
   bright.rowRange(0, 15) = cv::Scalar(200, 255, 255);
   SetupCheck white;
   white.add(0.0, bright, cv::Mat());
   EXPECT_DOUBLE_EQ(white.report().white_share, 0.25);
   EXPECT_THAT(white.report().warnings, ElementsAre(HasSubstr("25 % of the pixels are clipped")));
+}
+
+TEST(SetupCheck, SaysThatThePicturesAreGrey) {
+  SetupCheck check;
+  check.add(0.0, cv::Mat(60, 80, CV_8UC3, cv::Scalar::all(100)), cv::Mat());
+  EXPECT_THAT(check.report().warnings, ElementsAre(HasSubstr("The pictures are grey")));
+  check.add(0.1, plainImage(), cv::Mat());
+  EXPECT_THAT(check.report().warnings, IsEmpty());
 }
 
 TEST(SetupCheck, SaysThatLeftAndRightAreExchanged) {
@@ -93,7 +101,7 @@ TEST(SetupCheck, SaysThatLeftAndRightAreExchanged) {
 
 TEST(SetupCheck, DoesNotCallABlankPairExchanged) {
   StereoMatcher matcher;
-  EXPECT_FALSE(looksSwapped(greyImage(), greyImage(), matcher));
+  EXPECT_FALSE(looksSwapped(plainImage(), plainImage(), matcher));
 }
 
 TEST(SetupCheck, SaysThatThereIsNoFrame) {
@@ -104,8 +112,8 @@ TEST(SetupCheck, RefusesImagesThatDoNotFit) {
   SetupCheck check;
   EXPECT_THROW(check.add(0.0, cv::Mat(), cv::Mat()), std::invalid_argument);
   EXPECT_THROW(check.add(0.0, cv::Mat(60, 80, CV_8UC1), cv::Mat()), std::invalid_argument);
-  EXPECT_THROW(check.add(0.0, greyImage(), cv::Mat(60, 81, CV_32FC1)), std::invalid_argument);
-  EXPECT_THROW(check.add(0.0, greyImage(), cv::Mat(60, 80, CV_16UC1)), std::invalid_argument);
+  EXPECT_THROW(check.add(0.0, plainImage(), cv::Mat(60, 81, CV_32FC1)), std::invalid_argument);
+  EXPECT_THROW(check.add(0.0, plainImage(), cv::Mat(60, 80, CV_16UC1)), std::invalid_argument);
 }
 
 }  // namespace

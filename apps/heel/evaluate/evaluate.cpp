@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -22,6 +23,13 @@ struct EvaluateOptions {
   std::filesystem::path out;
   EvaluationParams params;
 };
+
+/// Of the places that are given while the target is in view, those that are right.
+double shareOfRightPlaces(const TargetMetrics& person) {
+  const int given = person.frames_in_view - person.none;
+  return given > 0 ? static_cast<double>(person.right) / given
+                   : std::numeric_limits<double>::quiet_NaN();
+}
 
 nlohmann::ordered_json toJson(const Evaluation& result) {
   const ClearMot& people = result.people;
@@ -40,6 +48,7 @@ nlohmann::ordered_json toJson(const Evaluation& result) {
            {{"name", result.target},
             {"frames_in_view", person.frames_in_view},
             {"recall", person.recall()},
+            {"right_places_share", shareOfRightPlaces(person)},
             {"wrong_person_share", person.wrongPersonShare()},
             {"wrong_target_s", person.wrong_target_s},
             {"frames_not_in_view", person.frames - person.frames_in_view},
@@ -60,6 +69,8 @@ void print(const Evaluation& result) {
   const TargetMetrics& person = result.person;
   std::printf("the target, %s, in %d frames\n", result.target.c_str(), person.frames_in_view);
   std::printf("  recall                %6.3f\n", person.recall());
+  std::printf("  right places          %6.3f   of those that are given\n",
+              shareOfRightPlaces(person));
   std::printf("  wrong person          %6.3f   for %.1f s in all\n", person.wrongPersonShare(),
               person.wrong_target_s);
   if (person.frames > person.frames_in_view) {

@@ -4,11 +4,13 @@
 #include <heel/apps/experiment/random_episode.hpp>
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/follow/follow_output.hpp>
+#include <heel/apps/heel/follow/shadow.hpp>
 #include <heel/apps/heel/shared/arguments.hpp>
 #include <heel/apps/heel/shared/lap_clock.hpp>
 #include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/run_end.hpp>
 #include <heel/planning/plan_file.hpp>
+#include <heel/segmentation/appearance_model_io.hpp>
 
 #include <CLI/CLI.hpp>
 #include <unistd.h>
@@ -49,6 +51,10 @@ struct FollowOptions {
   RandomEpisodeParams episode;
   bool alone = false;
   bool no_film = false;
+  bool has_limit = false;       // given; else a log ends with its last frame
+  std::filesystem::path model;  // of the person in a log
+  LogMapOptions map;            // empty: no log
+  RecordingParams opening;
 };
 
 Scene sceneOf(const FollowOptions& options) {
@@ -71,6 +77,12 @@ Scene sceneOf(const FollowOptions& options) {
 std::string commandOf(const FollowOptions& options) {
   const FollowOptions shortest;
   std::ostringstream command;
+  if (!options.map.map.empty()) {
+    command << "heel follow " << options.scene << " --map " << options.map.map;
+    if (!options.model.empty()) command << " --model " << options.model.string();
+    command << " --plan " << options.plan;
+    return command.str();
+  }
   command << "heel follow " << (options.random ? "--random" : options.scene);
   if (options.episode.visits != shortest.episode.visits) {
     command << " --visits " << options.episode.visits;
@@ -115,6 +127,12 @@ void print(const FollowSummary& summary, const FollowOutput& output) {
                 summary.seek_s);
   }
   std::printf("\n");
+  if (std::isfinite(summary.command_off_mps)) {
+    std::printf("  would have driven otherwise by %.2f m/s and %.2f rad/s (RMS)\n",
+                summary.command_off_mps, summary.command_off_radps);
+    std::printf("results in %s: %s\n", output.folder().c_str(), output.fileNames().c_str());
+    return;
+  }
   std::printf("  contacts by the robot %d, by people %d, wrong person %.1f s",
               summary.contacts_by_robot, summary.contactsByPeople(), summary.wrong_person_s);
   if (std::isfinite(summary.min_clearance_m)) {
@@ -124,36 +142,58 @@ void print(const FollowSummary& summary, const FollowOutput& output) {
   std::printf("results in %s: %s\n", output.folder().c_str(), output.fileNames().c_str());
 }
 
+ShadowParams shadowOf(const FollowOptions& options) {
+  ShadowParams params;
+  params.recording = options.scene;
+  params.opening = options.opening;
+  params.map = openLogMap(options.map);
+  if (!options.model.empty()) params.model = loadAppearance(options.model);
+  if (options.has_limit) params.limit_s = options.loop.limit_s;
+  return params;
+}
+
 void run(FollowOptions& options) {
   if (!(options.loop.limit_s > 0.0 && std::isfinite(options.loop.limit_s))) {
     throw std::invalid_argument("--limit must be positive");
+  }
+  const bool is_log = !options.map.map.empty();
+  if (!is_log && (isBag(options.scene) || std::filesystem::is_directory(options.scene))) {
+    throw std::invalid_argument(options.scene +
+                                ": to follow on a log, give the robot's map, too "
+                                "(--map)");
   }
   if (options.rate_hz > 0.0) {  // The simulator's clock ticks in hundredths of a second.
     options.loop.period_s = std::max(1.0, std::round(100.0 / options.rate_hz)) / 100.0;
   }
   options.loop.rough = roughWorldOf(options.rough);
-  const Scene scene = sceneOf(options);
+  const Scene scene = is_log ? Scene() : sceneOf(options);
   const std::filesystem::path plan_file = planFile(options.plan);
   const PetriPlan plan = loadPlan(plan_file, followingVocabulary());
   std::vector<std::filesystem::path> inputs = {plan_file};
-  if (!options.random) inputs.push_back(sceneFile(options.scene));
+  if (is_log) {
+    inputs.insert(inputs.end(), {options.scene, options.model, mapSource(options.map.map)});
+  } else if (!options.random) {
+    inputs.push_back(sceneFile(options.scene));
+  }
   FollowOutput output(options.out, !options.no_film, options.bag, inputs);
-  ProgressBar progress("following", static_cast<std::size_t>(options.loop.limit_s));
+  // Of a log, runShadow() tells.
+  ProgressBar progress("following", is_log ? 0 : static_cast<std::size_t>(options.loop.limit_s));
   MemoryWatch memory;
   LapClock clock;
-  FollowLog log = runClosedLoop(
-      scene, plan, options.loop,
-      [&](const Readings& readings, const FollowStep& step, const Follower& follower,
-          const FollowSample& sample) {
-        output.add(readings, step, follower, sample);
-        progress.show(static_cast<std::size_t>(readings.stamp_s));
-        memory.at(readings.stamp_s);
-      },
-      [&](FollowStage stage) {
-        // The time since the last stage; before the first stage the world moved, not the robot.
-        const double ms = clock.lap_ms();
-        if (stage != FollowStage::kBegin) output.addTime(stage, ms);
-      });
+  const LoopObserver observer = [&](const Readings& readings, const FollowStep& step,
+                                    const Follower& follower, const FollowSample& sample) {
+    output.add(readings, step, follower, sample);
+    if (is_log) return;  // its clock may count from anywhere
+    progress.show(static_cast<std::size_t>(readings.stamp_s));
+    memory.at(readings.stamp_s);
+  };
+  const Follower::StageDone stage_done = [&](FollowStage stage) {
+    // The time since the last stage; before the first stage the world moved, not the robot.
+    const double ms = clock.lap_ms();
+    if (stage != FollowStage::kBegin) output.addTime(stage, ms);
+  };
+  FollowLog log = is_log ? runShadow(shadowOf(options), plan, observer, stage_done)
+                         : runClosedLoop(scene, plan, options.loop, observer, stage_done);
   log.command = commandOf(options);
   const FollowSummary summary = summarize(log);
   output.commit(log, summary);
@@ -172,6 +212,8 @@ void addFollow(CLI::App& app) {
   verb->footer(
       "Example:\n"
       "  heel follow home --out out/home\n"
+      "  heel follow robot.bag --map map.yaml --model person.yaml --out out/shadow\n"
+      "On a log it moves nothing: it writes what it would have done beside what the robot did.\n"
       "Writes report.html (open it in a browser), the film follow.mp4, summary.json, follow.csv\n"
       "(one row a step, with the truth) and timing.csv.\n"
       "--rough people: they do not see the robot, bump into it, and do not wait for it.\n"
@@ -179,7 +221,9 @@ void addFollow(CLI::App& app) {
       "--rough map: furniture is up to 0.1 m off in the robot's map, and a piece is missing.\n"
       "--rough laser: it sees 220 degrees ahead. --rough light: the camera's light is drawn.\n"
       "--rough odometry: the wheels' errors of up to 3 % stay.");
-  verb->add_option("SCENE", options->scene, "a scene's name (home, office, ...) or its YAML file")
+  verb->add_option("SCENE", options->scene,
+                   "a scene's name (home, office, ...) or its YAML file; with --map, a log: a bag "
+                   "or the folder of a recording with camera, laser and odometry")
       ->capture_default_str();
   CLI::Option* random =
       verb->add_flag("--random", options->random,
@@ -195,8 +239,9 @@ void addFollow(CLI::App& app) {
   verb->add_option("--out", options->out, "folder for the results")->capture_default_str();
   verb->add_option("--seed", options->loop.seed, "of all noise; with --random, of the home too")
       ->capture_default_str();
-  verb->add_option("--limit", options->loop.limit_s, "the run ends after so long [s]")
-      ->capture_default_str();
+  CLI::Option* limit = verb->add_option("--limit", options->loop.limit_s,
+                                        "the run ends after so long [s] (a log: at its end)")
+                           ->capture_default_str();
   verb->add_option("--image-size", options->image_size,
                    "of the camera [px], for instance 640x480 (default: the scene's)");
   verb->add_option("--rate", options->rate_hz,
@@ -206,8 +251,23 @@ void addFollow(CLI::App& app) {
   addLight(*verb, options->light);
   addRough(*verb, options->rough);
   verb->add_flag("--no-film", options->no_film, "write no film");
+  CLI::Option* map =
+      verb->add_option("--map", options->map.map, "of a log: a .bt or a map_server YAML")
+          ->excludes(random)
+          ->excludes(verb->get_option("--rough"));
+  verb->add_option("--model", options->model,
+                   "of a log: the person, as 'heel learn' wrote it (default: the log begins with "
+                   "phase 1)")
+      ->needs(map);
+  addLogMap(*verb, options->map, options->opening.topics);
+  addTimeSpan(*verb, options->opening.span);
+  addCameraTopics(*verb, options->opening.topics);
+  addOdometryTopic(*verb, options->opening.topics);
   addResultBag(*verb, options->bag);
-  verb->callback([options] { run(*options); });
+  verb->callback([options, limit] {
+    options->has_limit = limit->count() > 0;
+    run(*options);
+  });
 }
 
 }  // namespace heel

@@ -83,7 +83,7 @@ void addCameraTopics(CLI::App& verb, BagTopics& topics) {
   add(verb, "--left-topic", topics.left, "stereo: the left images");
   add(verb, "--right-topic", topics.right, "stereo: the right images");
   add(verb, "--color-topic", topics.color, "RGB-D: the colour images");
-  add(verb, "--depth-topic", topics.depth, "RGB-D: the depth images, registered to colour");
+  add(verb, "--depth-topic", topics.depth, "RGB-D: the depth images");
   add(verb, "--cloud-topic", topics.cloud, "coloured clouds");
   addBaseFrame(verb, topics);
 }
@@ -101,13 +101,17 @@ void addOdometryTopic(CLI::App& verb, BagTopics& topics) {
   add(verb, "--odometry-topic", topics.odometry, "odometry");
 }
 
+void addScanTopic(CLI::App& verb, BagTopics& topics) {
+  add(verb, "--scan-topic", topics.scan, "laser scans");
+}
+
 void addPoseTopics(CLI::App& verb, BagTopics& topics) {
   addOdometryTopic(verb, topics);
   add(verb, "--truth-topic", topics.truth, "odometry that tells the truth");
 }
 
 void addLaserTopics(CLI::App& verb, BagTopics& topics) {
-  add(verb, "--scan-topic", topics.scan, "laser scans");
+  addScanTopic(verb, topics);
   addPoseTopics(verb, topics);
   addBaseFrame(verb, topics);
 }

@@ -51,6 +51,9 @@ void addCameraTopics(CLI::App& verb, BagTopics& topics);
 /// The part of a recording that is read.
 void addTimeSpan(CLI::App& verb, TimeSpan& span);
 
+/// The topic of laser scans.
+void addScanTopic(CLI::App& verb, BagTopics& topics);
+
 /// The topic of odometry.
 void addOdometryTopic(CLI::App& verb, BagTopics& topics);
 

@@ -1,9 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/follower/wall_gate.hpp>
+#include <heel/apps/follower/follower_params.hpp>
+#include <heel/apps/heel/shared/arguments.hpp>
+#include <heel/apps/heel/shared/map_source.hpp>
 #include <heel/apps/heel/shared/robot_places.hpp>
 #include <heel/segmentation/plan_view.hpp>
+
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +15,80 @@
 #include <utility>
 
 namespace heel {
+namespace {
 
-RobotPlaces::RobotPlaces(const Recording& recording, const CameraSetup& setup)
-    : T_base_camera_(setup.T_base_camera) {
+constexpr const char* kMapFrame = "map";  // of REP-105
+
+FloorPose onFloor(const Eigen::Isometry3d& T) {
+  return {T.translation().head<2>(), std::atan2(T(1, 0), T(0, 0))};
+}
+
+FloorPose floorPoseOf(const std::vector<double>& x_y_yaw) {
+  return {{x_y_yaw[0], x_y_yaw[1]}, x_y_yaw[2]};
+}
+
+}  // namespace
+
+void addLogMap(CLI::App& verb, LogMapOptions& options, BagTopics& topics) {
+  verb.add_option(
+          "--robot-start", options.start,
+          "where the robot is on the map at first [m, m, rad] (default: as tf's frame 'map' "
+          "or the truth tells, else it is looked for everywhere)")
+      ->delimiter(',')
+      ->expected(3)
+      ->option_text("X,Y,YAW");
+  verb.add_option("--scanner", options.scanner,
+                  "the laser's place on the robot [m, m, rad] (default: the bag's, by tf, or the "
+                  "scene's, or 0,0,0)")
+      ->delimiter(',')
+      ->expected(3)
+      ->option_text("X,Y,YAW");
+  addScanTopic(verb, topics);
+}
+
+LogMap openLogMap(const LogMapOptions& options) {
+  const std::filesystem::path file = mapSource(options.map);
+  SourcedMap sourced = openMap(file);
+  LogMap map;
+  if (sourced.source == "scene") {
+    const Eigen::Vector3d at = loadScene(file.string()).robot.laser.at;
+    map.scene_scanner.position = at.head<2>();
+    map.scanner_height_m = at.z();
+  }
+  map.walls = std::make_shared<const WallMap>(std::move(sourced.map));
+  if (!options.start.empty()) map.start = floorPoseOf(options.start);
+  if (!options.scanner.empty()) map.scanner = floorPoseOf(options.scanner);
+  return map;
+}
+
+LogLaser openLogLaser(const std::filesystem::path& path, const BagTopics& topics,
+                      const LogMap& map) {
+  LogLaser laser;
+  laser.scans = openLaserLog(path, topics);
+  laser.T_base_scanner =
+      map.scanner ? *map.scanner : laser.scans->T_base_scanner().value_or(map.scene_scanner);
+  laser.height_m = laser.scans->scannerHeight_m().value_or(map.scanner_height_m);
+  return laser;
+}
+
+std::optional<RobotMotion> motionInMap(const std::filesystem::path& path,
+                                       const RecordingParams& opening) {
+  RecordingParams in_map = opening;
+  in_map.topics.world_frame = kMapFrame;
+  auto motion = openRecording(path, in_map)->readMotion();
+  if (motion && motion->frame_id != kMapFrame) motion.reset();
+  return motion;
+}
+
+std::optional<FloorPose> startOnMap(const LogMap& map, const std::optional<RobotMotion>& in_map,
+                                    const LaserReading& first, const CameraSetup& setup) {
+  if (map.start) return map.start;
+  const auto pose = in_map ? in_map->poses.at(first.stamp_s) : std::nullopt;
+  if (!pose) return first.reference;
+  return onFloor(in_map->of_camera ? *pose * setup.T_base_camera.inverse() : *pose);
+}
+
+RobotPlaces::RobotPlaces(const Recording& recording, const CameraSetup& setup) : setup_(setup) {
   auto motion = recording.readMotion();
   if (!motion) return;
   motion_ = std::move(*motion);
@@ -29,18 +104,91 @@ RobotPlaces::RobotPlaces(const Recording& recording, const CameraSetup& setup)
   }
 }
 
-std::optional<FloorPose> RobotPlaces::at(double stamp_s) {
-  if (!leaves_s_) return FloorPose();
+void RobotPlaces::putOnMap(const std::filesystem::path& path, const RecordingParams& opening,
+                           const LogMap& map) {
+  in_map_ = motionInMap(path, opening);
+  on_map_ = true;
+  map_ = map;
+  LogLaser laser;
+  try {
+    laser = openLogLaser(path, opening.topics, map);
+  } catch (const std::runtime_error& error) {
+    if (!in_map_) {
+      throw std::runtime_error(std::string(error.what()) +
+                               "; a robot is found on a map by laser scans and odometry, or by "
+                               "tf's frame 'map'");
+    }
+    motion_ = *in_map_;
+    are_known_ = true;
+    T_world_motion_ = Eigen::Isometry3d::Identity();
+    return;
+  }
+  scans_ = std::move(laser.scans);
+  // A cell of the map to both sides of the laser's plane.
+  const double cell_m = map.walls->cell_size_m();
+  localization_ = std::make_unique<Localization>(
+      map.walls->floorGrid({laser.height_m - cell_m, laser.height_m + cell_m}),
+      laser.T_base_scanner, map.localization);
+  has_scan_ = scans_->next(scan_);
+}
+
+std::string RobotPlaces::frame() const {
+  if (on_map_) return kMapFrame;
+  return leaves_s_ ? motion_.frame_id : std::string();
+}
+
+std::optional<FloorPose> RobotPlaces::odometryAt(double stamp_s) {
+  if (!leaves_s_ && !(on_map_ && !scans_)) return FloorPose();
   const auto pose = motion_.poses.at(stamp_s);
   if (!pose) return std::nullopt;
   const Eigen::Isometry3d T_motion_base =
-      motion_.of_camera ? *pose * T_base_camera_.inverse() : *pose;
+      motion_.of_camera ? *pose * setup_.T_base_camera.inverse() : *pose;
   if (!T_world_motion_) T_world_motion_ = T_motion_base.inverse();
   const Eigen::Isometry3d T = *T_world_motion_ * T_motion_base;
   if (!first_height_m_) first_height_m_ = T.translation().z();
   greatest_rise_m_ = std::max(greatest_rise_m_, std::abs(T.translation().z() - *first_height_m_));
   greatest_tilt_rad_ = std::max(greatest_tilt_rad_, std::acos(std::clamp(T(2, 2), -1.0, 1.0)));
-  return FloorPose{T.translation().head<2>(), std::atan2(T(1, 0), T(0, 0))};
+  return onFloor(T);
+}
+
+std::optional<RobotPlace> RobotPlaces::at(double stamp_s,
+                                          const std::vector<Eigen::Vector2d>& people) {
+  if (scans_) takeScans(stamp_s, people);
+  const auto odometry = odometryAt(stamp_s);
+  if (!odometry) {
+    is_lost_ = false;
+    why_absent_ = "the odometry has a gap there";
+    return std::nullopt;
+  }
+  if (!scans_) return RobotPlace{*odometry};
+  const LocalizationEstimate& estimate = localization_->estimate();
+  if (!scan_odometry_ || estimate.lost) {
+    is_lost_ = true;
+    why_absent_ = "the robot is not found on the map there (--robot-start tells where it begins)";
+    return std::nullopt;
+  }
+  return RobotPlace{estimate.pose * (scan_odometry_->inverse() * *odometry),
+                    estimate.covariance.topLeftCorner<2, 2>()};
+}
+
+// As the follower does: beams that end on people are left out.
+void RobotPlaces::takeScans(double until_s, const std::vector<Eigen::Vector2d>& people) {
+  const double radius_m = FollowerParams().target_radius_m;
+  for (; has_scan_ && scan_.stamp_s <= until_s + kSameTime_s; has_scan_ = scans_->next(scan_)) {
+    const auto odometry = odometryAt(scan_.stamp_s);
+    if (!odometry) continue;
+    if (scan_odometry_) {
+      localization_->predict(scan_odometry_->inverse() * *odometry);
+    } else {
+      const auto start = startOnMap(map_, in_map_, scan_, setup_);
+      if (start) localization_->startAt(*start);
+    }
+    scan_odometry_ = odometry;
+    masked_.clear();
+    const FloorPose T_base_map = localization_->estimate().pose.inverse();
+    for (const Eigen::Vector2d& place : people) masked_.push_back({T_base_map * place, radius_m});
+    localization_->update(scan_.scan, masked_);
+  }
 }
 
 std::string RobotPlaces::warning() const {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/follower/perception.hpp>
+#include <heel/apps/follower/follower_params.hpp>
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/shared/arguments.hpp>
 #include <heel/apps/heel/shared/lap_clock.hpp>
@@ -29,6 +29,7 @@ struct TrackOptions {
   std::filesystem::path out = "out";
   std::filesystem::path bag;
   RecordingParams opening;
+  LogMapOptions map;
   std::vector<double> start_m;
   std::vector<double> bounds_m;
   bool no_film = false;
@@ -46,8 +47,13 @@ void print(const TrackOutput& output, std::size_t skipped) {
 }
 
 std::vector<std::string> motionWarnings(const RobotPlaces& robot, const MotionWatch& watch,
-                                        const Recording& recording) {
+                                        const Recording& recording, std::size_t lost) {
   std::vector<std::string> warnings;
+  if (lost > 0) {
+    warnings.push_back(std::to_string(lost) + " frame" + (lost == 1 ? " is" : "s are") +
+                       " left out: the robot is not found on the map in them (--robot-start tells "
+                       "where it is at first)");
+  }
   if (!robot.warning().empty()) warnings.push_back(robot.warning());
   if (const auto leaves_s = watch.leaves_s()) {
     char text[200];
@@ -61,25 +67,52 @@ std::vector<std::string> motionWarnings(const RobotPlaces& robot, const MotionWa
   return warnings;
 }
 
+/// Puts the robot on its map, and lets the walls say where nobody is.
+void useMap(const TrackOptions& options, const CameraSetup& setup, RobotPlaces& robot,
+            std::vector<GeometricGate>& gates) {
+  const LogMap map = openLogMap(options.map);
+  robot.putOnMap(options.recording, options.opening, map);
+  WallGateParams gate;
+  gate.eye_height_m = setup.T_base_camera.translation().z();
+  gates.push_back(wallGate(map.walls, gate));
+}
+
+/// Where people are who hide walls from the laser: as the follower takes them.
+std::vector<Eigen::Vector2d> peopleOf(const Perception& perception) {
+  static const double surely_person = FollowerParams().surely_person;
+  std::vector<Eigen::Vector2d> places;
+  for (const Track& track : perception.tracks()) {
+    const Evidence who = perception.identity().probabilities(track.id);
+    if (track.status == TrackStatus::kTentative || who.sum() - who[kThing] < surely_person)
+      continue;
+    places.push_back(track.motion.position_m());
+  }
+  return places;
+}
+
 void run(const TrackOptions& options) {
   const AppearanceModel model = loadAppearance(options.model);
   const auto recording = openRecording(options.recording, options.opening);
   const CameraSetup setup = findCameraSetup(*openRecording(options.recording, options.opening));
   for (const std::string& warning : setup.warnings) warn(warning);
   RobotPlaces robot(*recording, setup);
+  std::vector<GeometricGate> gates;
+  if (!options.map.map.empty()) useMap(options, setup, robot, gates);
 
   PerceptionParams params;
   TrackOutputParams output_params;
   output_params.film = !options.no_film;
   output_params.bag = options.bag;
   output_params.inputs = {options.recording, options.model};
-  output_params.odometry_frame = robot.odometryFrame();
+  if (!options.map.map.empty()) output_params.inputs.push_back(mapSource(options.map.map));
+  output_params.frame = robot.frame();
   if (!options.bounds_m.empty()) {
     const Eigen::Vector2d lowest(options.bounds_m[0], options.bounds_m[1]);
     const Eigen::Vector2d highest(options.bounds_m[2], options.bounds_m[3]);
-    params.gate = insideBounds(lowest, highest);
+    gates.push_back(insideBounds(lowest, highest));
     output_params.bounds_m = Eigen::AlignedBox2d(lowest, highest);
   }
+  if (!gates.empty()) params.gate = allOf(std::move(gates));
   Perception perception(setup, model, params);
   if (!options.start_m.empty()) perception.startAt({options.start_m[0], options.start_m[1]});
 
@@ -87,23 +120,25 @@ void run(const TrackOptions& options) {
   TrackOutput output(options.out, recording->info(), setup, output_params);
   ProgressBar progress("tracking", recording->info().frame_count);
   TrackEnd end;
+  std::vector<SkippedFrame> unplaced;  // of a robot that is not found on its map
   end.warnings = setup.warnings;
   const std::string lost_before = recording->info().lost;
   Frame frame;
   StageTimes times_ms{};
   while (!isStopRequested() && recording->next(frame)) {
-    const auto place = robot.at(frame.stamp_s);
+    const auto place = robot.at(frame.stamp_s, peopleOf(perception));
     if (!place) {
-      end.skipped.push_back({frame.number, frame.name + ": the odometry has a gap there"});
+      (robot.isLost() ? unplaced : end.skipped)
+          .push_back({frame.number, frame.name + ": " + robot.whyAbsent()});
       continue;
     }
     LapClock clock;
     try {
-      const PerceptionStep& step = perception.step(frame, {*place}, nullptr, [&](Stage stage) {
+      const PerceptionStep& step = perception.step(frame, *place, nullptr, [&](Stage stage) {
         times_ms[static_cast<std::size_t>(stage)] = clock.lap_ms();
       });
       watch.look(frame);
-      output.add(frame, *place, perception, step, times_ms);
+      output.add(frame, place->pose, perception, step, times_ms);
     } catch (const std::invalid_argument& error) {
       end.skipped.push_back({frame.number, frame.name + ": " + error.what()});
     }
@@ -113,10 +148,12 @@ void run(const TrackOptions& options) {
   end.skipped.insert(end.skipped.end(), recording->skipped().begin(), recording->skipped().end());
   if (output.frames() == 0) {
     if (!end.complete) throw Stopped("stopped before the first frame; nothing is written");
+    end.skipped.insert(end.skipped.end(), unplaced.begin(), unplaced.end());
     throw std::runtime_error(nothingReadMessage(*recording, end.skipped));
   }
   for (const SkippedFrame& frame_left_out : end.skipped) warn(frame_left_out.reason);
-  for (const std::string& warning : motionWarnings(robot, watch, *recording)) {
+  end.skipped.insert(end.skipped.end(), unplaced.begin(), unplaced.end());
+  for (const std::string& warning : motionWarnings(robot, watch, *recording, unplaced.size())) {
     warn(warning);
     end.warnings.push_back(warning);
   }
@@ -147,7 +184,10 @@ void addTrack(CLI::App& app) {
       "Writes tracks.csv (who is where), frames.csv (what every stage left of each frame, and why\n"
       "there is no target), timing.csv, summary.json, and the film tracks.mp4 with stills.\n"
       "Places are in the base frame; if the robot moves, as the tf or odometry of a bag tells, or\n"
-      "the odometry.csv or groundtruth.txt of a folder, in the odometry's: see summary.json.");
+      "the odometry.csv or groundtruth.txt of a folder, in the odometry's: see summary.json.\n"
+      "With --map they are in the map's, where the robot is found by its laser and odometry (or "
+      "by\n"
+      "tf's frame 'map'), and nobody is seen through its walls.");
   verb->add_option("RECORDING", options->recording, "folder of a recording, or a bag")->required();
   verb->add_option("--model", options->model, "the person, as 'heel learn' wrote it")->required();
   verb->add_option("--out", options->out, "folder for the results")->capture_default_str();
@@ -161,6 +201,9 @@ void addTrack(CLI::App& app) {
       ->delimiter(',')
       ->expected(4)
       ->option_text("X0,Y0,X1,Y1");
+  verb->add_option("--map", options->map.map,
+                   "the robot's map: a .bt or a map_server YAML, or a scene's name");
+  addLogMap(*verb, options->map, options->opening.topics);
   verb->add_flag("--no-film", options->no_film, "write the tables only");
   addResultBag(*verb, options->bag);
   addTimeSpan(*verb, options->opening.span);

@@ -45,8 +45,7 @@ TrackOutput::TrackOutput(const std::filesystem::path& folder, const RecordingInf
       drawn_(setup) {
   if (params.film) film_.emplace(output_ / "tracks.mp4", rateOf(info), pictureSize());
   if (params.bag.empty()) return;
-  bag_.emplace(BagPlan{params.bag, params.inputs, "track"},
-               moves() ? params.odometry_frame : "map");
+  bag_.emplace(BagPlan{params.bag, params.inputs, "track"}, moves() ? params.frame : "map");
 }
 
 void TrackOutput::add(const Frame& frame, const FloorPose& robot, const Perception& perception,
@@ -131,7 +130,7 @@ void TrackOutput::commit(const TrackEnd& end) {
   summary["frames_by_state"] = states_;
   summary["frames_by_reason"] = reasons_;
   const Mounting mounting = mountingOf(setup_.T_base_camera);
-  summary["frame"] = moves() ? params_.odometry_frame : "base";
+  summary["frame"] = moves() ? params_.frame : "base";
   summary["camera"] = {{"height_m", mounting.height_m},
                        {"pitch_rad", mounting.pitch_rad},
                        {"roll_rad", mounting.roll_rad},

@@ -29,7 +29,7 @@ struct TrackOutputParams {
   std::vector<std::filesystem::path> inputs;    ///< What is read: it is not written over.
   std::size_t stills = 6;                       ///< Spread over the frames that have a target.
   std::optional<Eigen::AlignedBox2d> bounds_m;  ///< To draw.
-  std::string odometry_frame;  ///< Of all places, if the robot moves; empty: the base frame.
+  std::string frame;  ///< Of all places: the map, or the odometry; empty: the base frame.
 };
 
 /// Milliseconds that each stage of a frame took.
@@ -66,7 +66,7 @@ class TrackOutput {
   const std::map<std::string, std::size_t>& framesByState() const { return states_; }
 
  private:
-  bool moves() const { return !params_.odometry_frame.empty(); }
+  bool moves() const { return !params_.frame.empty(); }
   void addRows(const Frame& frame, const Perception& perception, const PerceptionStep& step);
   void keepStill();
 

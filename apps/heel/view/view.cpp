@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 struct ViewOptions {
   fs::path recording;
   fs::path model;
-  std::string map;
+  LogMapOptions map;
   fs::path out;
   RecordingParams opening;
   std::size_t pictures = 12;
@@ -53,30 +53,32 @@ class Scenes {
 
   OccupancyGrid& walls() { return scene_.walls; }
 
-  /// Goes to where the robot was at a frame; false if the odometry does not tell.
+  /// Goes to where the robot was at a frame; false if that is not known, see whyAbsent().
   bool goTo(const Frame& frame) {
     const auto place = robot_.at(frame.stamp_s);
     if (place) place_ = *place;
     return place.has_value();
   }
 
+  const std::string& whyAbsent() const { return robot_.whyAbsent(); }
+
   /// Follows the person through a frame that is not shown.
   void pass(const Frame& frame) {
     if (perception_) {
-      drawn_.of(frame, *perception_, perception_->step(frame, {place_}), place_);
+      drawn_.of(frame, *perception_, perception_->step(frame, place_), place_.pose);
     }
   }
 
   const ViewScene& of(const Frame& frame) {
     scene_.marked.clear();
     if (perception_) {
-      const PerceptionStep& step = perception_->step(frame, {place_});
-      scene_.drawn = drawn_.of(frame, *perception_, step, place_);
+      const PerceptionStep& step = perception_->step(frame, place_);
+      scene_.drawn = drawn_.of(frame, *perception_, step, place_.pose);
       mark(step);
     } else {
       scene_.drawn.frame = frame.number;
       scene_.drawn.stamp_s = frame.stamp_s;
-      scene_.drawn.T_floor_camera = basePose(place_) * setup_.T_base_camera;
+      scene_.drawn.T_floor_camera = basePose(place_.pose) * setup_.T_base_camera;
     }
     placePoints(frame);
     return scene_;
@@ -108,7 +110,7 @@ class Scenes {
 
   CameraSetup setup_;
   RobotPlaces robot_;
-  FloorPose place_;
+  RobotPlace place_;
   DepthImages depths_;
   DrawnPerception drawn_;
   std::optional<Perception> perception_;
@@ -125,7 +127,7 @@ std::size_t eachScene(const ViewOptions& options, Scenes& scenes, std::size_t st
   std::size_t seen = 0;
   while (recording->next(frame)) {
     if (!scenes.goTo(frame)) {
-      warn(frame.name + ": the odometry has a gap there");
+      warn(frame.name + ": " + scenes.whyAbsent());
       continue;
     }
     const double since_s = frame.stamp_s - last_s;
@@ -157,7 +159,7 @@ void showInWindow(const ViewOptions& options, Scenes& scenes, SceneWindow& windo
 
 void writePictures(const ViewOptions& options, Scenes& scenes, std::size_t frames) {
   std::vector<fs::path> inputs = {options.recording, options.model};
-  if (!options.map.empty()) inputs.push_back(mapSource(options.map));
+  if (!options.map.map.empty()) inputs.push_back(mapSource(options.map.map));
   Output output({"view", OutputKind::kFolder, options.out, std::move(inputs)});
   const std::size_t step = options.pictures == 0 ? 1 : (frames - 1) / options.pictures + 1;
   ProgressBar progress("viewing", frames);
@@ -184,8 +186,14 @@ void run(ViewOptions& options) {
   const CameraSetup setup = findCameraSetup(*openRecording(options.recording, options.opening));
   for (const std::string& warning : setup.warnings) warn(warning);
   RobotPlaces robot(*openRecording(options.recording, options.opening), setup);
+  OccupancyGrid walls;
+  if (!options.map.map.empty()) {
+    const LogMap map = openLogMap(options.map);
+    robot.putOnMap(options.recording, options.opening, map);
+    walls = map.walls->floorGrid();
+  }
   Scenes scenes(setup, std::move(robot), model);
-  if (!options.map.empty()) scenes.walls() = openMap(mapSource(options.map)).map.floorGrid();
+  scenes.walls() = std::move(walls);
   if (options.out.empty()) {
     std::string why;
     if (const auto window = openSceneWindow(why)) return showInWindow(options, scenes, *window);
@@ -208,13 +216,16 @@ void addView(CLI::App& app) {
       "  heel view recordings/kitchen --model person.yaml --out pictures\n"
       "Shows the cloud of each frame; with a model, also the points of the person's colours, the\n"
       "blobs on the floor, and the tracks as poles (the target's is orange). If the robot moves,\n"
-      "all of it is in the frame of its odometry. Opens a window; with no display, or with --out,\n"
+      "all of it is in the frame of its odometry; with a map, in the map's. Opens a window; with "
+      "no display, or with --out,\n"
       "it writes pictures of the same.");
   verb->add_option("RECORDING", options->recording, "folder of a recording, a bag, or a PCD file")
       ->required();
   verb->add_option("--model", options->model, "the person, as 'heel learn' wrote it");
-  verb->add_option("--map", options->map,
-                   "walls to show, in the recording's frame: whatever 'heel map' takes or wrote");
+  verb->add_option("--map", options->map.map,
+                   "walls to show, on which the robot is found by its laser and odometry, or by "
+                   "tf's frame 'map': whatever 'heel map' takes or wrote");
+  addLogMap(*verb, options->map, options->opening.topics);
   verb->add_option("--out", options->out, "write pictures to this folder, and open no window");
   verb->add_option("--pictures", options->pictures, "how many at the most; 0: one of each frame")
       ->capture_default_str();

@@ -34,7 +34,8 @@ bool isImage(const BagTopicSummary& t) {
 
 bool isDepthImage(const BagTopicSummary& t) {
   return isImage(t) &&
-         (isDepthEncoding(t.encoding) || (t.encoding == "mono16" && has(t.topic.name, "depth")));
+         (isDepthEncoding(t.encoding) ||
+          (t.encoding == "mono16" && (has(t.topic.name, "depth") || has(t.topic.name, "Depth"))));
 }
 
 bool isColorImage(const BagTopicSummary& t) {
@@ -51,10 +52,7 @@ int rankOf(const BagTopicSummary& t) {
   return 2 * rank + (t.topic.holds<CompressedImageMsg>() ? 1 : 0);
 }
 
-int depthRankOf(const BagTopicSummary& t) {
-  const bool fits_color = has(t.topic.name, "aligned") || has(t.topic.name, "registered");
-  return rankOf(t) + (fits_color ? 0 : 100);
-}
+int depthRankOf(const BagTopicSummary& t) { return rankOf(t) + (isNamedRegistered(t) ? 0 : 100); }
 
 template <class Is, class Rank>
 const BagTopicSummary* best(const BagSurvey& survey, const Is& is, const Rank& rank) {
@@ -99,8 +97,91 @@ std::optional<BagCamera> findRgbd(const BagSurvey& survey) {
   };
   if (found.second == nullptr) return std::nullopt;
   found.first = best(survey, fits, rankOf);
+  const auto is_color = [](const BagTopicSummary& t) {
+    return isColorImage(t) && !has(t.topic.name, "infra") && !has(t.topic.name, "/ir/");
+  };
+  if (found.first == nullptr) found.first = best(survey, is_color, rankOf);
   if (found.first == nullptr) return std::nullopt;
   return found;
+}
+
+/// The topics of a maker's cameras, by how their names end.
+struct KnownCamera {
+  const char* maker;
+  SensorKind sensor;
+  const char* first;   ///< Left or colour.
+  const char* second;  ///< Right or depth.
+};
+constexpr KnownCamera kKnownCameras[] = {
+    {"ZED", SensorKind::kStereo, "/left/image_rect_color", "/right/image_rect_color"},
+    {"ZED", SensorKind::kRgbd, "/rgb/image_rect_color", "/depth/depth_registered"},
+    {"RealSense", SensorKind::kRgbd, "/color/image_raw", "/aligned_depth_to_color/image_raw"},
+    {"RealSense", SensorKind::kRgbd, "/color/image_raw", "/depth/image_rect_raw"},
+    {"RealSense viewer", SensorKind::kRgbd, "/sensor_1/Color_0/image/data",
+     "/sensor_0/Depth_0/image/data"},
+    {"Kinect Azure", SensorKind::kRgbd, "/rgb/image_raw", "/depth_to_rgb/image_raw"},
+    {"OAK", SensorKind::kRgbd, "/rgb/image_raw", "/stereo/image_raw"},
+    {"Kinect Azure", SensorKind::kRgbd, "/rgb/image_raw", "/depth/image_raw"},
+    {"Orbbec", SensorKind::kRgbd, "/color/image_raw", "/depth/image_raw"},
+};
+
+/// What a topic is called before `end`, if it ends so; raw or compressed.
+std::optional<std::string> nameBefore(const BagTopicSummary& t, const std::string& end) {
+  const std::string name = plainName(t.topic.name);
+  if (name.size() < end.size() || name.compare(name.size() - end.size(), end.size(), end) != 0) {
+    return std::nullopt;
+  }
+  return name.substr(0, name.size() - end.size());
+}
+
+std::optional<BagCamera> findKnown(const BagSurvey& survey) {
+  for (const KnownCamera& known : kKnownCameras) {
+    const auto is_second = known.sensor == SensorKind::kRgbd ? isDepthImage : isColorImage;
+    for (const BagTopicSummary& first : survey.topics) {
+      const auto camera = nameBefore(first, known.first);
+      if (!camera || !isColorImage(first)) continue;
+      const auto fits = [&](const BagTopicSummary& t) {
+        return is_second(t) && nameBefore(t, known.second) == camera;
+      };
+      const BagTopicSummary* second = best(survey, fits, rankOf);
+      const auto fits_better = [&](const BagTopicSummary& t) {
+        return isDepthImage(t) && isNamedRegistered(t) && t.topic.name.rfind(*camera, 0) == 0;
+      };
+      if (known.sensor == SensorKind::kRgbd && second != nullptr && !isNamedRegistered(*second) &&
+          std::any_of(survey.topics.begin(), survey.topics.end(), fits_better)) {
+        continue;
+      }
+      const auto same = [&](const BagTopicSummary& t) {
+        return isColorImage(t) && nameBefore(t, known.first) == camera;
+      };
+      if (second != nullptr) return BagCamera{{}, known.sensor, best(survey, same, rankOf), second};
+    }
+  }
+  return std::nullopt;
+}
+
+/// What the names of a camera's topics begin with, up to the last '/' that they share.
+std::string commonName(const BagCamera& camera) {
+  const std::string& a = camera.first->topic.name;
+  const std::string& b = camera.second != nullptr ? camera.second->topic.name : a;
+  const auto end = std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first;
+  const std::string shared(a.begin(), end);
+  return shared.substr(0, shared.rfind('/') + 1);
+}
+
+bool isColoredCloud(const BagTopicSummary& t) {
+  return t.count > 0 && t.topic.holds<PointCloud2Msg>() && has(t.encoding, "rgb");
+}
+
+/// Images and coloured clouds whose names are not of this camera, where its name tells it apart.
+void addOthers(const BagSurvey& survey, BagCamera& camera) {
+  const std::string own = commonName(camera);
+  if (own.size() < 2) return;
+  for (const BagTopicSummary& t : survey.topics) {
+    if ((isImage(t) || isColoredCloud(t)) && t.topic.name.rfind(own, 0) != 0) {
+      camera.others.push_back(t.topic.name);
+    }
+  }
 }
 
 const BagTopicSummary* named(const BagSurvey& survey, const std::string& name,
@@ -109,10 +190,6 @@ const BagTopicSummary* named(const BagSurvey& survey, const std::string& name,
   if (topic == nullptr) failWithTopics(survey, "has no messages of the topic '" + name + "'");
   if (!is(*topic)) failWithTopics(survey, std::string("holds no ") + what + " on '" + name + "'");
   return topic;
-}
-
-bool isColoredCloud(const BagTopicSummary& t) {
-  return t.count > 0 && t.topic.holds<PointCloud2Msg>() && has(t.encoding, "rgb");
 }
 
 /// The topics that the options name; nothing if they name none.
@@ -148,8 +225,10 @@ void failWithTopics(const BagSurvey& survey, const std::string& what) {
                            survey.topicNames());
 }
 
-BagCamera findBagCamera(const BagSurvey& survey, const BagTopics& topics) {
-  if (const auto camera = namedCamera(survey, topics)) return *camera;
+namespace {
+
+BagCamera findAnyCamera(const BagSurvey& survey) {
+  if (const auto camera = findKnown(survey)) return *camera;
   if (const auto camera = findPair(survey, {"left", "right"})) return *camera;
   if (const auto camera = findRgbd(survey)) return *camera;
   for (const Words& words : {Words("infra1", "infra2"), Words("cam0", "cam1"),
@@ -166,15 +245,39 @@ BagCamera findBagCamera(const BagSurvey& survey, const BagTopics& topics) {
                  "has no stereo images, no colour with depth images, and no coloured clouds");
 }
 
+}  // namespace
+
+BagCamera findBagCamera(const BagSurvey& survey, const BagTopics& topics) {
+  if (const auto camera = namedCamera(survey, topics)) return *camera;
+  BagCamera camera = findAnyCamera(survey);
+  addOthers(survey, camera);
+  return camera;
+}
+
+bool isNamedRegistered(const BagTopicSummary& depth) {
+  const auto says = [&](const char* word) { return has(depth.topic.name, word); };
+  return says("aligned") || says("registered") || says("depth_to_rgb");
+}
+
 bool isRectified(const BagTopicSummary& images) { return has(images.topic.name, "rect"); }
 
-const CameraInfoMsg& cameraInfoOf(const BagSurvey& survey, const BagTopicSummary& images) {
+const CameraInfoMsg* findCameraInfo(const BagSurvey& survey, const BagTopicSummary& images) {
   const std::string name = plainName(images.topic.name);
-  const auto beside = survey.camera_infos.find(name.substr(0, name.rfind('/')) + "/camera_info");
-  if (beside != survey.camera_infos.end()) return beside->second;
-  for (const auto& [topic, info] : survey.camera_infos) {
-    if (frameName(info.header.frame_id) == images.frame_id) return info;
+  const std::string folder = name.substr(0, name.rfind('/'));
+  // The RealSense viewer has images and infos in folders of their own.
+  for (const std::string& beside :
+       {folder + "/camera_info", folder.substr(0, folder.rfind('/')) + "/info/camera_info"}) {
+    const auto info = survey.camera_infos.find(beside);
+    if (info != survey.camera_infos.end()) return &info->second;
   }
+  for (const auto& [topic, info] : survey.camera_infos) {
+    if (frameName(info.header.frame_id) == images.frame_id) return &info;
+  }
+  return nullptr;
+}
+
+const CameraInfoMsg& cameraInfoOf(const BagSurvey& survey, const BagTopicSummary& images) {
+  if (const CameraInfoMsg* info = findCameraInfo(survey, images)) return *info;
   failWithTopics(survey, "has no camera_info of the images on '" + images.topic.name + "'");
 }
 

@@ -11,25 +11,34 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace heel {
 
 /// The topics that make up a recording.
 struct BagCamera {
+  std::vector<std::string> others;  ///< Topics of other cameras, which are not read.
   SensorKind sensor = SensorKind::kStereo;
   const BagTopicSummary* first = nullptr;   ///< Left images, colour images, or clouds.
   const BagTopicSummary* second = nullptr;  ///< Right images or depth images; null for clouds.
 };
 
-/// Takes the topics that are named, else looks for them: stereo images named left and right,
-/// colour and depth images, other pairs (infra1 and infra2, cam0 and cam1), clouds with colours.
-/// Of several, rectified ones come first, and those that lose nothing.
+/// Takes the topics that are named, else looks for them: those of cameras that we know (see the
+/// table in bag_camera.cpp), stereo images named left and right, colour and depth images, other
+/// pairs (infra1 and infra2, cam0 and cam1), clouds with colours. Of several, rectified ones come
+/// first, and those that lose nothing.
 /// @throws std::runtime_error  one sentence that tells which topics there are.
 BagCamera findBagCamera(const BagSurvey& survey, const BagTopics& topics);
 
-/// The camera_info of an image topic: beside it, or with the same frame.
+/// The camera_info of an image topic: beside it, or with the same frame; null if there is none.
+const CameraInfoMsg* findCameraInfo(const BagSurvey& survey, const BagTopicSummary& images);
+
+/// The same.
 /// @throws std::runtime_error  one sentence, if there is none.
 const CameraInfoMsg& cameraInfoOf(const BagSurvey& survey, const BagTopicSummary& images);
+
+/// Whether depth images are made to fit colour, as their topic's name tells.
+bool isNamedRegistered(const BagTopicSummary& depth);
 
 /// Whether images are rectified, as their topic's name tells.
 bool isRectified(const BagTopicSummary& images);

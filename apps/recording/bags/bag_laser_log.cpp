@@ -25,6 +25,7 @@ BagLaserLog::BagLaserLog(const std::filesystem::path& path, const BagTopics& top
   if (const auto place = placeOnRobot(survey, topics, scans->frame_id)) {
     const Eigen::Isometry3d& T = *place;
     T_base_scanner_ = FloorPose{T.translation().head<2>(), std::atan2(T(1, 0), T(0, 0))};
+    scanner_height_m_ = T.translation().z();
   }
   bag_ = openBag(path);
   std::vector<std::string> read = poses_->topics();

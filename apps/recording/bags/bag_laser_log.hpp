@@ -21,12 +21,14 @@ class BagLaserLog : public LaserLog {
 
   bool next(LaserReading& reading) override;
   std::optional<FloorPose> T_base_scanner() const override { return T_base_scanner_; }
+  std::optional<double> scannerHeight_m() const override { return scanner_height_m_; }
   std::string lost() const override { return lost_; }
 
  private:
   std::unique_ptr<BagReader> bag_;
   std::optional<BagPoses> poses_;
   std::optional<FloorPose> T_base_scanner_;
+  std::optional<double> scanner_height_m_;
   std::string scan_topic_, lost_;
   bool has_stamps_ = true;
   LaserScanMsg scan_;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -81,6 +82,7 @@ bool BagMotion::findWay(const std::string& from, const BagTopics& topics) {
 
 /// The frame in which the way is told; empty if nothing on the way moves.
 std::string BagMotion::worldFrame(const BagTopics& topics) const {
+  if (!topics.world_frame.empty()) return frameName(topics.world_frame);
   const auto first_moving = std::find_if(
       way_.begin(), way_.end(), [](const Link& link) { return !link.T_parent_frame.has_value(); });
   const auto leads_to = [&](const std::string& frame) {
@@ -154,6 +156,11 @@ std::optional<RobotMotion> BagMotion::read() const {
     for (const double stamp_s : poses.stamps_s()) stamps_s.insert(stamp_s);
   }
   RobotMotion motion = motion_;
+  if (moving.empty()) {
+    constexpr double kAlways = std::numeric_limits<double>::infinity();
+    motion.poses = Trajectory({kAlways, kAlways});
+    stamps_s.insert(0.0);
+  }
   for (const double stamp_s : stamps_s) {
     std::optional<Eigen::Isometry3d> T;
     for (const Link& link : way_) {

@@ -20,8 +20,9 @@ namespace heel {
 /// Finds the way through tf's tree from the robot up to the frame of its odometry, then reads what
 /// moves on it.
 ///
-/// That frame is the one of the Odometry messages, `odom`, or the parent of the base frame. Where
-/// tf does not lead there, Odometry messages do; they go first if their topic is named.
+/// That frame is the one that the topics name, else the one of the Odometry messages, `odom`, or
+/// the parent of the base frame. Where tf does not lead there, Odometry messages do; they go first
+/// if their topic is named.
 class BagMotion {
  public:
   BagMotion() = default;
@@ -30,7 +31,8 @@ class BagMotion {
   /// @throws std::runtime_error  if a topic that is named is not there.
   BagMotion(const BagSurvey& survey, const BagTopics& topics, const std::string& camera_frame);
 
-  /// Reads tf and odometry, if anything in the bag moves the robot. Absent if nothing does.
+  /// Reads tf and odometry, if anything in the bag moves the robot. Absent if nothing does, but for
+  /// a frame that the topics name: a robot that stands has one pose in it, at all times.
   /// @throws std::runtime_error  as openBag().
   std::optional<RobotMotion> read() const;
 

@@ -40,6 +40,48 @@ RawCamera cameraOf(const CameraInfoMsg& info, bool is_rectified) {
   return camera;
 }
 
+bool isDistorted(const CameraInfoMsg& info) {
+  return std::any_of(info.D.begin(), info.D.end(), [](double d) { return std::abs(d) > 1e-12; });
+}
+
+/// Without distortion: rectified as P tells, else raw as K does.
+PinholeCamera pinholeOf(const CameraInfoMsg& info, bool is_rectified) {
+  const int width = static_cast<int>(info.width), height = static_cast<int>(info.height);
+  if (is_rectified) return {width, height, info.P[0], info.P[5], info.P[2], info.P[6]};
+  return {width, height, info.K[0], info.K[4], info.K[2], info.K[5]};
+}
+
+bool isUsable(const PinholeCamera& camera) {
+  return camera.fx > 0.0 && camera.fy > 0.0 && camera.width > 0 && camera.height > 0;
+}
+
+/// The maps that take the distortion out of raw images.
+void makeMaps(const std::string& origin, const CameraInfoMsg& info, cv::Mat& x, cv::Mat& y) {
+  checkCameraMemory(origin, info.width, info.height);
+  checkDistortion(origin, info.D.size());
+  const cv::Mat K = matrixOf(info.K);
+  cv::initUndistortRectifyMap(K, cv::Mat(info.D), cv::noArray(), K,
+                              {static_cast<int>(info.width), static_cast<int>(info.height)},
+                              CV_32FC1, x, y);
+}
+
+void undistortDepth(const cv::Mat& raw_m, const cv::Mat& x, const cv::Mat& y, cv::Mat& depth_m) {
+  cv::remap(raw_m, depth_m, x, y, cv::INTER_NEAREST, cv::BORDER_CONSTANT,
+            cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
+}
+
+/// "the bag has several cameras; it is read by /a and /b, not by /c (... names others)".
+std::string severalCameras(const BagSurvey& survey, const BagCamera& camera) {
+  std::string text = survey.path.string() + ": there are several cameras; what is read is " +
+                     camera.first->topic.name;
+  if (camera.second != nullptr) text += " with " + camera.second->topic.name;
+  text += ", not " + camera.others.front();
+  if (camera.others.size() > 1) {
+    text += " and " + std::to_string(camera.others.size() - 1) + " more";
+  }
+  return text + " (name the topics to read another)";
+}
+
 std::string layoutOf(const BagSurvey& survey, const BagCamera& camera) {
   std::string text = survey.form == BagForm::kRos1 ? "ROS 1 bag, " : "ROS 2 bag, ";
   text += camera.first->topic.name;
@@ -59,6 +101,7 @@ std::unique_ptr<Recording> BagRecording::open(const std::filesystem::path& path,
   info.sensor = camera.sensor;
   info.frame_count = camera.first->count;
   info.lost = survey.lost;
+  if (!camera.others.empty()) info.warnings.push_back(severalCameras(survey, camera));
   info.T_base_camera = placeOnRobot(survey, params.topics, camera.first->frame_id);
   BagMotion motion(survey, params.topics, camera.first->frame_id);
   return std::unique_ptr<Recording>(
@@ -102,22 +145,48 @@ void BagRecording::setUpStereo(const BagSurvey& survey, const BagCamera& camera)
 void BagRecording::setUpRgbd(const BagSurvey& survey, const BagCamera& camera) {
   const CameraInfoMsg& info = cameraInfoOf(survey, *camera.first);
   const bool is_rectified = isRectified(*camera.first) && info.P[0] > 0.0;
-  const double fx = is_rectified ? info.P[0] : info.K[0], fy = is_rectified ? info.P[5] : info.K[4];
-  const double cx = is_rectified ? info.P[2] : info.K[2], cy = is_rectified ? info.P[6] : info.K[5];
-  info_.camera.left = {static_cast<int>(info.width), static_cast<int>(info.height), fx, fy, cx, cy};
-  if (!(fx > 0.0) || !(fy > 0.0) || info.width == 0 || info.height == 0) {
+  info_.camera.left = depth_camera_ = pinholeOf(info, is_rectified);
+  if (!isUsable(info_.camera.left)) {
     throw std::runtime_error(path_ + ": the camera_info of " + first_.topic +
                              " is empty: the camera was not calibrated");
   }
-  const bool is_distorted =
-      std::any_of(info.D.begin(), info.D.end(), [](double d) { return std::abs(d) > 1e-12; });
-  if (is_rectified || !is_distorted) return;
-  checkCameraMemory(path_ + ", camera_info of " + first_.topic, info.width, info.height);
-  checkDistortion(path_ + ", camera_info of " + first_.topic, info.D.size());
-  const cv::Mat K = matrixOf(info.K);
-  cv::initUndistortRectifyMap(K, cv::Mat(info.D), cv::noArray(), K,
-                              {info_.camera.left.width, info_.camera.left.height}, CV_32FC1,
-                              undistort_x_, undistort_y_);
+  if (!is_rectified && isDistorted(info)) {
+    makeMaps(path_ + ", camera_info of " + first_.topic, info, undistort_x_, undistort_y_);
+  }
+  setUpDepth(survey, camera);
+}
+
+/// Depth that was made to fit colour has its frame and its intrinsics; what has not is registered.
+void BagRecording::setUpDepth(const BagSurvey& survey, const BagCamera& camera) {
+  const BagTopicSummary &color = *camera.first, &depth = *camera.second;
+  const CameraInfoMsg* info = findCameraInfo(survey, depth);
+  const bool is_rectified = info != nullptr && isRectified(depth) && info->P[0] > 0.0;
+  const PinholeCamera own = info != nullptr ? pinholeOf(*info, is_rectified) : PinholeCamera();
+  const bool knows_own = isUsable(own);
+  const bool fits_image = knows_own ? seesTheSame(own, info_.camera.left)
+                                    : depth.width == color.width && depth.height == color.height;
+  const bool same_frame = depth.frame_id == color.frame_id;
+  if (fits_image && (same_frame || isNamedRegistered(depth))) return;
+  const std::string origin = path_ + ", " + depth.topic.name;
+  if (!knows_own) {
+    throw std::runtime_error(origin + ": depth is not registered to the colour of " +
+                             color.topic.name + ", and has no camera_info to do so");
+  }
+  std::optional<Eigen::Isometry3d> T_color_depth;
+  if (!color.frame_id.empty() && !depth.frame_id.empty()) {
+    T_color_depth = survey.transformBetween(color.frame_id, depth.frame_id);
+  }
+  if (!T_color_depth) {
+    throw std::runtime_error(origin + ": depth is not registered to the colour of " +
+                             color.topic.name + ", and tf does not tell where '" + depth.frame_id +
+                             "' is from '" + color.frame_id + "'");
+  }
+  depth_camera_ = own;
+  if (!is_rectified && isDistorted(*info)) {
+    makeMaps(path_ + ", camera_info of " + depth.topic.name, *info, depth_x_, depth_y_);
+  }
+  registration_.emplace(own, info_.camera.left, *T_color_depth);
+  info_.layout += ", registered by Heel";
 }
 
 std::string BagRecording::nameOf(const Waiting& message) const {
@@ -232,16 +301,22 @@ void BagRecording::makeFrame(const Waiting& first, const Waiting* second, Frame&
   } else {
     const bool undistort = !undistort_x_.empty();
     readColor(first_, first, undistort ? raw_left_ : frame.image_bgr);
-    readDepth(*second, undistort ? raw_right_ : frame.depth_m);
-    if (!undistort) return;
-    cv::remap(raw_left_, frame.image_bgr, undistort_x_, undistort_y_, cv::INTER_LINEAR);
-    cv::remap(raw_right_, frame.depth_m, undistort_x_, undistort_y_, cv::INTER_NEAREST,
-              cv::BORDER_CONSTANT, cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
+    if (undistort) {
+      cv::remap(raw_left_, frame.image_bgr, undistort_x_, undistort_y_, cv::INTER_LINEAR);
+    }
+    if (registration_) {
+      readDepth(*second, raw_right_);
+      if (!depth_x_.empty()) undistortDepth(raw_right_, depth_x_, depth_y_, undistorted_depth_);
+      registration_->apply(depth_x_.empty() ? raw_right_ : undistorted_depth_, frame.depth_m);
+    } else {
+      readDepth(*second, undistort ? raw_right_ : frame.depth_m);
+      if (undistort) undistortDepth(raw_right_, undistort_x_, undistort_y_, frame.depth_m);
+    }
   }
 }
 
-void BagRecording::checkSize(const cv::Mat& image, const char* what) const {
-  const PinholeCamera& camera = info_.camera.left;
+void BagRecording::checkSize(const cv::Mat& image, const PinholeCamera& camera,
+                             const char* what) const {
   if (image.cols == camera.width && image.rows == camera.height) return;
   throw std::runtime_error(std::string(what) + " is " + std::to_string(image.cols) + "x" +
                            std::to_string(image.rows) + ", but camera_info says " +
@@ -256,7 +331,7 @@ void BagRecording::readColor(const Queue& queue, const Waiting& message, cv::Mat
     heel::readMessage(bag_->form(), message.bytes.data(), message.bytes.size(), image_);
     images_.readColor(image_, image_bgr);
   }
-  checkSize(image_bgr, "the image");
+  checkSize(image_bgr, info_.camera.left, "the image");
 }
 
 void BagRecording::readDepth(const Waiting& message, cv::Mat& depth_m) {
@@ -267,7 +342,7 @@ void BagRecording::readDepth(const Waiting& message, cv::Mat& depth_m) {
     heel::readMessage(bag_->form(), message.bytes.data(), message.bytes.size(), image_);
     images_.readDepth(image_, depth_m);
   }
-  checkSize(depth_m, "the depth image");
+  checkSize(depth_m, depth_camera_, "the depth image");
 }
 
 void BagRecording::readCloud(const Waiting& message, Frame& frame) {

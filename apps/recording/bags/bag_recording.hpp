@@ -10,6 +10,7 @@
 #include <heel/apps/recording/bags/bag_motion.hpp>
 #include <heel/apps/recording/recording.hpp>
 #include <heel/apps/recording/stamp_order.hpp>
+#include <heel/cloud/depth_registration.hpp>
 #include <heel/cloud/stereo_rig.hpp>
 
 #include <deque>
@@ -26,7 +27,8 @@ namespace heel {
 /// their partner and tell whether a time can be, are all that is held. Two images are of one frame
 /// if their stamps are less than half a frame apart.
 ///
-/// Raw images are rectified as camera_info tells; tf tells the camera's place on the robot. A bag
+/// Raw images are rectified as camera_info tells, and depth of another camera than the colour's is
+/// registered to it as camera_info and tf tell; tf tells the camera's place on the robot. A bag
 /// that is damaged gives what can be read, and RecordingInfo::lost tells the rest.
 class BagRecording final : public Recording {
  public:
@@ -59,6 +61,7 @@ class BagRecording final : public Recording {
 
   void setUpStereo(const BagSurvey& survey, const BagCamera& camera);
   void setUpRgbd(const BagSurvey& survey, const BagCamera& camera);
+  void setUpDepth(const BagSurvey& survey, const BagCamera& camera);
   bool readMessage();
   void take(const BagMessage& raw, Queue& queue);
   bool isDecided() const;
@@ -68,7 +71,7 @@ class BagRecording final : public Recording {
   void readColor(const Queue& queue, const Waiting& message, cv::Mat& image_bgr);
   void readDepth(const Waiting& message, cv::Mat& depth_m);
   void readCloud(const Waiting& message, Frame& frame);
-  void checkSize(const cv::Mat& image, const char* what) const;
+  void checkSize(const cv::Mat& image, const PinholeCamera& camera, const char* what) const;
   std::string nameOf(const Waiting& message) const;
 
   std::string path_;
@@ -80,6 +83,10 @@ class BagRecording final : public Recording {
   double limit_s_ = 0.0;  // two images of a frame are not further apart
   std::optional<StereoRig> rig_;
   cv::Mat undistort_x_, undistort_y_;  // of raw RGB-D images; empty: nothing to do
+  PinholeCamera depth_camera_;         // the colour's, unless depth is registered here
+  cv::Mat depth_x_, depth_y_;          // undistort depth; empty: nothing to do
+  std::optional<DepthRegistration> registration_;
+  cv::Mat undistorted_depth_;
   BagImageReader images_;
   ImageMsg image_;
   CompressedImageMsg compressed_;

@@ -329,6 +329,21 @@ std::optional<Eigen::Isometry3d> BagSurvey::transform(const std::string& base,
   return std::nullopt;  // round in a circle
 }
 
+std::optional<Eigen::Isometry3d> BagSurvey::transformBetween(const std::string& to,
+                                                             const std::string& from) const {
+  std::string common = frameName(to);
+  for (std::size_t steps = 0; steps <= frames.size(); ++steps) {
+    if (const auto T_common_from = transform(common, from)) {
+      const auto T_common_to = transform(common, to);
+      return T_common_to ? std::optional(T_common_to->inverse() * *T_common_from) : std::nullopt;
+    }
+    const auto link = frames.find(common);
+    if (link == frames.end() || link->second.moves) return std::nullopt;
+    common = link->second.parent;
+  }
+  return std::nullopt;
+}
+
 std::string BagSurvey::topicNames() const {
   std::string names;
   for (const BagTopicSummary& summary : topics) {

@@ -65,6 +65,10 @@ struct BagSurvey {
   std::optional<Eigen::Isometry3d> transform(const std::string& base,
                                              const std::string& frame) const;
 
+  /// The same for any two frames that stand firmly on a third.
+  std::optional<Eigen::Isometry3d> transformBetween(const std::string& to,
+                                                    const std::string& from) const;
+
   /// What of these topics is in the part, and tf, if `with_tf`.
   /// @param around_s  So much more before and after it.
   BagQuery queryOf(std::vector<std::string> topics, bool with_tf, double around_s = 0.0) const;

@@ -17,6 +17,7 @@ struct BagTopics {
   std::string scan;          ///< Topic of laser scans (LaserScan).
   std::string odometry;      ///< Topic of the wheels' odometry.
   std::string truth;         ///< Topic of odometry that tells where the robot really was.
+  std::string world_frame;   ///< The frame of the robot's places in tf; else that of its odometry.
   std::string base_frame;    ///< The robot's frame in tf; else base_footprint, then base_link.
 };
 

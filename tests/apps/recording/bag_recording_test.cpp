@@ -293,6 +293,65 @@ TEST_P(BagRecordings, ReadsDepthInMillimetresAndInMetres) {
   }
 }
 
+/// A camera whose depth is of a frame of its own, 0.1 m to the left of the colour's: at 1 m, what
+/// it sees is 3 px further to the left in the colour image.
+std::unique_ptr<BagWriter> beginUnregistered(const std::filesystem::path& path,
+                                             const std::string& camera, bool with_tf) {
+  auto bag = createBag(path);
+  CameraInfoMsg info = cameraInfo(0.0);
+  bag->write(camera + "/color/camera_info", 1, info);
+  info.header.frame_id = "depth_optical";
+  bag->write(camera + "/depth/camera_info", 1, info);
+  ImageMsg depth = image(0.1, "16UC1", 0, 2);
+  depth.header.frame_id = "depth_optical";
+  const std::uint16_t mm = 1000;
+  std::memcpy(&depth.data[10 * depth.step + 2 * 20], &mm, 2);
+  bag->write(camera + "/depth/image_rect_raw", 100000000, depth);
+  bag->write(camera + "/color/image_raw", 100000000, image(0.1, "rgb8", 7, 3));
+  if (!with_tf) return bag;
+  TFMessageMsg message;
+  TransformStampedMsg link;
+  link.header = header(0.1, "camera_link");
+  link.child_frame_id = "optical";
+  link.transform.translation.x = 0.1;
+  message.transforms.push_back(link);
+  link.child_frame_id = "depth_optical";
+  link.transform.translation.x = 0.0;
+  message.transforms.push_back(link);
+  bag->write("/tf_static", 1, message, true);
+  return bag;
+}
+
+TEST_P(BagRecordings, RegisterDepthOfAnotherFrameToColour) {
+  beginUnregistered(path(), "/camera", true)->commit();
+  const Read read = readAll(path());
+  ASSERT_THAT(read.numbers, ElementsAre(1));
+  EXPECT_FLOAT_EQ(read.last.depth_m.at<float>(10, 17), 1.0F);
+  EXPECT_TRUE(std::isnan(read.last.depth_m.at<float>(10, 20)));
+  EXPECT_THAT(read.info.layout, HasSubstr("registered by Heel"));
+  EXPECT_THAT(read.info.warnings, IsEmpty());
+}
+
+TEST_P(BagRecordings, SayThatDepthCannotBeRegisteredWithoutTf) {
+  beginUnregistered(path(), "/camera", false)->commit();
+  EXPECT_THAT(messageOf([&] { readAll(path()); }),
+              HasSubstr("/camera/depth/image_rect_raw: depth is not registered to the colour of "
+                        "/camera/color/image_raw, and tf does not tell where 'depth_optical' is "
+                        "from 'optical'"));
+}
+
+TEST_P(BagRecordings, NameTheCameraThatIsReadOfTwo) {
+  const auto bag = beginUnregistered(path(), "/front", true);
+  bag->write("/rear/color/image_raw", 100000000, image(0.1, "rgb8", 7, 3));
+  bag->write("/rear/depth/image_rect_raw", 100000000, image(0.1, "16UC1", 0, 2));
+  bag->commit();
+  const Read read = readAll(path());
+  ASSERT_THAT(read.info.warnings, SizeIs(1));
+  EXPECT_THAT(read.info.warnings[0],
+              HasSubstr("what is read is /front/color/image_raw with /front/depth/image_rect_raw, "
+                        "not /rear/color/image_raw and 1 more"));
+}
+
 TEST_P(BagRecordings, GiveBackWhatASensorBagWasGiven) {
   RecordingInfo info;
   info.camera.left = {kWidth, kHeight, 30.1, 30.2, 15.3, 11.4};
