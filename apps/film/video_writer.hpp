@@ -18,21 +18,16 @@ class VideoWriter;
 
 namespace heel {
 
-/// What a film in MP4 is for.
-enum class FilmUse {
-  kArchive,  ///< MPEG-4: the same frames give the same bytes.
-  kBrowser,  ///< H.264, which browsers play, where there is an encoder; its bytes may differ.
-};
-
-/// Writes a film.
+/// Writes a film: the same frames give the same bytes on one machine.
 ///
-/// MP4 for a path that ends in .mp4, else Motion JPEG in AVI, which OpenCV can always write. Where
-/// MP4 can't be written, `path()` ends in .avi instead.
+/// For a path that ends in .mp4 that is H.264, which browsers play. Where OpenCV has no encoder of
+/// that, `path()` ends in .webm instead (VP8, which browsers play, too), and where it has none of
+/// these, or for another path, in .avi: Motion JPEG, which OpenCV can always write.
 class FilmWriter {
  public:
   /// @param rate_hz  Frames per second of the film, > 0.
   /// @throws OutputError  if no film can be written there: one sentence.
-  FilmWriter(OutputPath path, double rate_hz, cv::Size size, FilmUse use = FilmUse::kArchive);
+  FilmWriter(OutputPath path, double rate_hz, cv::Size size);
   ~FilmWriter();
   FilmWriter(const FilmWriter&) = delete;
   FilmWriter& operator=(const FilmWriter&) = delete;
@@ -50,7 +45,7 @@ class FilmWriter {
   void close();
 
  private:
-  enum class Format { kH264, kMpeg4, kMotionJpeg };
+  enum class Format { kH264, kVp8, kMotionJpeg };
 
   bool open(const char* ending, Format format);
   void discard();

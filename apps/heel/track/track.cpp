@@ -73,6 +73,7 @@ void run(const TrackOptions& options) {
   output_params.film = !options.no_film;
   output_params.bag = options.bag;
   output_params.inputs = {options.recording, options.model};
+  output_params.person = picturedPerson(options.model, model);
   output_params.odometry_frame = robot.odometryFrame();
   if (!options.bounds_m.empty()) {
     const Eigen::Vector2d lowest(options.bounds_m[0], options.bounds_m[1]);
@@ -144,8 +145,11 @@ void addTrack(CLI::App& app) {
   verb->footer(
       "Example:\n"
       "  heel track recordings/kitchen --model person.yaml --out out/kitchen\n"
-      "Writes tracks.csv (who is where), frames.csv (what every stage left of each frame, and why\n"
-      "there is no target), timing.csv, summary.json, and the film tracks.mp4 with stills.\n"
+      "Writes report.html (open it in a browser), tracks.csv (who is where), frames.csv (what "
+      "every\n"
+      "stage left of each frame, and why there is no target), timing.csv, summary.json, and the "
+      "film\n"
+      "tracks.mp4 with stills.\n"
       "Places are in the base frame; if the robot moves, as the tf or odometry of a bag tells, or\n"
       "the odometry.csv or groundtruth.txt of a folder, in the odometry's: see summary.json.");
   verb->add_option("RECORDING", options->recording, "folder of a recording, or a bag")->required();
@@ -161,7 +165,7 @@ void addTrack(CLI::App& app) {
       ->delimiter(',')
       ->expected(4)
       ->option_text("X0,Y0,X1,Y1");
-  verb->add_flag("--no-film", options->no_film, "write the tables only");
+  verb->add_flag("--no-film", options->no_film, "draw no film and no stills");
   addResultBag(*verb, options->bag);
   addTimeSpan(*verb, options->opening.span);
   addCameraTopics(*verb, options->opening.topics);

@@ -59,14 +59,6 @@ TEST_P(Film, IsTheSameBytesOnEveryRun) {
   EXPECT_EQ(readText(folder / ("a" + GetParam())), readText(folder / ("b" + GetParam())));
 }
 
-TEST(FilmForBrowsers, HoldsItsFrames) {
-  const TempFolder folder;
-  FilmWriter film(folder / "film.mp4", 10.0, kSize, heel::FilmUse::kBrowser);
-  writeFilm(film, 30);
-  cv::VideoCapture read(film.path().string());
-  EXPECT_EQ(read.get(cv::CAP_PROP_FRAME_COUNT), 30.0);
-}
-
 TEST_P(Film, IsNotLeftHalfWritten) {
   const TempFolder folder;
   {
@@ -84,7 +76,8 @@ TEST_P(Film, IsNotLeftHalfWritten) {
 TEST_P(Film, FullDiskIsAnErrorThatLeavesNothing) {
   const TempFolder folder;
   heel::test::makeDiskFullFor(folder / "film.mp4");
-  heel::test::makeDiskFullFor(folder / "film.avi");  // what is tried where MP4 fails
+  heel::test::makeDiskFullFor(folder / "film.webm");  // what is tried where MP4 fails
+  heel::test::makeDiskFullFor(folder / "film.avi");
   EXPECT_THAT(messageOf([&] {
                 FilmWriter film(folder / ("film" + GetParam()), 5.0, kSize);
                 writeFilm(film, 200);
@@ -111,7 +104,7 @@ TEST_P(Film, FolderThatIsMissingIsNamed) {
               HasSubstr("cannot be written: No such file or directory"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, Film, testing::Values(".mp4", ".avi"));
+INSTANTIATE_TEST_SUITE_P(Formats, Film, testing::Values(".mp4", ".webm", ".avi"));
 
 TEST(FilmWriter, RefusesPicturesOfAnotherSizeAndRatesOfNothing) {
   const TempFolder folder;
