@@ -7,7 +7,6 @@
 #include <opencv2/videoio.hpp>
 
 #include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,10 +20,8 @@ FilmWriter::FilmWriter(OutputPath path, double rate_hz, cv::Size size)
     throw std::invalid_argument("FilmWriter: the rate and the size must be above 0");
   }
   writeFile(path_, "film");  // OpenCV does not tell why it can't write; the system does
-  const std::string wanted = path_.named.extension().string();
-  if (wanted == ".mp4" && open(".mp4", Format::kH264)) return;
-  if ((wanted == ".mp4" || wanted == ".webm") && open(".webm", Format::kVp8)) return;
-  if (open(".avi", Format::kMotionJpeg)) return;
+  if (path_.named.extension() == ".mp4" && open(true)) return;
+  if (open(false)) return;
   throw OutputError(path_.named.string() + " cannot be written: OpenCV has no film format here");
 }
 
@@ -38,15 +35,13 @@ void FilmWriter::discard() {
   fs::remove(path_.written, ignored);
 }
 
-bool FilmWriter::open(const char* ending, Format format) {
-  path_.written.replace_extension(ending);
-  path_.named.replace_extension(ending);
+bool FilmWriter::open(bool as_mp4) {
+  path_.written.replace_extension(as_mp4 ? ".mp4" : ".avi");
+  path_.named.replace_extension(as_mp4 ? ".mp4" : ".avi");
   film_ = std::make_unique<cv::VideoWriter>();
-  const bool by_ffmpeg = format != Format::kMotionJpeg;
-  const int codec = format == Format::kH264  ? cv::VideoWriter::fourcc('a', 'v', 'c', '1')
-                    : format == Format::kVp8 ? cv::VideoWriter::fourcc('V', 'P', '8', '0')
-                                             : cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
-  if (film_->open(path_.written.string(), by_ffmpeg ? cv::CAP_FFMPEG : cv::CAP_OPENCV_MJPEG, codec,
+  const int codec = as_mp4 ? cv::VideoWriter::fourcc('a', 'v', 'c', '1')
+                           : cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
+  if (film_->open(path_.written.string(), as_mp4 ? cv::CAP_FFMPEG : cv::CAP_OPENCV_MJPEG, codec,
                   rate_hz_, size_)) {
     return true;
   }

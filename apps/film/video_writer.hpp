@@ -18,11 +18,12 @@ class VideoWriter;
 
 namespace heel {
 
-/// Writes a film: the same frames give the same bytes on one machine.
+/// Writes a film.
 ///
-/// For a path that ends in .mp4 that is H.264, which browsers play. Where OpenCV has no encoder of
-/// that, `path()` ends in .webm instead (VP8, which browsers play, too), and where it has none of
-/// these, or for another path, in .avi: Motion JPEG, which OpenCV can always write.
+/// H.264 in MP4, which browsers play, for a path that ends in .mp4; the same frames are shown by
+/// the same pictures, but the encoder's bytes may differ. Else Motion JPEG in AVI, which OpenCV can
+/// always write, and browsers do not play. Where OpenCV has no H.264, `path()` ends in .avi
+/// instead.
 class FilmWriter {
  public:
   /// @param rate_hz  Frames per second of the film, > 0.
@@ -45,9 +46,7 @@ class FilmWriter {
   void close();
 
  private:
-  enum class Format { kH264, kVp8, kMotionJpeg };
-
-  bool open(const char* ending, Format format);
+  bool open(bool as_mp4);
   void discard();
 
   /// OpenCV does not tell when a frame could not be written; the finished film's own count does.

@@ -48,8 +48,8 @@ std::string bandRow(const BandRow& row, const RunMoments& moments) {
   }
   const std::string title = escapedHtml(row.title);
   return "<div class=\"row bands" + std::string(row.has_legend ? "" : " thin") +
-         "\"><div class=\"name\"><span><b>" + title +
-         "</b></span></div><div class=\"plot\" role=\"img\" aria-label=\"" + title +
+         "\"><div class=\"name\"><span><b>" + title + "</b></span><span>" + escapedHtml(row.note) +
+         "</span></div><div class=\"plot\" role=\"img\" aria-label=\"" + title +
          " over time\"><div class=\"wide\">" + bands + "</div></div>" +
          (row.has_legend ? legendOf(row) : std::string()) + "</div>\n";
 }
@@ -113,6 +113,7 @@ std::string filledRunPage(const RunPage& page, RunMoments moments) {
        {"tone", classOf(page.tone)},
        {"lead", page.lead},
        {"tiles", page.tiles},
+       {"place", page.film.name.empty() ? " no-film" : ""},
        {"film", filmCard(page.film)},
        {"map", page.map},
        {"map_legend", page.map_legend},

@@ -36,6 +36,7 @@ struct BandRow {
   std::string title;
   std::vector<Band> bands;
   bool has_legend = true;  ///< Below it, how long each word held; without, the row is thin.
+  std::string note = {};
 };
 
 /// A row of the timeline that is a chart of one column of the moments.

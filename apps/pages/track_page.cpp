@@ -50,6 +50,7 @@ struct Other {
   std::size_t samples = 0, last_sample = 0;
 
   double probability() const { return probability_sum / static_cast<double>(samples); }
+  bool isPerson() const { return probability() > 0.5; }
 };
 
 double nextStamp(const TrackLog& log, std::size_t i) {
@@ -78,7 +79,7 @@ void add(const TrackLog& log, std::size_t i, const OtherTrack& track, Other& oth
   ++other.samples;
 }
 
-/// The other tracks, who was there longest first.
+/// The other tracks: people before things, who was there longest first.
 std::vector<Other> othersOf(const TrackLog& log) {
   std::map<int, Other> by_id;
   for (std::size_t i = 0; i < log.samples.size(); ++i) {
@@ -89,13 +90,14 @@ std::vector<Other> othersOf(const TrackLog& log) {
   }
   std::vector<Other> others;
   for (auto& entry : by_id) others.push_back(std::move(entry.second));
-  std::stable_sort(others.begin(), others.end(),
-                   [](const Other& a, const Other& b) { return a.samples > b.samples; });
+  std::stable_sort(others.begin(), others.end(), [](const Other& a, const Other& b) {
+    return a.isPerson() != b.isPerson() ? a.isPerson() : a.samples > b.samples;
+  });
   return others;
 }
 
 std::string nameOf(const Other& other) {
-  return (other.probability() > 0.5 ? "Somebody else, track " : "Rather a thing, track ") +
+  return (other.isPerson() ? "Somebody else, track " : "Rather a thing, track ") +
          std::to_string(other.id);
 }
 
@@ -257,7 +259,8 @@ std::vector<BandRow> bandsOf(const TrackLog& log, const std::vector<Other>& othe
   }
   std::vector<BandRow> rows = {states, reasons};
   for (std::size_t i = 0; i < std::min(others.size(), kMostRows); ++i) {
-    rows.push_back({nameOf(others[i]), others[i].bands, false});
+    rows.push_back(
+        {nameOf(others[i]), others[i].bands, false, i == 0 ? "blue: seen; yellow: predicted" : ""});
   }
   return rows;
 }
@@ -323,7 +326,7 @@ std::string tilesOf(const TrackLog& log, const Sums& sums, const std::vector<Oth
                             : shownNumber(kNotKnown, 1);
   };
   const auto people = std::count_if(others.begin(), others.end(),
-                                    [](const Other& other) { return other.probability() > 0.5; });
+                                    [](const Other& other) { return other.isPerson(); });
   const std::string skipped =
       log.skipped == 0 ? "none left out" : std::to_string(log.skipped) + " left out";
   return tile("Target seen", share(sums.seen_s), shownNumber(sums.seen_s, 1, "s"),
@@ -409,6 +412,9 @@ std::string trackPage(const TrackLog& log, const PageFilm& film) {
   for (const StateWords& known : kStates) tones.use(known.words, known.tone);
   RunMoments moments = momentsOf(log, frame, tones);
   for (const StateSpan& span : losses(log)) moments.addLoss(span.from_s, span.to_s);
+  const auto found = std::find_if(log.samples.begin(), log.samples.end(),
+                                  [](const TrackSample& s) { return s.target_m.has_value(); });
+  if (found != log.samples.end()) moments.startAt(found->stamp_s);
   RunPage page;
   page.title = escapedHtml(log.recording) + " \u00b7 Heel";
   page.eyebrow = "Heel \u00b7 a learned person in a recording \u00b7 " + escapedHtml(log.layout);

@@ -24,9 +24,11 @@ constexpr double kBlobRadius_m = 0.15;
 
 /// Outlines what the mask lets pass. Specks, of which a real picture has many, are left out.
 void outline(const cv::Mat& mask, cv::Mat& image) {
-  constexpr double kLeastArea_px = 40.0;
+  constexpr double kLeastArea_px = 200.0;
+  constexpr int kSmoothed_px = 9;
   cv::Mat fitted;
   cv::resize(mask, fitted, image.size(), 0, 0, cv::INTER_NEAREST);
+  cv::medianBlur(fitted, fitted, kSmoothed_px);
   std::vector<std::vector<cv::Point>> outlines;
   cv::findContours(fitted, outlines, cv::RETR_CCOMP, cv::CHAIN_APPROX_SIMPLE);
   for (std::size_t i = 0; i < outlines.size(); ++i) {

@@ -113,6 +113,7 @@
     const leave = () => {  // its file is not there, or of a format that is not played here
       if (!film) return;
       byId('film-card').remove();
+      byId('place').classList.add('no-film');
       film = null;
       playing(false);
     };
@@ -127,13 +128,14 @@
 
   // --- Charts ----------------------------------------------------------------------------------
 
-  function axes(size, is_ruler) {
+  function axes(is_ruler) {
     const stroke = () => tone('--soft'), font = '12px system-ui, sans-serif';
     const grid = {stroke: () => tone('--grid'), width: 1}, ticks = {show: false};
     const clock = (u, values) => values.map((v) => is_ruler ? v + (v === 0 ? ' s' : '') : '');
     return [{stroke, font, grid: is_ruler ? {show: false} : grid, ticks, space: 70, gap: 4,
              size: is_ruler ? 24 : 0, values: clock},
-            {stroke, font, grid, ticks, size: gutter(), gap: 6, space: 26, show: !is_ruler}];
+            {stroke, font, grid, ticks, size: gutter, gap: 6, space: 26,
+             values: is_ruler ? () => [] : undefined}];
   }
 
   /** Tints the times without a target, and draws the limit. */
@@ -174,9 +176,9 @@
     });
     const color = () => tone(chart.tone);
     return new uPlot({
-      width: 300, height: 96, padding: [8, 0, 0, 0], legend: {show: false}, cursor: {show: false},
+      width: 300, height: 100, padding: [8, 0, 8, 0], legend: {show: false}, cursor: {show: false},
       scales: {x: {time: false, range: () => [view.from, view.to]}, y: {range: () => [0, top]}},
-      axes: axes(0, false),
+      axes: axes(false),
       series: [{}, {stroke: color, fill: () => color() + '1f', width: 1.6,
                     points: {show: true, size: 4, stroke: color, fill: color, filter: () => alone}}],
       hooks: {drawClear: [behind(chart)]},
@@ -187,7 +189,7 @@
     return new uPlot({
       width: 300, height: 24, padding: [0, 0, 0, 0], legend: {show: false}, cursor: {show: false},
       scales: {x: {time: false, range: () => [view.from, view.to]}, y: {range: () => [0, 1]}},
-      axes: axes(0, true), series: [{}, {show: false}],
+      axes: axes(true), series: [{}, {show: false}],
     }, [time, time], byId('ruler'));
   }
 
@@ -195,12 +197,9 @@
   const ruler = count ? makeRuler() : null;
 
   function fit() {
-    const width = timeline.clientWidth, left = gutter();
-    for (const chart of charts) {
-      chart.axes[1].size = () => left;
-      chart.setSize({width: width, height: 96});
-    }
-    if (ruler) ruler.setSize({width: width - left, height: 24});
+    const width = timeline.clientWidth;
+    for (const chart of charts) chart.setSize({width, height: 100});
+    if (ruler) ruler.setSize({width, height: 24});
   }
   new ResizeObserver(fit).observe(timeline);
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {

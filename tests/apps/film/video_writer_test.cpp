@@ -16,7 +16,6 @@ namespace {
 using heel::FilmWriter;
 using heel::test::isThere;
 using heel::test::messageOf;
-using heel::test::readText;
 using heel::test::TempFolder;
 using testing::HasSubstr;
 
@@ -50,13 +49,19 @@ TEST_P(Film, HoldsItsFramesAtItsRate) {
   EXPECT_LT(cv::norm(first, pictureOf(0), cv::NORM_L1) / (3.0 * kSize.area()), 5.0);
 }
 
-TEST_P(Film, IsTheSameBytesOnEveryRun) {
+TEST_P(Film, ShowsTheSameOnEveryRun) {
   const TempFolder folder;
   for (const char* run : {"a", "b"}) {
     FilmWriter film(folder / (run + GetParam()), 10.0, kSize);
     writeFilm(film, 40);
   }
-  EXPECT_EQ(readText(folder / ("a" + GetParam())), readText(folder / ("b" + GetParam())));
+  cv::VideoCapture a((folder / ("a" + GetParam())).string());
+  cv::VideoCapture b((folder / ("b" + GetParam())).string());
+  cv::Mat in_a, in_b;
+  for (int frame = 0; frame < 40; ++frame) {
+    ASSERT_TRUE(a.read(in_a) && b.read(in_b)) << frame;
+    EXPECT_EQ(cv::norm(in_a, in_b, cv::NORM_INF), 0.0) << frame;
+  }
 }
 
 TEST_P(Film, IsNotLeftHalfWritten) {
@@ -76,8 +81,7 @@ TEST_P(Film, IsNotLeftHalfWritten) {
 TEST_P(Film, FullDiskIsAnErrorThatLeavesNothing) {
   const TempFolder folder;
   heel::test::makeDiskFullFor(folder / "film.mp4");
-  heel::test::makeDiskFullFor(folder / "film.webm");  // what is tried where MP4 fails
-  heel::test::makeDiskFullFor(folder / "film.avi");
+  heel::test::makeDiskFullFor(folder / "film.avi");  // what is tried where MP4 fails
   EXPECT_THAT(messageOf([&] {
                 FilmWriter film(folder / ("film" + GetParam()), 5.0, kSize);
                 writeFilm(film, 200);
@@ -104,7 +108,7 @@ TEST_P(Film, FolderThatIsMissingIsNamed) {
               HasSubstr("cannot be written: No such file or directory"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, Film, testing::Values(".mp4", ".webm", ".avi"));
+INSTANTIATE_TEST_SUITE_P(Formats, Film, testing::Values(".mp4", ".avi"));
 
 TEST(FilmWriter, RefusesPicturesOfAnotherSizeAndRatesOfNothing) {
   const TempFolder folder;
