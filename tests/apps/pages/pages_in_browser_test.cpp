@@ -32,7 +32,7 @@ const char* const kPhone = R"(<!DOCTYPE html><html><body><script>
 addEventListener('message', (event) => {
   document.body.insertAdjacentHTML('beforeend', '<b>said: ' + event.data + '</b>');
 });
-</script><iframe src="page.html" width="400" height="900" style="border: 0"></iframe></body></html>)";
+</script><iframe src="page.html" width="400" height="30000" style="border: 0"></iframe></body></html>)";
 
 /// Means for the scripts of these tests: what they say ends up in the page.
 const char* const kMeans = R"(<script>
