@@ -334,14 +334,16 @@ std::string tilesOf(const TrackLog& log, const Sums& sums, const std::vector<Oth
          tile("Predicted, not seen", share(sums.predicted_s),
               shownNumber(sums.predicted_s, 1, "s")) +
          tile("Lost", sums.losses == 0 ? "never" : timesText(sums.losses),
-              "longest for " + shownNumber(sums.longest_s, 1, "s")) +
+              sums.losses == 0 ? "once it was found"
+                               : "longest for " + shownNumber(sums.longest_s, 1, "s")) +
          tile("Others", std::to_string(people),
               "tracks of people; " + std::to_string(others.size() - std::size_t(people)) +
                   " of things") +
          tile("Frames", std::to_string(log.samples.size()), skipped) +
          tile("Time", shownNumber(sums.all_s, 1, "s"), escapedHtml(log.layout)) +
          tile("Robot", log.moves ? "moves" : "stands",
-              "places in the frame " + escapedHtml(log.frame)) +
+              log.moves ? "places in the frame " + escapedHtml(log.frame)
+                        : "places as seen from it") +
          tile("Model", escapedHtml(log.person.empty() ? "without a name" : log.person),
               "learned before");
 }
