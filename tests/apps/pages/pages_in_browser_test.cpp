@@ -6,6 +6,7 @@
 #include "tests/support/track_run.hpp"
 #include <heel/apps/film/video_writer.hpp>
 #include <heel/apps/pages/follow_page.hpp>
+#include <heel/apps/pages/localize_page.hpp>
 #include <heel/apps/pages/track_page.hpp>
 
 #include <gmock/gmock.h>
@@ -114,7 +115,8 @@ TEST_F(PagesInBrowser, RunWithoutAnError) {
 }
 
 TEST_F(PagesInBrowser, EmptyRunsAreNoError) {
-  for (const std::string& page : {followPageOf({}), heel::trackPage({})}) {
+  for (const std::string& page :
+       {followPageOf({}), heel::trackPage({}), heel::localizePage({}, {})}) {
     const Shown shown = show(page, "key('ArrowRight'); key(' '); drag(.2, .6); drag(.5, .5);");
     EXPECT_THAT(shown.dom, HasSubstr("data-ready=\"0\""));
     EXPECT_THAT(shown.log, Not(HasSubstr("CONSOLE")));
