@@ -56,7 +56,7 @@ std::string timingTable(const std::vector<StageTime>& stages, const StageTime& s
   for (const StageTime& stage : stages) most_ms = std::fmax(most_ms, stage.mean_ms);
   std::string rows;
   for (const StageTime& stage : stages) {
-    rows += "<tr><th scope=\"row\">" + escapedHtml(stage.name) + "</th><td>" +
+    rows += "<tr><th scope=\"row\">" + escapedHtml(wordsOf(stage.name)) + "</th><td>" +
             shownNumber(stage.mean_ms, 2) + "</td><td>" + shownNumber(stage.p95_ms, 2) +
             "</td><td>" + bar(most_ms > 0.0 ? stage.mean_ms / most_ms : 0.0) + "</td></tr>\n";
   }

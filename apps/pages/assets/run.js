@@ -131,7 +131,9 @@
   function axes(is_ruler) {
     const stroke = () => tone('--soft'), font = '12px system-ui, sans-serif';
     const grid = {stroke: () => tone('--grid'), width: 1}, ticks = {show: false};
-    const clock = (u, values) => values.map((v) => is_ruler ? v + (v === 0 ? ' s' : '') : '');
+    // A number at the right end would be cut.
+    const fits = (v) => is_ruler && v < view.to - 0.02 * (view.to - view.from);
+    const clock = (u, values) => values.map((v) => fits(v) ? +v.toFixed(2) + (v ? '' : ' s') : '');
     return [{stroke, font, grid: is_ruler ? {show: false} : grid, ticks, space: 70, gap: 4,
              size: is_ruler ? 24 : 0, values: clock},
             {stroke, font, grid, ticks, size: gutter, gap: 6, space: 26,
