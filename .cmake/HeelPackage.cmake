@@ -17,14 +17,17 @@ foreach(text changelog.Debian changelog)
   file(ARCHIVE_CREATE OUTPUT "${control_folder}/${text}.gz" PATHS "${control_folder}/${text}"
     FORMAT raw COMPRESSION GZip COMPRESSION_LEVEL 9)
 endforeach()
+file(READ "${PROJECT_SOURCE_DIR}/LICENSE" licence)
+file(READ "${PROJECT_SOURCE_DIR}/apps/pages/assets/uplot/LICENSE" uplot_licence)
+file(WRITE "${control_folder}/copyright" "${licence}\n\n"
+  "The command's reports contain uPlot (https://github.com/leeoniya/uPlot):\n\n${uplot_licence}\n")
 foreach(package "heel;runtime" "heel-dev;development")
   list(GET package 0 name)
   list(GET package 1 component)
   set(folder "${CMAKE_INSTALL_DATADIR}/doc/${name}")
   install(FILES "${control_folder}/changelog.Debian.gz" "${control_folder}/changelog.gz"
     DESTINATION "${folder}" COMPONENT ${component})
-  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${folder}" RENAME copyright
-    COMPONENT ${component})
+  install(FILES "${control_folder}/copyright" DESTINATION "${folder}" COMPONENT ${component})
 endforeach()
 
 set(CPACK_GENERATOR DEB)

@@ -14,18 +14,14 @@ namespace heel {
 
 namespace fs = std::filesystem;
 
-FilmWriter::FilmWriter(OutputPath path, double rate_hz, cv::Size size, FilmUse use)
+FilmWriter::FilmWriter(OutputPath path, double rate_hz, cv::Size size)
     : path_(std::move(path)), rate_hz_(rate_hz), size_(size) {
   if (!(rate_hz > 0.0) || size.empty()) {
     throw std::invalid_argument("FilmWriter: the rate and the size must be above 0");
   }
   writeFile(path_, "film");  // OpenCV does not tell why it can't write; the system does
-  const bool wants_mp4 = path_.named.extension() == ".mp4";
-  if (wants_mp4 && use == FilmUse::kBrowser && open(".mp4", Format::kH264)) return;
-  if (wants_mp4 && open(".mp4", Format::kMpeg4)) return;
-  discard();
-  if (open(".avi", Format::kMotionJpeg)) return;
-  discard();
+  if (path_.named.extension() == ".mp4" && open(true)) return;
+  if (open(false)) return;
   throw OutputError(path_.named.string() + " cannot be written: OpenCV has no film format here");
 }
 
@@ -39,16 +35,18 @@ void FilmWriter::discard() {
   fs::remove(path_.written, ignored);
 }
 
-bool FilmWriter::open(const char* ending, Format format) {
-  path_.written.replace_extension(ending);
-  path_.named.replace_extension(ending);
+bool FilmWriter::open(bool as_mp4) {
+  path_.written.replace_extension(as_mp4 ? ".mp4" : ".avi");
+  path_.named.replace_extension(as_mp4 ? ".mp4" : ".avi");
   film_ = std::make_unique<cv::VideoWriter>();
-  const bool is_mp4 = format != Format::kMotionJpeg;
-  const int codec = format == Format::kH264    ? cv::VideoWriter::fourcc('a', 'v', 'c', '1')
-                    : format == Format::kMpeg4 ? cv::VideoWriter::fourcc('m', 'p', '4', 'v')
-                                               : cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
-  return film_->open(path_.written.string(), is_mp4 ? cv::CAP_FFMPEG : cv::CAP_OPENCV_MJPEG, codec,
-                     rate_hz_, size_);
+  const int codec = as_mp4 ? cv::VideoWriter::fourcc('a', 'v', 'c', '1')
+                           : cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
+  if (film_->open(path_.written.string(), as_mp4 ? cv::CAP_FFMPEG : cv::CAP_OPENCV_MJPEG, codec,
+                  rate_hz_, size_)) {
+    return true;
+  }
+  discard();
+  return false;
 }
 
 bool FilmWriter::isWhole() const {

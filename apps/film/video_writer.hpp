@@ -18,21 +18,17 @@ class VideoWriter;
 
 namespace heel {
 
-/// What a film in MP4 is for.
-enum class FilmUse {
-  kArchive,  ///< MPEG-4: the same frames give the same bytes.
-  kBrowser,  ///< H.264, which browsers play, where there is an encoder; its bytes may differ.
-};
-
 /// Writes a film.
 ///
-/// MP4 for a path that ends in .mp4, else Motion JPEG in AVI, which OpenCV can always write. Where
-/// MP4 can't be written, `path()` ends in .avi instead.
+/// H.264 in MP4, which browsers play, for a path that ends in .mp4; the same frames are shown by
+/// the same pictures, but the encoder's bytes may differ. Else Motion JPEG in AVI, which OpenCV can
+/// always write, and browsers do not play. Where OpenCV has no H.264, `path()` ends in .avi
+/// instead.
 class FilmWriter {
  public:
   /// @param rate_hz  Frames per second of the film, > 0.
   /// @throws OutputError  if no film can be written there: one sentence.
-  FilmWriter(OutputPath path, double rate_hz, cv::Size size, FilmUse use = FilmUse::kArchive);
+  FilmWriter(OutputPath path, double rate_hz, cv::Size size);
   ~FilmWriter();
   FilmWriter(const FilmWriter&) = delete;
   FilmWriter& operator=(const FilmWriter&) = delete;
@@ -50,9 +46,7 @@ class FilmWriter {
   void close();
 
  private:
-  enum class Format { kH264, kMpeg4, kMotionJpeg };
-
-  bool open(const char* ending, Format format);
+  bool open(bool as_mp4);
   void discard();
 
   /// OpenCV does not tell when a frame could not be written; the finished film's own count does.

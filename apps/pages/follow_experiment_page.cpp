@@ -2,16 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/output/csv_file.hpp>
-#include <heel/apps/pages/charts.hpp>
 #include <heel/apps/pages/follow_experiment_page.hpp>
 #include <heel/apps/pages/follow_page.hpp>
 #include <heel/apps/pages/html.hpp>
 #include <heel/apps/pages/page_parts.hpp>
 
 #include "page_assets.hpp"
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 namespace heel {
@@ -92,6 +93,21 @@ std::string headCells(const std::vector<std::string>& plans) {
   std::string cells;
   for (const std::string& plan : plans) cells += "<th scope=\"col\">" + planName(plan) + "</th>";
   return cells;
+}
+
+/// A place for the bars of the values that are known, and the middle one of these.
+std::string histogram(const std::string& title, const std::string& unit,
+                      const std::vector<double>& values) {
+  std::vector<double> known;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(known),
+               [](double value) { return std::isfinite(value); });
+  const std::string head =
+      "<figure class=\"histogram\"><figcaption><b>" + title + "</b> [" + unit + "]";
+  if (known.empty()) return head + " no values</figcaption></figure>\n";
+  std::sort(known.begin(), known.end());
+  return head + " median " + shownNumber(known[known.size() / 2], 2) +
+         "</figcaption><div role=\"img\" aria-label=\"Histogram: " + title + "\" data-values=\"" +
+         nlohmann::json(known).dump() + "\"></div></figure>\n";
 }
 
 std::string histogramsOf(const FollowExperiment& experiment, const std::string& plan) {
@@ -235,11 +251,13 @@ std::string followExperimentPage(const FollowExperiment& experiment) {
       std::count_if(experiment.table1.begin(), experiment.table1.end(), isFailure);
   return filledTemplate(assets::kExperimentHtml,
                         {{"title", escapedHtml(experiment.title)},
-                         {"style", assets::kPageCss},
+                         {"style", std::string(assets::kPageCss) + assets::kUplotCss},
+                         {"uplot_licence", assets::kUplotLicence},
+                         {"uplot", assets::kUplotJs},
+                         {"script", assets::kHistogramsJs},
                          {"tiles", tiles(experiment)},
                          {"speed_limit", shownNumber(experiment.max_speed_mps, 1, "m/s")},
                          {"table1", table1Rows(experiment)},
-
                          {"episodes", std::to_string(experiment.episodes.size())},
                          {"counts", countRows(experiment)},
                          {"plans", headCells(experiment.plans)},

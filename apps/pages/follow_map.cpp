@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/output/csv_file.hpp>
-#include <heel/apps/pages/charts.hpp>
 #include <heel/apps/pages/follow_map.hpp>
 #include <heel/apps/pages/html.hpp>
 #include <heel/apps/pictures/map_picture.hpp>
@@ -15,17 +14,10 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kMargin_m = 0.25;
 constexpr double kPathTolerance_m = 0.015;
 constexpr double kSlots = 24.0;  ///< About so many moments are marked on both paths.
 
 const Vector2d kNowhere(kNotKnown, kNotKnown);
-
-std::string place(const Vector2d& at) { return fixedText(at.x(), 2) + " " + fixedText(at.y(), 2); }
-
-std::string shape(const std::string& of_class, const std::string& path) {
-  return path.empty() ? std::string() : "<path class=\"" + of_class + "\" d=\"" + path + "\"/>\n";
-}
 
 /// The path of somebody; absent stretches break it.
 template <typename PlaceOf>
@@ -38,14 +30,9 @@ std::string pathOf(const FollowLog& log, const MapFrame& frame, PlaceOf&& place_
   return svgPath(simplified(points, kPathTolerance_m));
 }
 
-/// A square and a diamond of this half width.
-std::string squareAt(const Vector2d& at, double half) {
-  const auto corner = [&](double x, double y) { return place(at + half * Vector2d(x, y)); };
-  return "M" + corner(-1, -1) + "L" + corner(1, -1) + "L" + corner(1, 1) + "L" + corner(-1, 1) +
-         "Z";
-}
+/// A diamond of this half width.
 std::string diamondAt(const Vector2d& at, double half) {
-  const auto corner = [&](double x, double y) { return place(at + half * Vector2d(x, y)); };
+  const auto corner = [&](double x, double y) { return svgPlace(at + half * Vector2d(x, y)); };
   return "M" + corner(0, -1) + "L" + corner(1, 0) + "L" + corner(0, 1) + "L" + corner(-1, 0) + "Z";
 }
 
@@ -53,20 +40,6 @@ std::size_t mostOthers(const FollowLog& log) {
   std::size_t most = 0;
   for (const FollowSample& sample : log.samples) most = std::max(most, sample.others_true.size());
   return most;
-}
-
-/// Lines of whole metres, wider apart on a large map.
-std::string lattice(const MapFrame& frame) {
-  const Vector2d size = frame.size(), corner = frame.topLeft();
-  const double step = niceStep(size.maxCoeff(), 12);
-  std::string path;
-  for (double x = std::ceil(corner.x() / step) * step; x < corner.x() + size.x(); x += step) {
-    path += "M" + place({x - corner.x(), 0.0}) + "V" + fixedText(size.y(), 2);
-  }
-  for (double y = std::floor(corner.y() / step) * step; y > corner.y() - size.y(); y -= step) {
-    path += "M" + place({0.0, corner.y() - y}) + "H" + fixedText(size.x(), 2);
-  }
-  return shape("lattice", path);
 }
 
 /// As in the paper's figure: squares where the robot was, diamonds where it took the person to be
@@ -86,11 +59,11 @@ std::string slots(const FollowLog& log, const MapFrame& frame) {
                    target = frame(*sample.target_estimate);
     if (!target.allFinite() || (robot - marked).norm() < 0.2 * frame.markScale()) continue;
     marked = robot;
-    joins += "M" + place(robot) + "L" + place(target);
-    squares += squareAt(robot, 0.05 * frame.markScale());
+    joins += "M" + svgPlace(robot) + "L" + svgPlace(target);
+    squares += svgSquare(robot, 0.05 * frame.markScale());
     diamonds += diamondAt(target, 0.08 * frame.markScale());
   }
-  return shape("slots", joins) + shape("squares", squares) + shape("diamonds", diamonds);
+  return svgShape("slots", joins) + svgShape("squares", squares) + svgShape("diamonds", diamonds);
 }
 
 std::string eventMarks(const FollowLog& log, const MapFrame& frame) {
@@ -100,7 +73,7 @@ std::string eventMarks(const FollowLog& log, const MapFrame& frame) {
     if (!event.place_m.allFinite()) continue;
     marks +=
         "<g class=\"mark " + std::string(event.is_found ? "found" : "lost") +
-        "\" transform=\"translate(" + place(frame(event.place_m)) + ") scale(" +
+        "\" transform=\"translate(" + svgPlace(frame(event.place_m)) + ") scale(" +
         fixedText(frame.markScale(), 2) + ")\"><title>" +
         (event.is_found ? "found again after " : "lost after ") +
         fixedText(event.stamp_s - log.samples.front().stamp_s, 1) +
@@ -126,7 +99,7 @@ std::string terminals(const FollowLog& log, const MapFrame& frame, const std::st
   const double half = 0.11 * frame.markScale();
   return "<circle class=\"" + of_class + "\" cx=\"" + fixedText(first->x(), 2) + "\" cy=\"" +
          fixedText(first->y(), 2) + "\" r=\"" + fixedText(half, 2) + "\"><title>start of " + who +
-         "</title></circle>\n<path class=\"" + of_class + "\" d=\"" + squareAt(*last, 0.9 * half) +
+         "</title></circle>\n<path class=\"" + of_class + "\" d=\"" + svgSquare(*last, 0.9 * half) +
          "\"><title>end of " + who + "</title></path>\n";
 }
 
@@ -150,42 +123,34 @@ std::string movingMarks(const FollowLog& log) {
 std::optional<Vector2d> robotOf(const FollowSample& sample) { return sample.robot_true.position; }
 std::optional<Vector2d> personOf(const FollowSample& sample) { return sample.person_true; }
 
-std::string legendItem(const std::string& drawing, const std::string& text) {
-  return "<li><svg viewBox=\"0 0 26 14\" aria-hidden=\"true\">" + drawing + "</svg>" + text +
-         "</li>\n";
-}
-
 }  // namespace
 
-MapFrame::MapFrame(const FollowLog& log) : bounds_(occupiedBounds(log.map)) {
+MapFrame followFrame(const FollowLog& log) {
+  Eigen::AlignedBox2d bounds = occupiedBounds(log.map);
   for (const FollowSample& sample : log.samples) {
     for (const auto& at : {robotOf(sample), personOf(sample)}) {
-      if (at && at->allFinite()) bounds_.extend(*at);
+      if (at && at->allFinite()) bounds.extend(*at);
     }
   }
-  if (bounds_.isEmpty()) bounds_ = {Vector2d(-1.0, -1.0), Vector2d(1.0, 1.0)};
-  bounds_.min() -= Vector2d::Constant(kMargin_m);
-  bounds_.max() += Vector2d::Constant(kMargin_m);
+  return MapFrame(bounds);
 }
 
 std::string followMap(const FollowLog& log, const MapFrame& frame) {
-  std::string svg = "<svg viewBox=\"0 0 " + place(frame.size()) +
-                    "\" role=\"img\" aria-label=\"Map seen from above with the paths of the robot "
-                    "and of the person\">\n";
-  svg += lattice(frame);
+  std::string svg =
+      svgMap(frame, "Map seen from above with the paths of the robot and of the person");
   if (!log.map.empty()) {
-    svg += shape("nobody-knows", outlinePath(log.map, Occupancy::kUnknown, frame.topLeft()));
-    svg += shape("walls", outlinePath(log.map, Occupancy::kOccupied, frame.topLeft()));
+    svg += svgShape("nobody-knows", outlinePath(log.map, Occupancy::kUnknown, frame.topLeft()));
+    svg += svgShape("walls", outlinePath(log.map, Occupancy::kOccupied, frame.topLeft()));
   }
   for (std::size_t i = 0; i < mostOthers(log); ++i) {
-    svg += shape("other-path", pathOf(log, frame, [i](const FollowSample& sample) {
-                   return i < sample.others_true.size()
-                              ? std::optional<Vector2d>(sample.others_true[i])
-                              : std::nullopt;
-                 }));
+    svg += svgShape("other-path", pathOf(log, frame, [i](const FollowSample& sample) {
+                      return i < sample.others_true.size()
+                                 ? std::optional<Vector2d>(sample.others_true[i])
+                                 : std::nullopt;
+                    }));
   }
-  svg += shape("person-path", pathOf(log, frame, personOf));
-  svg += shape("robot-path", pathOf(log, frame, robotOf));
+  svg += svgShape("person-path", pathOf(log, frame, personOf));
+  svg += svgShape("robot-path", pathOf(log, frame, robotOf));
   svg += slots(log, frame);
   svg += terminals(log, frame, "terminal person", "the person's way", personOf);
   svg += terminals(log, frame, "terminal", "the robot's way", robotOf);
@@ -194,15 +159,11 @@ std::string followMap(const FollowLog& log, const MapFrame& frame) {
 }
 
 std::string followMapLegend(const FollowLog& log) {
-  const std::string line = "stroke-width=\"2.4\" fill=\"none\" d=\"M0 7H26\"";
   std::string items =
-      legendItem("<path stroke=\"var(--robot)\" " + line + "/>", "robot") +
-      legendItem("<path stroke=\"var(--person)\" stroke-dasharray=\"6 4\" " + line + "/>",
+      legendLine("--robot", "none", "robot") +
+      legendLine("--person", "6 4",
                  log.person.empty() ? "person" : "person: " + escapedHtml(log.person));
-  if (mostOthers(log) > 0) {
-    items += legendItem("<path stroke=\"var(--other)\" stroke-dasharray=\"1 4\" " + line + "/>",
-                        "other people");
-  }
+  if (mostOthers(log) > 0) items += legendLine("--other", "1 4", "other people");
   items += legendItem(
       "<circle cx=\"7\" cy=\"7\" r=\"5\" fill=\"var(--soft)\"/><path fill=\"var(--soft)\" "
       "d=\"M16 2h10v10h-10Z\"/>",
@@ -222,6 +183,31 @@ std::string followMapLegend(const FollowLog& log) {
         "lost, found");
   }
   return items;
+}
+
+void addFollowMarks(const FollowLog& log, const MapFrame& frame, RunMoments& moments) {
+  const auto add = [&](const std::string& id, auto&& place_of, const RunMoments::Number& turn) {
+    moments.addMark(
+        id,
+        [&](std::size_t i) {
+          const std::optional<Vector2d> at = place_of(log.samples[i]);
+          return at ? std::optional<Vector2d>(frame(*at)) : std::nullopt;
+        },
+        turn);
+  };
+  add("now-robot", robotOf, [&](std::size_t i) { return log.samples[i].robot_true.yaw_rad; });
+  add("now-person", personOf, nullptr);
+  add(
+      "now-estimate", [](const FollowSample& s) { return s.target_estimate; }, nullptr);
+  for (std::size_t k = 0; k < mostOthers(log); ++k) {
+    add(
+        "now-other-" + std::to_string(k),
+        [k](const FollowSample& s) {
+          return k < s.others_true.size() ? std::optional<Vector2d>(s.others_true[k])
+                                          : std::nullopt;
+        },
+        nullptr);
+  }
 }
 
 }  // namespace heel

@@ -1,15 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/output/csv_file.hpp>
-#include <heel/apps/pages/charts.hpp>
 #include <heel/apps/pages/follow_map.hpp>
 #include <heel/apps/pages/follow_page.hpp>
 #include <heel/apps/pages/html.hpp>
 #include <heel/apps/pages/page_parts.hpp>
-
-#include "page_assets.hpp"
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 
@@ -73,109 +68,78 @@ std::string tiles(const FollowSummary& sum) {
               shownNumber(sum.last_distance_m, 2, "m") + " at the end");
 }
 
-/// The states as bands, each with its time as a title.
-std::string bands(const FollowLog& log, const TimeScale& scale, StateTones& tones) {
-  std::string rects;
+BandRow stateBands(const FollowLog& log, StateTones& tones) {
+  BandRow row{"What the robot does", {}};
   for (const StateSpan& span : stateSpans(log.samples)) {
-    const double from = 1000.0 * scale.share(span.from_s), to = 1000.0 * scale.share(span.to_s);
-    rects += "<rect x=\"" + fixedText(from, 2) + "\" y=\"0\" width=\"" +
-             fixedText(std::max(0.0, to - from), 2) + "\" height=\"100\" fill=\"var(" +
-             tones.of(span.state) + ")\"><title>" + escapedHtml(wordsOf(span.state)) + ", " +
-             fixedText(span.from_s - scale.first_s, 1) + " to " +
-             fixedText(span.to_s - scale.first_s, 1) + " s</title></rect>";
+    row.bands.push_back({span.from_s, span.to_s, wordsOf(span.state), tones.of(span.state)});
   }
-  return "<div class=\"row bands\"><div class=\"plot\"><svg viewBox=\"0 0 1000 100\" "
-         "preserveAspectRatio=\"none\" role=\"img\" aria-label=\"States over time\">" +
-         rects + "</svg></div></div>\n";
+  return row;
 }
 
-std::string stateLegend(const FollowLog& log, StateTones& tones) {
-  std::map<std::string, double> seconds;
-  for (const StateSpan& span : stateSpans(log.samples)) {
-    seconds[span.state] += span.to_s - span.from_s;
-  }
-  std::string items;
-  for (const std::string& state : tones.states()) {
-    items +=
-        "<li><svg viewBox=\"0 0 26 14\" aria-hidden=\"true\"><rect width=\"26\" height=\"14\" "
-        "rx=\"4\" fill=\"var(" +
-        std::string(tones.of(state)) + ")\"/></svg>" + escapedHtml(wordsOf(state)) + " " +
-        shownNumber(seconds[state], 1, "s") + "</li>\n";
-  }
-  return items;
-}
-
-std::string charts(const FollowLog& log, const TimeScale& scale) {
-  ChartParams distance;
-  distance.title = "Distance to the person";
-  distance.unit = "m";
-  distance.style = "person";
+std::vector<Chart> charts(const FollowLog& log) {
+  Chart distance{"Distance to the person", "m", "dashed: 1 m, where it stops; red: target lost",
+                 "distance", "--person"};
   distance.least_top = 2.0;
   distance.limit = 1.0;
-  distance.limit_text = "dashed: 1 m, where it stops; red: target lost";
-  ChartParams speed;
-  speed.title = "Speed";
-  speed.unit = "m/s";
-  speed.style = "robot";
+  distance.has_losses = true;
+  Chart speed{"Speed", "m/s", "dashed: the limit of " + shownNumber(log.max_speed_mps, 2, "m/s"),
+              "speed", "--robot"};
   speed.least_top = 0.1;
   speed.limit = log.max_speed_mps;
-  speed.limit_text = "dashed: the limit of " + shownNumber(log.max_speed_mps, 2, "m/s");
-  ChartParams clearance;
-  clearance.title = "Clearance";
-  clearance.unit = "m";
-  clearance.style = "clear";
+  Chart clearance{"Clearance", "m", "gap between the robot and the nearest thing or person",
+                  "clearance", "--s-face"};
   clearance.least_top = 0.5;
   clearance.most_top = 2.0;
-  clearance.limit_text = "gap between the robot and the nearest thing or person";
-  ChartParams commanded = speed;
+  clearance.has_losses = true;
+  if (!log.is_shadow) return {distance, speed, clearance};
+  Chart commanded = speed;
   commanded.title = "Speed that Heel would have driven";
-  const std::string lost = lostTimes(log.samples, scale);
-  return timeChart(
-             log.samples, scale, [](const auto& s) { return s.person_distance_m; }, distance,
-             lost) +
-         timeChart(
-             log.samples, scale, [](const auto& s) { return std::abs(s.speed_true.forward_mps); },
-             speed) +
-         (log.is_shadow
-              ? timeChart(
-                    log.samples, scale,
-                    [](const auto& s) { return std::abs(s.command.forward_mps); }, commanded)
-              : std::string()) +
-         timeChart(
-             log.samples, scale, [](const auto& s) { return s.clearance_m; }, clearance, lost);
+  commanded.column = "commanded";
+  return {distance, speed, commanded, clearance};
 }
 
-std::string snapshots(const FollowLog& log, const TimeScale& scale) {
+RunMoments moments(const FollowLog& log, const MapFrame& frame, std::size_t most,
+                   StateTones& tones) {
+  std::vector<double> stamps_s;
+  double start_s = 0.0;
+  for (const FollowSample& sample : log.samples) {
+    stamps_s.push_back(sample.stamp_s);
+    if (sample.state == "learn") start_s = sample.stamp_s;
+  }
+  RunMoments moments(stamps_s, most);
+  const auto of = [&](auto&& value) {
+    return [&log, value](std::size_t i) { return value(log.samples[i]); };
+  };
+  using Sample = const FollowSample&;
+  moments.addState(of([](Sample s) { return s.state; }), of([](Sample s) { return s.reason; }),
+                   tones);
+  moments.addColumn("distance", of([](Sample s) { return s.person_distance_m; }));
+  moments.addColumn("speed", of([](Sample s) { return std::abs(s.speed_true.forward_mps); }));
+  if (log.is_shadow) {
+    moments.addColumn("commanded", of([](Sample s) { return std::abs(s.command.forward_mps); }));
+  }
+  moments.addColumn("clearance", of([](Sample s) { return s.clearance_m; }));
+  moments.addColumn("error", of([](Sample s) {
+                      return (s.robot_estimated.position - s.robot_true.position).norm();
+                    }));
+  addFollowMarks(log, frame, moments);
+  moments.startAt(start_s);
+  double lost_s = kNotKnown;
+  for (const TargetEvent& event : targetEvents(log.samples)) {
+    if (event.is_found) moments.addLoss(lost_s, event.stamp_s);
+    lost_s = event.is_found ? kNotKnown : event.stamp_s;
+  }
+  if (std::isfinite(lost_s)) moments.addLoss(lost_s, log.samples.back().stamp_s);
+  return moments;
+}
+
+std::string stills(const FollowLog& log) {
   std::string figures;
   for (const FollowSnapshot& shot : log.snapshots) {
-    const std::string address = pictureAddress(shot.picture_bgr);
-    if (address.empty()) continue;
-    const std::string caption = escapedHtml(shot.caption);
-    figures += "<figure class=\"shot\"><img src=\"" + address + "\" width=\"" +
-               std::to_string(shot.picture_bgr.cols) + "\" height=\"" +
-               std::to_string(shot.picture_bgr.rows) + "\" alt=\"" + caption +
-               "\"/><figcaption><button type=\"button\" data-stamp=\"" +
-               fixedText(shot.stamp_s, 3) + "\" title=\"Show this moment on the map\">" +
-               shownNumber(shot.stamp_s - scale.first_s, 1, "s") + "</button>" + caption +
-               "</figcaption></figure>\n";
+    figures += stillFigure(shot.stamp_s, log.samples.empty() ? 0.0 : log.samples.front().stamp_s,
+                           shot.caption, shot.picture_bgr);
   }
-  if (figures.empty()) return {};
-  return "<section class=\"card\" aria-labelledby=\"seen\"><h2 id=\"seen\">What the robot "
-         "saw</h2><div class=\"shots\">\n" +
-         figures + "</div></section>";
-}
-
-std::string film(const FollowLog& log, const FollowPageParams& params) {
-  if (params.film.empty()) return {};
-  const std::string poster = log.snapshots.empty()
-                                 ? std::string()
-                                 : pictureAddress(log.snapshots.front().picture_bgr, 960);
-  return "<section class=\"card only-screen\" id=\"film-card\" aria-labelledby=\"film-title\"><h2 "
-         "id=\"film-title\">Film</h2><video id=\"film\" controls=\"controls\" "
-         "preload=\"metadata\"" +
-         (poster.empty() ? std::string() : " poster=\"" + poster + "\"") + " src=\"" +
-         escapedHtml(params.film) + "\">The film is " + escapedHtml(params.film) +
-         ", beside this page.</video></section>";
+  return stillsSection("What the robot saw", figures);
 }
 
 std::string table1(const FollowSummary& sum) {
@@ -184,9 +148,24 @@ std::string table1(const FollowSummary& sum) {
   return rows + runRow("This run", paperRow(sum), "ours");
 }
 
-std::string eyebrow(const FollowLog& log) {
-  return "Heel \u00b7 person following in simulation \u00b7 plan " + escapedHtml(log.plan) +
-         " \u00b7 seed " + std::to_string(log.seed);
+std::string besideThePaper(const FollowLog& log, const FollowSummary& sum) {
+  return "<section class=\"card\"><div class=\"two\"><section aria-labelledby=\"paper\"><h2 "
+         "id=\"paper\">Beside the paper</h2><div class=\"scroll\"><table><caption>Table 1 of the "
+         "paper; both with a limit of " +
+         shownNumber(log.max_speed_mps, 1, "m/s") +
+         "</caption><thead><tr><th class=\"text\" scope=\"col\">run</th><th "
+         "scope=\"col\">distance</th><th scope=\"col\">time</th><th scope=\"col\">speed</th><th "
+         "scope=\"col\">seeking</th><th scope=\"col\">share</th></tr></thead><tbody>\n" +
+         table1(sum) +
+         "</tbody></table></div><p class=\"note\">Seeking is the time spent looking for the lost "
+         "person. Speed is distance over the time not spent seeking, the waits beside the person "
+         "included; " +
+         shownNumber(sum.driving_speed_mps, 3, "m/s") +
+         " while the wheels turned. Learning the person beforehand (" +
+         shownNumber(sum.learn_s, 0, "s") +
+         ") is in none of these figures.</p></section><section aria-labelledby=\"cost\"><h2 "
+         "id=\"cost\">Time per step</h2>" +
+         timingTable(log.stages, log.step, log.camera_rate_hz) + "</section></div></section>\n";
 }
 
 }  // namespace
@@ -200,37 +179,30 @@ Tone toneOf(const std::string& outcome) {
 
 std::string followPage(const FollowLog& log, const FollowSummary& sum,
                        const FollowPageParams& params) {
-  const TimeScale scale(log.samples);
-  const MapFrame frame(log);
+  const MapFrame frame = followFrame(log);
   StateTones tones;
-  const std::string timeline = bands(log, scale, tones) + charts(log, scale);
-  const FollowMoments moments = followMoments(log, frame, tones, params.most_moments);
-  return filledTemplate(
-      assets::kFollowHtml,
-      {{"title", escapedHtml(log.scene) + " \u00b7 Heel"},
-       {"style", std::string(assets::kPageCss) + assets::kFollowCss},
-       {"eyebrow", eyebrow(log)},
-       {"headline", escapedHtml(log.scene.empty() ? "A run without a name" : log.scene)},
-       {"outcome", escapedHtml(sum.outcome.empty() ? "no outcome" : sum.outcome)},
-       {"tone", classOf(toneOf(sum.outcome))},
-       {"lead", lead(log, sum)},
-       {"tiles", tiles(sum)},
-       {"map", followMap(log, frame)},
-       {"map_legend", followMapLegend(log)},
-       {"timeline", timeline},
-       {"state_legend", stateLegend(log, tones)},
-       {"ticks", timeTicks(scale)},
-       {"last_moment", std::to_string(moments.count == 0 ? 0 : moments.count - 1)},
-       {"film", film(log, params)},
-       {"snapshots", snapshots(log, scale)},
-       {"speed_limit", shownNumber(log.max_speed_mps, 1, "m/s")},
-       {"table1", table1(sum)},
-       {"driving_speed", shownNumber(sum.driving_speed_mps, 3, "m/s")},
-       {"learn_time", shownNumber(sum.learn_s, 0, "s")},
-       {"timing", timingTable(log.stages, log.step, log.camera_rate_hz)},
-       {"footer", howToRepeat(log.command)},
-       {"data", moments.json},
-       {"script", assets::kFollowJs}});
+  RunPage page;
+  page.title = escapedHtml(log.scene) + " \u00b7 Heel";
+  page.eyebrow = "Heel \u00b7 person following in simulation \u00b7 plan " +
+                 escapedHtml(wordsOf(log.plan)) + " \u00b7 seed " + std::to_string(log.seed);
+  page.headline = escapedHtml(log.scene.empty() ? "A run without a name" : log.scene);
+  page.outcome = escapedHtml(sum.outcome.empty() ? "no outcome" : sum.outcome);
+  page.tone = toneOf(sum.outcome);
+  page.lead = lead(log, sum);
+  page.tiles = tiles(sum);
+  page.map = followMap(log, frame);
+  page.map_legend = followMapLegend(log);
+  page.values = momentValue("person is at", "distance", 2, "m") +
+                momentValue("speed", "speed", 2, "m/s") +
+                momentValue("clearance", "clearance", 2, "m") +
+                momentValue("off in the map", "error", 2, "m");
+  page.bands = {stateBands(log, tones)};
+  page.charts = charts(log);
+  page.film = params.film;
+  if (!log.snapshots.empty()) page.film.poster_bgr = log.snapshots.front().picture_bgr;
+  page.sections = stills(log) + besideThePaper(log, sum);
+  page.footer = howToRepeat(log.command);
+  return filledRunPage(page, moments(log, frame, params.most_moments, tones));
 }
 
 void writeFollowPage(const OutputPath& file, const FollowLog& log, const FollowSummary& summary,

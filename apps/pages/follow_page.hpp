@@ -6,7 +6,7 @@
 #pragma once
 
 #include <heel/apps/output/output.hpp>
-#include <heel/apps/pictures/annotate.hpp>
+#include <heel/apps/pages/run_page.hpp>
 #include <heel/apps/results/follow_summary.hpp>
 
 #include <filesystem>
@@ -15,7 +15,7 @@
 namespace heel {
 
 struct FollowPageParams {
-  std::string film;                 ///< Name of the film's file beside the page; empty: none.
+  PageFilm film;
   std::size_t most_moments = 1500;  ///< That can be pointed at; the run's others are passed over.
 };
 

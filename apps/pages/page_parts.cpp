@@ -56,7 +56,7 @@ std::string timingTable(const std::vector<StageTime>& stages, const StageTime& s
   for (const StageTime& stage : stages) most_ms = std::fmax(most_ms, stage.mean_ms);
   std::string rows;
   for (const StageTime& stage : stages) {
-    rows += "<tr><th scope=\"row\">" + escapedHtml(stage.name) + "</th><td>" +
+    rows += "<tr><th scope=\"row\">" + escapedHtml(wordsOf(stage.name)) + "</th><td>" +
             shownNumber(stage.mean_ms, 2) + "</td><td>" + shownNumber(stage.p95_ms, 2) +
             "</td><td>" + bar(most_ms > 0.0 ? stage.mean_ms / most_ms : 0.0) + "</td></tr>\n";
   }
@@ -92,7 +92,7 @@ const std::map<std::string, std::string> kTones = {
     {"turnToLastSeen", "seek"}, {"seek", "seek"},
     {"search", "search"},       {"look", "search"},
     {"stop", "stop"},           {"wait", "stop"}};
-constexpr std::array<const char*, 4> kFurtherTones = {"a", "b", "c", "d"};
+constexpr std::array<const char*, 8> kFurtherTones = {"a", "b", "c", "d", "e", "f", "g", "h"};
 
 }  // namespace
 
@@ -112,9 +112,13 @@ std::string StateTones::of(const std::string& state) {
   const auto own = kTones.find(state);
   const std::string tone =
       own != kTones.end() ? own->second : kFurtherTones[others_++ % kFurtherTones.size()];
-  states_.push_back(state);
-  tones_.push_back("--s-" + tone);
+  use(state, "--s-" + tone);
   return tones_.back();
+}
+
+void StateTones::use(const std::string& state, const std::string& tone) {
+  states_.push_back(state);
+  tones_.push_back(tone);
 }
 
 }  // namespace heel

@@ -47,6 +47,9 @@ class StateTones {
   /// Name of the tone's variable in page.css, for instance "--s-follow".
   std::string of(const std::string& state);
 
+  /// This state has that tone.
+  void use(const std::string& state, const std::string& tone);
+
   /// All states that were asked for, in that order.
   const std::vector<std::string>& states() const { return states_; }
 

@@ -30,7 +30,7 @@ const std::vector<LegendEntry> kLegend = {
     {"predicted, not seen", palette::kTrack, LegendEntry::Mark::kRing},
     {"candidate", palette::kBlob, LegendEntry::Mark::kRing},
     {"candidate thrown out", palette::kGatedOut, LegendEntry::Mark::kRing},
-    {"the target's colours", palette::kBlob, LegendEntry::Mark::kSquare}};
+    {"the target's colours", palette::kBlob, LegendEntry::Mark::kLine}};
 
 std::string timeOf(const DrawnFrame& scene) {
   return "frame " + std::to_string(scene.frame) + "    " + fixedText(scene.stamp_s, 2) + " s";

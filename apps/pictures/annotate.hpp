@@ -69,9 +69,9 @@ struct AnnotateParams {
 /// Size of the pictures; both numbers are even, as films need it.
 cv::Size pictureSize(const AnnotateParams& params = {});
 
-/// Draws the image with the mask tinted, the blobs' places and the tracks; beside it the plan view
-/// with a grid of metres, the floor that the camera sees, blobs and tracks with their trails; above
-/// both the state, the reason, the frame and the time.
+/// Draws the image with the mask outlined, the blobs' places and the tracks; beside it the plan
+/// view with a grid of metres, the floor that the camera sees, blobs and tracks with their trails;
+/// above both the state, the reason, the frame and the time.
 ///
 /// @param picture  Out: CV_8UC3 of pictureSize(); its memory is reused.
 /// @throws std::invalid_argument  if the mask's size is not the image's, or a type is wrong.

@@ -22,15 +22,19 @@ using Eigen::Vector3d;
 constexpr double kPersonRadius_m = 0.3;
 constexpr double kBlobRadius_m = 0.15;
 
-/// Dims what the mask leaves out, and mixes the blobs' colour into the rest.
-void tint(const cv::Mat& mask, cv::Mat& image) {
-  constexpr double kDim = 0.72, kTint = 0.5;
-  cv::Mat fitted, tinted;
+/// Outlines what the mask lets pass. Specks, of which a real picture has many, are left out.
+void outline(const cv::Mat& mask, cv::Mat& image) {
+  constexpr double kLeastArea_px = 200.0;
+  constexpr int kSmoothed_px = 9;
+  cv::Mat fitted;
   cv::resize(mask, fitted, image.size(), 0, 0, cv::INTER_NEAREST);
-  const cv::Mat color(image.size(), image.type(), palette::kBlob);
-  cv::addWeighted(image, 1.0 - kTint, color, kTint, 0.0, tinted);
-  image.convertTo(image, -1, kDim);
-  tinted.copyTo(image, fitted);
+  cv::medianBlur(fitted, fitted, kSmoothed_px);
+  std::vector<std::vector<cv::Point>> outlines;
+  cv::findContours(fitted, outlines, cv::RETR_CCOMP, cv::CHAIN_APPROX_SIMPLE);
+  for (std::size_t i = 0; i < outlines.size(); ++i) {
+    if (cv::contourArea(outlines[i]) < kLeastArea_px) continue;
+    cv::drawContours(image, outlines, static_cast<int>(i), palette::kBlob, 1, cv::LINE_AA);
+  }
 }
 
 /// Marks on the image what stands on the floor.
@@ -150,7 +154,7 @@ void drawImage(const DrawnFrame& scene, cv::Mat& panel) {
   const cv::Point corner((panel.cols - fitted.width) / 2, (panel.rows - fitted.height) / 2);
   cv::Mat image = panel(cv::Rect(corner, fitted));
   cv::resize(scene.image_bgr, image, fitted);
-  if (!scene.mask.empty()) tint(scene.mask, image);
+  if (!scene.mask.empty()) outline(scene.mask, image);
   Marker marker(scene, scale, image);
   for (const auto& blob : scene.blobs) marker.mark(blob);
   for (const auto& track : scene.tracks) {

@@ -31,8 +31,8 @@ struct LegendEntry {
 /// Writes the entries in one row.
 void drawLegend(const std::vector<LegendEntry>& entries, cv::Mat& footer);
 
-/// Draws the scene's image, fitted into `panel`: what the mask lets pass is tinted, the rest
-/// dimmed, and blobs and tracks are marked where they stand.
+/// Draws the scene's image, fitted into `panel`: what the mask lets pass is outlined, and blobs and
+/// tracks are marked where they stand.
 void drawImage(const DrawnFrame& scene, cv::Mat& panel);
 
 /// Projects a point of the floor's frame into the image [px]; absent behind the camera.

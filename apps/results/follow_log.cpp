@@ -34,15 +34,4 @@ std::vector<TargetEvent> targetEvents(const std::vector<FollowSample>& samples,
   return events;
 }
 
-std::vector<StateSpan> stateSpans(const std::vector<FollowSample>& samples) {
-  std::vector<StateSpan> spans;
-  for (const FollowSample& sample : samples) {
-    if (!spans.empty()) spans.back().to_s = sample.stamp_s;
-    if (spans.empty() || spans.back().state != sample.state) {
-      spans.push_back({sample.state, sample.stamp_s, sample.stamp_s});
-    }
-  }
-  return spans;
-}
-
 }  // namespace heel

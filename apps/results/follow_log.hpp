@@ -105,7 +105,20 @@ struct StateSpan {
   double to_s = 0.0;
 };
 
-/// The states in order; a state lasts until the first sample of the next.
-std::vector<StateSpan> stateSpans(const std::vector<FollowSample>& samples);
+/// The states, or another text of the samples, in order; one lasts until the first sample of the
+/// next.
+/// @tparam Sample  Has a `stamp_s`.
+template <typename Sample>
+std::vector<StateSpan> stateSpans(const std::vector<Sample>& samples,
+                                  std::string Sample::*text = &Sample::state) {
+  std::vector<StateSpan> spans;
+  for (const Sample& sample : samples) {
+    if (!spans.empty()) spans.back().to_s = sample.stamp_s;
+    if (spans.empty() || spans.back().state != sample.*text) {
+      spans.push_back({sample.*text, sample.stamp_s, sample.stamp_s});
+    }
+  }
+  return spans;
+}
 
 }  // namespace heel

@@ -103,8 +103,9 @@ TEST_F(Outputs, KeepPicturesThatAreCalledLikeOurs) {
   ASSERT_TRUE(succeeds(track("out", {})));
   ASSERT_TRUE(succeeds(track("out")));
   EXPECT_EQ(readText(folder_ / "out/frame_000003.png"), "mine");
-  EXPECT_THAT(filesBelow(folder_ / "out"), ElementsAre("frame_000003.png", "frames.csv",
-                                                       "summary.json", "timing.csv", "tracks.csv"));
+  EXPECT_THAT(filesBelow(folder_ / "out"),
+              ElementsAre("frame_000003.png", "frames.csv", "report.html", "summary.json",
+                          "timing.csv", "tracks.csv"));
 }
 
 TEST_F(Outputs, OfMapsDoNotReplaceTheirSource) {

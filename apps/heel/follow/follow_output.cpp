@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kSnapshotsApart_s = 4.0;
 constexpr std::size_t kMostSnapshots = 12;
+constexpr double kFilmRate_hz = 10.0;
 
 StageTime summaryOf(const char* name, std::vector<float> times_ms) {
   StageTime time{name, 0.0, 0.0};
@@ -74,7 +75,10 @@ void FollowOutput::add(const Readings& readings, const FollowStep& step, const F
   if (!film_wanted_ && !snapshot && !bag_) return;
   draw(readings, step, follower, sample);
   if (bag_) bag_->addImage(readings.stamp_s, picture_);
-  if (film_wanted_) film_->write(picture_);
+  if (film_wanted_) {
+    film_->write(picture_);
+    film_stamps_s_.push_back(readings.stamp_s);
+  }
   if (snapshot) keepSnapshot(sample);
 }
 
@@ -99,8 +103,7 @@ void FollowOutput::draw(const Readings& readings, const FollowStep& step, const 
   if (!video_) {
     video_.emplace(follower.floor(), follower.robot().drive.radius_m);
     drawn_.emplace(follower.robot().camera);
-    if (film_wanted_)
-      film_.emplace(output_ / "follow.mp4", 10.0, video_->size(), FilmUse::kBrowser);
+    if (film_wanted_) film_.emplace(output_ / "follow.mp4", kFilmRate_hz, video_->size());
   }
   Frame seen;
   seen.stamp_s = readings.stamp_s;
@@ -114,7 +117,7 @@ void FollowOutput::draw(const Readings& readings, const FollowStep& step, const 
     frame_.view.stamp_s = readings.stamp_s;
   }
   frame_.view.T_floor_camera = basePose(step.robot.pose) * follower.robot().camera.T_base_camera;
-  frame_.view.state = step.state();
+  frame_.view.state = wordsOf(step.state());
   frame_.view.reason = step.reason;
   frame_.view.tone = toneOf(step);
   frame_.robot_true = sample.robot_true;
@@ -137,7 +140,7 @@ void FollowOutput::keepSnapshot(const FollowSample& sample) {
   last_snapshot_s_ = sample.stamp_s;
   PackedSnapshot& snapshot = snapshots_.emplace_back();
   snapshot.stamp_s = sample.stamp_s;
-  snapshot.caption = sample.state;
+  snapshot.caption = wordsOf(sample.state);
   cv::imencode(".jpg", picture_, snapshot.jpeg, {cv::IMWRITE_JPEG_QUALITY, 95});
   if (snapshots_.size() < 2 * kMostSnapshots) return;
   std::size_t kept = 0;
@@ -162,7 +165,9 @@ void FollowOutput::commit(FollowLog& log, const FollowSummary& summary) {
   FollowPageParams page;
   if (film_) {
     film_->close();
-    page.film = film_->path().filename().string();
+    page.film.name = film_->path().filename().string();
+    page.film.rate_hz = kFilmRate_hz;
+    page.film.stamps_s = std::move(film_stamps_s_);
   }
   writeFollowFiles(output_, log, summary);
   writeFollowPage(output_ / "report.html", log, summary, page);

@@ -61,6 +61,7 @@ class FollowOutput {
   bool film_wanted_;
   std::optional<FollowVideo> video_;
   std::optional<FilmWriter> film_;
+  std::vector<double> film_stamps_s_;
   std::optional<ResultBag> bag_;
   std::optional<DrawnPerception> drawn_;
   FollowVideoFrame frame_;

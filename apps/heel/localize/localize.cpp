@@ -109,7 +109,7 @@ void addLocalize(CLI::App& app) {
       ->required();
   verb->add_option("--map", options->map,
                    "a scene's name, or the YAML file of a scene or of a ROS map");
-  verb->add_option("--out", options->out, "folder for tables and the picture")->required();
+  verb->add_option("--out", options->out, "folder for tables and the report")->required();
   const std::map<std::string, MapScans> scans{
       {"even", MapScans::kEven}, {"first-half", MapScans::kFirstHalf}, {"all", MapScans::kAll}};
   verb->add_option("--map-scans", options->map_scans,

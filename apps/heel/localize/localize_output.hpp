@@ -7,41 +7,35 @@
 
 #include <heel/apps/experiment/log_localization.hpp>
 #include <heel/apps/output/csv_file.hpp>
+#include <heel/apps/pages/localize_page.hpp>
 
 #include <filesystem>
 #include <vector>
 
 namespace heel {
 
-/// poses.csv, summary.json, and path.png: the ways of the estimate and of the reference on the map.
+/// poses.csv, summary.json, and report.html: the ways of the estimate and of the reference.
 class LocalizeOutput {
  public:
   /// @param map  Must outlive this.
-  /// @param inputs  What is read: it is not written over.
+  /// @param inputs  What is read, the log first: it is not written over.
   /// @throws std::invalid_argument  if it may not be written there, see Output.
   /// @throws OutputError  if it can't be; so do the others.
   LocalizeOutput(const std::filesystem::path& folder, const OccupancyGrid& map,
                  const std::vector<std::filesystem::path>& inputs);
 
   void add(const LogLocalizationStep& step);
-  /// Writes the summary and the picture, and gives all files their place.
+  /// Writes the summary and the report, and gives all files their place.
   void commit(const LogLocalizationResult& result, double updates_per_s);
 
   /// Where commit() wrote.
   const std::filesystem::path& folder() const { return output_.path(); }
 
  private:
-  void drawWays() const;
-
-  struct Place {
-    Eigen::Vector2d estimate;
-    bool lost;
-    std::optional<Eigen::Vector2d> reference;
-  };
   Output output_;
   const OccupancyGrid& map_;
   CsvWriter poses_;
-  std::vector<Place> places_;
+  LocalizedLog log_;
 };
 
 }  // namespace heel

@@ -105,6 +105,7 @@ void run(const TrackOptions& options) {
   output_params.bag = options.bag;
   output_params.inputs = {options.recording, options.model};
   if (!options.map.map.empty()) output_params.inputs.push_back(mapSource(options.map.map));
+  output_params.person = picturedPerson(options.model, model);
   output_params.frame = robot.frame();
   if (!options.bounds_m.empty()) {
     const Eigen::Vector2d lowest(options.bounds_m[0], options.bounds_m[1]);
@@ -181,13 +182,13 @@ void addTrack(CLI::App& app) {
   verb->footer(
       "Example:\n"
       "  heel track recordings/kitchen --model person.yaml --out out/kitchen\n"
-      "Writes tracks.csv (who is where), frames.csv (what every stage left of each frame, and why\n"
-      "there is no target), timing.csv, summary.json, and the film tracks.mp4 with stills.\n"
+      "Writes report.html (open it in a browser), tracks.csv (who is where), frames.csv (what\n"
+      "every stage left of each frame, and why there is no target), timing.csv, summary.json, and\n"
+      "the film tracks.mp4 with stills.\n"
       "Places are in the base frame; if the robot moves, as the tf or odometry of a bag tells, or\n"
       "the odometry.csv or groundtruth.txt of a folder, in the odometry's: see summary.json.\n"
-      "With --map they are in the map's, where the robot is found by its laser and odometry (or "
-      "by\n"
-      "tf's frame 'map'), and nobody is seen through its walls.");
+      "With --map they are in the map's, where the robot is found by its laser and odometry, or\n"
+      "by tf's frame 'map', and nobody is seen through its walls.");
   verb->add_option("RECORDING", options->recording, "folder of a recording, or a bag")->required();
   verb->add_option("--model", options->model, "the person, as 'heel learn' wrote it")->required();
   verb->add_option("--out", options->out, "folder for the results")->capture_default_str();
@@ -204,7 +205,7 @@ void addTrack(CLI::App& app) {
   verb->add_option("--map", options->map.map,
                    "the robot's map: a .bt or a map_server YAML, or a scene's name");
   addLogMap(*verb, options->map, options->opening.topics);
-  verb->add_flag("--no-film", options->no_film, "write the tables only");
+  verb->add_flag("--no-film", options->no_film, "draw no film and no stills");
   addResultBag(*verb, options->bag);
   addTimeSpan(*verb, options->opening.span);
   addCameraTopics(*verb, options->opening.topics);

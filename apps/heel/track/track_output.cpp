@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/heel/track/track_output.hpp>
+#include <heel/apps/pages/track_page.hpp>
+#include <heel/apps/pictures/picture_parts.hpp>
+#include <heel/apps/recording/image_file.hpp>
+#include <heel/segmentation/appearance_picture.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -29,7 +34,26 @@ double rateOf(const RecordingInfo& info) {
   return has_rate ? static_cast<double>(info.frame_count - 1) / info.duration_s : 10.0;
 }
 
+/// Probability that a track is a person and not a thing.
+double personProbability(const Perception& perception, const Track& track) {
+  const Evidence who = perception.identity().probabilities(track.id);
+  return 1.0 - who[kThing] / std::max(who.sum(), 1e-12);
+}
+
 }  // namespace
+
+PicturedPerson picturedPerson(const std::filesystem::path& file, const AppearanceModel& model) {
+  PicturedPerson person{file.stem().string(), drawAppearance(model), {}};
+  const auto view = file.parent_path() / (person.name + "_view.png");
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(view, ignored)) return person;
+  try {
+    ImageReader().readColor(view, person.learned_bgr);
+  } catch (const std::runtime_error&) {
+    person.learned_bgr.release();  // the report does without
+  }
+  return person;
+}
 
 TrackOutput::TrackOutput(const std::filesystem::path& folder, const RecordingInfo& info,
                          const CameraSetup& setup, const TrackOutputParams& params)
@@ -37,13 +61,24 @@ TrackOutput::TrackOutput(const std::filesystem::path& folder, const RecordingInf
                OutputKind::kFolder,
                folder,
                params.inputs,
-               {"tracks.csv", "frames.csv", "timing.csv", "summary.json", "tracks.mp4"}}),
+               {"report.html", "tracks.csv", "frames.csv", "timing.csv", "summary.json",
+                "tracks.mp4"}}),
       info_(info),
       setup_(setup),
       params_(params),
       files_(output_, stageNames()),
       drawn_(setup) {
   if (params.film) film_.emplace(output_ / "tracks.mp4", rateOf(info), pictureSize());
+  log_.recording = info.name;
+  log_.layout = info.layout;
+  log_.person = params.person.name;
+  log_.colors_bgr = params.person.colors_bgr;
+  log_.learned_bgr = params.person.learned_bgr;
+  log_.frame = moves() ? params.frame : "base";
+  log_.moves = moves();
+  log_.bounds_m = params.bounds_m;
+  log_.seen_floor_m =
+      visibleFloor(setup.camera.left, setup.T_base_camera, AnnotateParams{}.plan_ahead_m);
   if (params.bag.empty()) return;
   bag_.emplace(BagPlan{params.bag, params.inputs, "track"}, moves() ? params.frame : "map");
 }
@@ -55,6 +90,7 @@ void TrackOutput::add(const Frame& frame, const FloorPose& robot, const Percepti
   if (step.target.hasPlace()) ++frames_with_target_;
   if (!step.reason.empty()) ++reasons_[step.reason];
   addRows(frame, perception, step);
+  addSample(frame, robot, perception, step);
   files_.addTiming(frame.number, {times_ms.begin(), times_ms.end()});
   if (film_ || bag_) {
     DrawnFrame& drawing = drawn_.of(frame, perception, step, robot);
@@ -69,6 +105,7 @@ void TrackOutput::add(const Frame& frame, const FloorPose& robot, const Percepti
   }
   if (film_) {
     film_->write(picture_);
+    film_stamps_s_.push_back(frame.stamp_s);
     if (step.target.status == TargetStatus::kFollowed) keepStill();
   }
 }
@@ -98,16 +135,37 @@ void TrackOutput::addRows(const Frame& frame, const Perception& perception,
     track_row.velocity_mps = track.motion.velocity_mps();
     track_row.score = track.score;
     track_row.status = toText(track.status);
-    const Evidence who = perception.identity().probabilities(track.id);
-    track_row.person_probability = 1.0 - who[kThing] / std::max(who.sum(), 1e-12);
+    track_row.person_probability = personProbability(perception, track);
     files_.add(track_row);
   }
   files_.add(row);
 }
 
+void TrackOutput::addSample(const Frame& frame, const FloorPose& robot,
+                            const Perception& perception, const PerceptionStep& step) {
+  TrackSample& sample = log_.samples.emplace_back();
+  sample.stamp_s = frame.stamp_s;
+  sample.robot = robot;
+  sample.state = toText(step.target.status);
+  sample.reason = step.reason;
+  if (step.target.hasPlace()) {
+    sample.target_m = step.target.motion.position_m();
+    sample.confidence = step.target.confidence;
+  }
+  const double pixels = step.mask.empty() ? 0.0 : static_cast<double>(step.mask.total());
+  if (pixels > 0.0) sample.color_share = step.color_pixels / pixels;
+  for (const Track& track : perception.tracks()) {
+    if (track.status == TrackStatus::kTentative) continue;
+    if (sample.target_m && track.id == step.target.track_id) continue;
+    sample.others.push_back({track.id, track.motion.position_m(),
+                             track.status == TrackStatus::kConfirmed,
+                             personProbability(perception, track)});
+  }
+}
+
 void TrackOutput::keepStill() {
   if (states_[toText(TargetStatus::kFollowed)] % still_step_ != 0) return;
-  stills_.push_back({frames_, picture_.clone()});
+  stills_.push_back({frames_, log_.samples.back().stamp_s, picture_.clone()});
   if (stills_.size() < 2 * params_.stills) return;
   std::size_t kept = 0;
   for (std::size_t i = 1; i < stills_.size(); i += 2) stills_[kept++] = stills_[i];
@@ -140,16 +198,27 @@ void TrackOutput::commit(const TrackEnd& end) {
 
   for (const Still& still : stills_) {
     writePicture(output_ / stillName(still.frame), still.picture);
+    log_.stills.push_back({still.stamp_s, "the target is seen", still.picture});
   }
   writeJson(output_ / "summary.json", summary);
   files_.close();
-  if (film_) film_->close();
+  PageFilm film;
+  if (film_) {
+    film_->close();
+    film.name = film_->path().filename().string();
+    film.rate_hz = rateOf(info_);
+    film.stamps_s = std::move(film_stamps_s_);
+  }
+  log_.complete = end.complete;
+  log_.warnings = end.warnings;
+  log_.skipped = end.skipped.size();
+  writeFile(output_ / "report.html", trackPage(log_, film));
   output_.commit(end.complete);
   if (bag_) bag_->commit(end.complete);
 }
 
 std::string TrackOutput::fileNames() const {
-  std::string names = "tracks.csv frames.csv timing.csv summary.json";
+  std::string names = "report.html tracks.csv frames.csv timing.csv summary.json";
   if (film_) names += " " + film_->path().filename().string();
   if (!stills_.empty()) names += " frame_*.png";
   if (bag_) names += "; and " + bag_->path().string();

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// The result folder of `heel track`: tables, film, stills and summary.
+/// The result folder of `heel track`: report, tables, film, stills and summary.
 #pragma once
 
 #include <heel/apps/film/video_writer.hpp>
@@ -10,6 +10,8 @@
 #include <heel/apps/heel/shared/drawn_perception.hpp>
 #include <heel/apps/heel/shared/result_bag.hpp>
 #include <heel/apps/results/result_files.hpp>
+#include <heel/apps/results/track_log.hpp>
+#include <heel/segmentation/appearance_model.hpp>
 
 #include <Eigen/Geometry>
 
@@ -23,12 +25,23 @@
 
 namespace heel {
 
+/// Whom a model knows, for people to see.
+struct PicturedPerson {
+  std::string name;
+  cv::Mat colors_bgr;   ///< drawAppearance() of the model.
+  cv::Mat learned_bgr;  ///< The picture that `heel learn` wrote beside the model; empty: none.
+};
+
+/// @param file  Of the model.
+PicturedPerson picturedPerson(const std::filesystem::path& file, const AppearanceModel& model);
+
 struct TrackOutputParams {
   bool film = true;                             ///< Also draw the film and the stills.
   std::filesystem::path bag;                    ///< Also write this bag; empty: none.
   std::vector<std::filesystem::path> inputs;    ///< What is read: it is not written over.
   std::size_t stills = 6;                       ///< Spread over the frames that have a target.
   std::optional<Eigen::AlignedBox2d> bounds_m;  ///< To draw.
+  PicturedPerson person;                        ///< For the report.
   std::string frame;  ///< Of all places: the map, or the odometry; empty: the base frame.
 };
 
@@ -68,6 +81,8 @@ class TrackOutput {
  private:
   bool moves() const { return !params_.frame.empty(); }
   void addRows(const Frame& frame, const Perception& perception, const PerceptionStep& step);
+  void addSample(const Frame& frame, const FloorPose& robot, const Perception& perception,
+                 const PerceptionStep& step);
   void keepStill();
 
   Output output_;
@@ -76,11 +91,14 @@ class TrackOutput {
   TrackOutputParams params_;
   ResultFiles files_;
   std::optional<FilmWriter> film_;
+  std::vector<double> film_stamps_s_;
+  TrackLog log_;
   std::optional<ResultBag> bag_;
   cv::Mat picture_;
   DrawnPerception drawn_;
   struct Still {
     std::size_t frame;
+    double stamp_s;
     cv::Mat picture;
   };
   std::vector<Still> stills_;

@@ -16,7 +16,6 @@ namespace {
 using heel::FilmWriter;
 using heel::test::isThere;
 using heel::test::messageOf;
-using heel::test::readText;
 using heel::test::TempFolder;
 using testing::HasSubstr;
 
@@ -50,21 +49,19 @@ TEST_P(Film, HoldsItsFramesAtItsRate) {
   EXPECT_LT(cv::norm(first, pictureOf(0), cv::NORM_L1) / (3.0 * kSize.area()), 5.0);
 }
 
-TEST_P(Film, IsTheSameBytesOnEveryRun) {
+TEST_P(Film, ShowsTheSameOnEveryRun) {
   const TempFolder folder;
   for (const char* run : {"a", "b"}) {
     FilmWriter film(folder / (run + GetParam()), 10.0, kSize);
     writeFilm(film, 40);
   }
-  EXPECT_EQ(readText(folder / ("a" + GetParam())), readText(folder / ("b" + GetParam())));
-}
-
-TEST(FilmForBrowsers, HoldsItsFrames) {
-  const TempFolder folder;
-  FilmWriter film(folder / "film.mp4", 10.0, kSize, heel::FilmUse::kBrowser);
-  writeFilm(film, 30);
-  cv::VideoCapture read(film.path().string());
-  EXPECT_EQ(read.get(cv::CAP_PROP_FRAME_COUNT), 30.0);
+  cv::VideoCapture a((folder / ("a" + GetParam())).string());
+  cv::VideoCapture b((folder / ("b" + GetParam())).string());
+  cv::Mat in_a, in_b;
+  for (int frame = 0; frame < 40; ++frame) {
+    ASSERT_TRUE(a.read(in_a) && b.read(in_b)) << frame;
+    EXPECT_EQ(cv::norm(in_a, in_b, cv::NORM_INF), 0.0) << frame;
+  }
 }
 
 TEST_P(Film, IsNotLeftHalfWritten) {

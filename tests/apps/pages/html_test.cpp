@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/pages/charts.hpp>
 #include <heel/apps/pages/html.hpp>
+#include <heel/apps/pages/map_parts.hpp>
 #include <heel/apps/pages/page_parts.hpp>
 
 #include <gmock/gmock.h>
@@ -62,14 +62,6 @@ TEST(NiceStep, IsOneTwoOrFive) {
   EXPECT_DOUBLE_EQ(heel::niceStep(0.4, 4.0), 0.1);
   EXPECT_DOUBLE_EQ(heel::niceStep(3.9, 3.0), 2.0);
   EXPECT_DOUBLE_EQ(heel::niceStep(0.0, 8.0), 1.0);
-}
-
-TEST(Binned, CountsEachFiniteValueOnce) {
-  EXPECT_THAT(heel::binned({0.0, 0.5, 1.0, 2.0, std::nan(""), 7.0, -1.0}, 0.0, 1.0, 2),
-              ElementsAre(2, 2));
-  EXPECT_TRUE(heel::binned({1.0}, 0.0, 1.0, 0).empty());
-  EXPECT_THAT(heel::histogram("t", "s", {}), testing::HasSubstr("no values"));
-  EXPECT_THAT(heel::histogram("t", "s", {3.0, 3.0}), testing::HasSubstr("<rect"));
 }
 
 TEST(StateTones, KnownStatesKeepTheirsAndOthersDiffer) {

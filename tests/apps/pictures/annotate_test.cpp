@@ -120,15 +120,20 @@ TEST(Annotate, TargetIsDrawnWhereItStandsInThePlan) {
   EXPECT_EQ(picture.at<cv::Vec3b>(row, column), cv::Vec3b(48, 150, 255));
 }
 
-TEST(Annotate, MaskIsTintedAndTheRestDimmed) {
+TEST(Annotate, MaskIsOutlinedAndThePictureStaysAsItIs) {
   DrawnFrame scene = someScene();
   scene.mask = cv::Mat::zeros(480, 640, CV_8UC1);
-  scene.mask(cv::Rect(0, 0, 320, 480)) = 255;
+  scene.mask(cv::Rect(80, 80, 160, 160)) = 255;
+  scene.mask.at<uchar>(400, 500) = 255;  // a speck
   const cv::Mat picture = draw(scene);
-  const cv::Vec3b tinted = picture.at<cv::Vec3b>(344, 100),
-                  dimmed = picture.at<cv::Vec3b>(344, 700);
-  EXPECT_GT(tinted[1], 130);
-  EXPECT_EQ(dimmed, cv::Vec3b(65, 65, 65));
+  const auto at = [&](int x, int y) {  // the panel is 1.25 times as large
+    return picture.at<cv::Vec3b>(44 + y * 5 / 4, 12 + x * 5 / 4);
+  };
+  const cv::Vec3b grey(90, 90, 90);
+  EXPECT_GT(at(80, 160)[1], 180);
+  EXPECT_EQ(at(160, 160), grey);
+  EXPECT_EQ(at(400, 160), grey);
+  EXPECT_EQ(at(500, 400), grey);
 }
 
 TEST(Annotate, DrawsWhatIsOutOfSightWithoutHarm) {

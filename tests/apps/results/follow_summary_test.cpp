@@ -163,7 +163,7 @@ TEST(StateSpans, LastUntilTheNextState) {
   EXPECT_DOUBLE_EQ(spans[1].from_s, 2.0);
   EXPECT_DOUBLE_EQ(spans[1].to_s, 12.0);
   EXPECT_DOUBLE_EQ(spans[3].to_s, 19.0);
-  EXPECT_TRUE(heel::stateSpans({}).empty());
+  EXPECT_TRUE(heel::stateSpans<FollowSample>({}).empty());
 }
 
 TEST(FollowFiles, HoldTheRunAndAreTheSameOnEveryRun) {
