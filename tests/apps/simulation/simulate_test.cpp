@@ -91,7 +91,7 @@ TEST(Simulate, WritesTheSameBytesTwice) {
     EXPECT_EQ(test::readText(entry.path()), test::readText(twin)) << twin;
     ++files;
   }
-  EXPECT_EQ(files, 4 * 5 + 10);
+  EXPECT_EQ(files, 4 * 5 + 11);
 }
 
 TEST(Simulate, DoesNotTouchAFolderThatHoldsSomething) {
