@@ -157,7 +157,9 @@ void run(FollowOptions& options) {
     throw std::invalid_argument("--limit must be positive");
   }
   const bool is_log = !options.map.map.empty();
-  if (!is_log && (isBag(options.scene) || std::filesystem::is_directory(options.scene))) {
+  const bool is_scene = std::filesystem::exists(sceneFolder() / (options.scene + ".yaml"));
+  if (!is_log && !is_scene &&
+      (isBag(options.scene) || std::filesystem::is_directory(options.scene))) {
     throw std::invalid_argument(options.scene +
                                 ": to follow on a log, give the robot's map, too "
                                 "(--map)");

@@ -55,7 +55,7 @@ void setLight(Scene& scene, const std::string& light) {
 
 fs::path mapSource(const std::string& map) {
   const bool is_path = fs::path(map).has_extension() || fs::path(map).has_parent_path();
-  return is_path || fs::exists(map) ? fs::path(map) : sceneFile(map);
+  return is_path || fs::is_regular_file(map) ? fs::path(map) : sceneFile(map);
 }
 
 fs::path planFolder() { return shippedFolder("plans"); }
