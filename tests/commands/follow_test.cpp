@@ -85,6 +85,15 @@ TEST_F(Follow, NamesASceneThatIsNone) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 
+TEST_F(Follow, TakesASceneForOneWhateverFolderHasItsName) {
+  std::filesystem::create_directories(folder_ / "home");
+  const std::filesystem::path here = std::filesystem::current_path();
+  std::filesystem::current_path(folder_ / "");
+  const HeelRun run = heel({"follow", "home", "--plan", "nowhere"});
+  std::filesystem::current_path(here);
+  EXPECT_TRUE(failsWith(run, {"nowhere: there is no such plan"}));
+}
+
 TEST_F(Follow, NeedsSomebodyToFollow) {
   std::string nobody = kFollowScene;
   nobody.replace(nobody.find("people:"), nobody.find("robot:") - nobody.find("people:"), "");
