@@ -89,9 +89,23 @@ class LastGate {
     Eigen::Vector2d place;  // in the odometry's frame
     double seen_s;
     bool by_laser;
-    bool is_sure;    // by the laser, or in two pictures one after the other
-    double away_m;   // from the robot's middle,
-    double allow_m;  // and how near it may come
+    bool is_sure;  // by the laser, or in two pictures one after the other
+  };
+  struct Near {
+    Eigen::Vector2d place;
+    double away_m;  // from the robot's middle
+  };
+  /// A box that the robot's middle does not leave for a while: along a way from a place, and aside.
+  struct Piece {
+    Eigen::Vector2d from, way;
+    double first_m, last_m, aside_m;
+    double turned_rad;            // the heading is off the way by no more than this
+    double driven_m;              // no more, since the last odometry
+    bool moves, advances, backs;  // maybe
+  };
+  struct Obeyed {
+    double until_s;
+    VelocityCommand least, most;
   };
   struct Look {
     FloorPose scanner;
@@ -111,28 +125,32 @@ class LastGate {
   static bool sees(const Look& look, const Eigen::Vector2d& place);
   bool isSeen(const Eigen::Vector2d& place, double now_s) const;
   void keep(const Thing& thing);
-  void approach(const Eigen::Vector2d& robot, double now_s);
-  Sent sentAt(double time_s) const;
-  DriveState fastest(const DriveState& now, double at_s);
-  GateReason judge(const VelocityCommand& velocity, const DriveState& then, double then_s,
-                   double now_s, double latency_s) const;
-  GateReason judge(const VelocityCommand& velocity, const DriveState& then, double then_s,
-                   double now_s) const;
-  bool isFreeBetween(const FloorPose& from, const FloorPose& to) const;
-  bool isSeenAhead(const DriveState& state, const Eigen::Vector2d& start, double now_s) const;
+  void approach(const Eigen::Vector2d& robot, double reach_m, double now_s);
+  static bool recedes(const Piece& piece, double along_m, double aside_m);
+  bool isFree() const;
+  bool isSeenAhead(const Eigen::Vector2d& start, double now_s) const;
+  Obeyed obeyed(double time_s, const Sent* planned) const;
+  double fastestSent(double then_s) const;
+  void believe(const VelocityCommand& measured, double at_s);
+  void layOut(const VelocityCommand& velocity, const FloorPose& from, double then_s, double now_s);
+  GateReason judge(const VelocityCommand& velocity, const FloorPose& from, double then_s,
+                   double now_s);
 
   LastGateParams params_;
   double reach_m_;  // what is further away can't be touched before the robot stands
   std::vector<Thing> things_;
-  std::vector<Thing*> near_;
+  std::vector<Near> near_;
+  double allow_m_ = 0.0;  // how near what it does not touch may come
+  std::vector<Piece> pieces_;
   std::array<Look, 20> looks_;  // a ring; looks_[newest_] is the last
   std::size_t newest_ = 0;
   std::array<Sent, 32> sent_;  // a ring
   std::size_t sent_newest_ = 0;
   std::vector<Cell> cells_;
   double points_s_;
-  DriveState believed_;  // the speed that the commands should have come to,
-  double believed_s_;    // and when
+  VelocityCommand least_, most_;  // between these the commands should have brought the speed,
+  double believed_s_;             // and when
+  VelocityCommand slow_, fast_;   // and between these it is, by the odometry too
 };
 
 }  // namespace heel

@@ -77,6 +77,64 @@ TEST(LastGate, DrivesAwayFromWhatItTouches) {
   EXPECT_EQ(Gate(0.2).pass(0.1, 0.0).velocity.forward_mps, 0.0);
 }
 
+TEST(LastGate, NeverComesBackToWhatItTouches) {
+  const DriveState leaving{{}, {-0.04, 0.0}};
+  EXPECT_EQ(Gate(0.25).pass(0.1, 0.0, leaving).velocity.forward_mps, 0.0)
+      << "it stands after 1.6 mm, and would come on again";
+  EXPECT_EQ(Gate(0.25).pass(-0.1, 0.0, leaving).velocity.forward_mps, -0.1);
+}
+
+TEST(LastGate, LeavesWhatItTouchesOnAnArc) {
+  LastGateParams params = usual();
+  params.wheels_latency_s = 0.1;
+  LastGate gate(params);
+  gate.addScan(wallAhead(0.25), {}, 10.0);
+  EXPECT_EQ(gate.pass({-0.15, 0.3}, {}, 0.0, 10.0).velocity.forward_mps, -0.15);
+}
+
+/// What it lets through straight on before a wall.
+double passed(LastGate& gate, double wall_m, const DriveState& now, double now_s) {
+  gate.addScan(wallAhead(wall_m), {}, now_s);
+  return gate.pass({0.3, 0.0}, now, 0.0, now_s).velocity.forward_mps;
+}
+
+TEST(LastGate, CountsTheLatency) {
+  LastGateParams params = usual();
+  const DriveState now{{}, {0.3, 0.0}};
+  LastGate prompt(params);
+  // 3 cm for the period, 9 cm to brake, 2 cm of margin.
+  EXPECT_EQ(passed(prompt, 0.26 + 0.141, now, 10.0), 0.3);
+  EXPECT_LT(passed(prompt, 0.26 + 0.139, now, 10.1), 0.3);
+  params.wheels_latency_s = 0.1;  // 3 cm more
+  LastGate late(params);
+  EXPECT_LT(passed(late, 0.26 + 0.169, now, 10.0), 0.3);
+  LastGate other(params);
+  EXPECT_EQ(passed(other, 0.26 + 0.171, now, 10.0), 0.3);
+}
+
+TEST(LastGate, CountsWhatWasSent) {
+  LastGateParams params = usual();
+  params.wheels_latency_s = 0.1;
+  LastGate gate(params);
+  EXPECT_EQ(passed(gate, 3.0, {}, 10.0), 0.3);
+  // It goes on to 0.05 m/s before a stop gets to the wheels: 2.5 mm, and as much to brake.
+  const double wall_m = 0.26 + 0.02 + 0.003;
+  gate.addScan(wallAhead(wall_m), {}, 10.1);
+  EXPECT_EQ(gate.pass({0.01, 0.0}, {}, 0.0, 10.1).velocity.forward_mps, 0.0);
+  LastGate stood(params);
+  stood.addScan(wallAhead(wall_m), {}, 10.1);
+  EXPECT_EQ(stood.pass({0.01, 0.0}, {}, 0.0, 10.1).velocity.forward_mps, 0.01);
+}
+
+TEST(LastGate, CountsTheSpeedThatItShouldHave) {
+  LastGate gate(usual());
+  for (int i = 0; i < 8; ++i) gate.pass({0.3, 0.0}, {}, 0.0, 9.0 + 0.1 * i);  // nothing was seen
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(passed(gate, 3.0, {}, 10.0 + 0.1 * i), 0.3);
+  EXPECT_LT(passed(gate, 0.26 + 0.13, {}, 10.8), 0.3) << "whatever odometry says";
+  LastGate stood(usual());
+  EXPECT_EQ(passed(stood, 0.26 + 0.13, {}, 10.8), 0.3);
+}
+
 TEST(LastGate, DrivesAlongAWall) {
   LaserScan scan = wallAhead(9.0);  // and one to the left, with an inch to spare
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
@@ -177,6 +235,7 @@ TEST(LastGate, NeverDrivesIntoWhatStoodInView) {
     held_back += trial.held_back;
     way_m += trial.way_m;
   }
+  EXPECT_LT(test::runGateTrial(10'421).deepest_m, test::kGateTouches_m) << "once 3 mm";
   EXPECT_GT(held_back, situations / 10) << "posts were in the way";
   EXPECT_GT(way_m, 0.005 * situations) << "and it drove all the same";
 }
