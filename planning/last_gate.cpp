@@ -334,8 +334,8 @@ double LastGate::fastestSent(double then_s) const {
 // All ways from the last odometry through the commands that were sent, this one, and the brakes.
 // A speed that goes towards a greater command never falls below one that goes towards a lesser: so
 // both speeds are always between two of them, `slow` and `fast`. The way in the middle is followed,
-// and e, how far any other is from it along its heading and aside of it: with f = v - v_middle,
-// d the difference in heading and w the middle's turn
+// and e, how far any other is from it along its heading and aside of it: with d the difference in
+// heading and w the middle's turn
 //   e_along' = v cos d - v_middle + w e_aside,  e_aside' = v sin d - w e_along.
 void LastGate::layOut(const VelocityCommand& velocity, const FloorPose& from, double then_s,
                       double now_s) {

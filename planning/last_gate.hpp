@@ -21,7 +21,7 @@ namespace heel {
 struct LastGateParams {
   DriveLimits limits;        ///< The robot's; it brakes as fast as it accelerates.
   FloorPose T_base_scanner;  ///< Where the laser scanner is, in the base frame.
-  /// A command acts on the wheels at most so long after it was sent [s].
+  /// A command acts on the wheels at most so long after it was sent, or at any time before [s].
   double wheels_latency_s = 0.0;
   /// Room that is left to what was seen: two standard deviations of a laser's ranges.
   double margin_m = 0.02;
@@ -49,14 +49,25 @@ struct GatedVelocity {
 /// Takes a velocity and gives one with which the robot stops in time, from raw readings alone:
 /// neither the map nor the tracks nor who is followed. The robot is a disc about its base's origin.
 ///
-/// It lets a velocity through if the robot, with it for a control period and then braking, with
-/// each command at once or `wheels_latency_s` late, comes no nearer than `margin_m` to what was
-/// seen (or no nearer than it is), and goes only where a scan of the last `remembers_s` has seen.
+/// It lets a velocity through if the robot, with it for a control period and then braking,
+/// - comes no nearer than `margin_m` to what was seen, or, where the nearest that it does not touch
+///   was nearer at the last odometry, no nearer than that;
+/// - does not drive towards what it touched then, not even as far as it has moved off since;
+/// - goes only where a scan of the last `remembers_s` has seen, as far as five places on the front
+///   of the body tell, asked every 5 cm and where it stands at last.
 /// Else it scales forward speed and turn alike; else it lets only the turn through; else nothing.
 ///
-/// So, if stamps, odometry and latencies are as described: what stands still and was seen before
-/// the robot had to brake for it is not driven into. No component is ever larger than that which
-/// was asked for, nor of the other sign.
+/// The first two hold for every way that the robot can take, not for some of them: each command
+/// comes to the wheels at any time within `wheels_latency_s`, in the order of sending, and the
+/// speed was anything between the measured one and those that the commands can have brought about.
+/// A box around all of these ways is followed; it is never too small, and may be too large.
+///
+/// So what stands still, and was seen before the robot had to brake for it, is not driven into.
+/// That needs: the stamps and the odometry's places are right; the wheels change their speed as
+/// `limits` say, by no less and no more, and do not slip; a velocity is asked for each control
+/// period or more often, and none beyond `limits`; the things are fewer than there is room for
+/// (4096 points); and between two beams that end on a thing it does not stand out. No component is
+/// ever larger than that which was asked for, nor of the other sign.
 ///
 /// All poses are of the base in one frame that does not jump, the odometry's. Nothing is allocated
 /// once as many things have been seen as ever will be.

@@ -7,8 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <random>
 #include <stdexcept>
 #include <vector>
 
@@ -221,6 +225,97 @@ TEST(LastGate, AllocatesNothingOnceWarm) {
     gate.pass({0.3, 0.1}, {}, 0.0, now_s);
   }
   EXPECT_EQ(test::allocations(), warm);
+}
+
+// Its bound alone, without any margin: one thing, seen at one point, and commands that come to the
+// wheels when they will.
+class WithoutMargin {
+ public:
+  explicit WithoutMargin(std::uint64_t seed) : random_(seed) {
+    params_.margin_m = 0.0;
+    params_.limits.radius_m = 0.2;
+    params_.limits.max_speed_mps = 0.5;
+    params_.limits.max_acceleration_mps2 = between(0.3, 1.5);
+    params_.wheels_latency_s = between(0.0, 0.3);
+  }
+
+  /// How much nearer the robot came than it may; nothing if the gate held it back.
+  double excess(bool& lets_through) {
+    LastGate gate(params_);
+    Eigen::Vector2d place = Eigen::Vector2d::Zero();
+    GatedVelocity out;
+    int then = 0;
+    for (int period = 0; period < kPeriods; ++period) {
+      LaserScan scan;
+      scan.step_rad = 2.0 * kPi / 360.0;
+      scan.ranges_m.assign(360, static_cast<float>(kInfinite));
+      if (period == kPeriods - 1) {
+        const auto beam = static_cast<std::size_t>(between(0.0, 359.0));
+        scan.ranges_m[beam] = static_cast<float>(between(0.19, 0.5));
+        const double angle = scan.angle(beam), range_m = static_cast<double>(scan.ranges_m[beam]);
+        place = states_.back().pose *
+                Eigen::Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
+      }
+      const double now_s = 0.1 * period;
+      gate.addScan(scan, states_.back().pose, now_s);
+      then = std::max(static_cast<int>(states_.size()) - 1 - static_cast<int>(between(0, 80)), 0);
+      out = gate.pass({0.5 * extreme(), extreme()}, states_[static_cast<std::size_t>(then)],
+                      now_s - 0.001 * then, now_s);
+      send(out.velocity);
+    }
+    lets_through = out.velocity.forward_mps != 0.0;
+    for (int period = 0; period < 25; ++period) send({});
+    const auto away = [&](std::size_t i) { return (place - states_[i].pose.position).norm(); };
+    double least_m = away(static_cast<std::size_t>(then));
+    const double may_m = std::min(least_m, params_.limits.radius_m);
+    for (auto i = static_cast<std::size_t>(then); i < states_.size(); ++i) {
+      least_m = std::min(least_m, away(i));
+    }
+    return lets_through ? may_m - least_m : 0.0;
+  }
+
+ private:
+  static constexpr int kPeriods = 5;
+
+  double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+
+  /// From -1 to 1, and every other time either.
+  double extreme() {
+    const double value = between(-2.0, 2.0);
+    return std::abs(value) > 1.0 ? std::copysign(1.0, value) : value;
+  }
+
+  /// A command, and a period of what the wheels make of it and those before.
+  void send(const VelocityCommand& command) {
+    const int sent = static_cast<int>(states_.size()) - 1;
+    const int late = static_cast<int>(500.0 * params_.wheels_latency_s * (1.0 + extreme()));
+    arrives_.push_back(std::max(arrives_.empty() ? 0 : arrives_.back(), sent + late));
+    sent_.push_back(command);
+    for (int tick = sent; tick < sent + 100; ++tick) {
+      while (obeys_ < sent_.size() && arrives_[obeys_] <= tick) obeyed_ = sent_[obeys_++];
+      states_.push_back(driven(params_.limits, states_.back(), obeyed_, 0.001));
+    }
+  }
+
+  std::mt19937_64 random_;
+  LastGateParams params_;
+  std::vector<DriveState> states_{1};  // each millisecond
+  std::vector<VelocityCommand> sent_;
+  std::vector<int> arrives_;
+  std::size_t obeys_ = 0;
+  VelocityCommand obeyed_;
+};
+
+TEST(LastGate, BoundsAllWaysWithoutAMargin) {
+  int through = 0;
+  for (std::uint64_t seed = 1; seed <= 5'000; ++seed) {
+    bool lets_through = false;
+    ASSERT_LT(WithoutMargin(seed).excess(lets_through), 1e-5) << "seed " << seed;
+    through += lets_through ? 1 : 0;
+  }
+  EXPECT_GT(through, 1'000);
 }
 
 // The gate's promise, in drawn situations.
