@@ -66,8 +66,10 @@ struct GatedVelocity {
 /// That needs: the stamps and the odometry's places are right; the wheels change their speed as
 /// `limits` say, by no less and no more, and do not slip; a velocity is asked for each control
 /// period or more often, and none beyond `limits`; the things are fewer than there is room for
-/// (4096 points); and between two beams that end on a thing it does not stand out. No component is
-/// ever larger than that which was asked for, nor of the other sign.
+/// (4096 points); and between two beams that end on a thing it does not stand out. It is the points
+/// that count: with a scanner that does not look all around, the far flank of a thing may never
+/// have been seen, and the five places do not find all of it. No component is ever larger than that
+/// which was asked for, nor of the other sign.
 ///
 /// All poses are of the base in one frame that does not jump, the odometry's. Nothing is allocated
 /// once as many things have been seen as ever will be.
