@@ -24,6 +24,10 @@ constexpr double kRounding_m = 1e-9;
 constexpr double kSoon_s = 1e-9;
 constexpr double kOldest_s = 1.0;  // Of a motion from which to reckon.
 constexpr std::size_t kThings = 4096;
+constexpr std::size_t kPieces = 1024;
+const std::array<Eigen::Rotation2Dd, 5> kAside{
+    {Eigen::Rotation2Dd(0.0), Eigen::Rotation2Dd(0.5), Eigen::Rotation2Dd(-0.5),
+     Eigen::Rotation2Dd(1.0), Eigen::Rotation2Dd(-1.0)}};  // The front of the body.
 
 bool isNumber(const VelocityCommand& v) {
   return std::isfinite(v.forward_mps) && std::isfinite(v.turn_radps);
@@ -33,12 +37,40 @@ VelocityCommand scaled(const VelocityCommand& v, double share) {
   return {share * v.forward_mps, share * v.turn_radps};
 }
 
-double distanceToLine(const Vector2d& place, const Vector2d& from, const Vector2d& to) {
-  const Vector2d way = to - from;
-  const double length2 = way.squaredNorm();
-  const double share =
-      length2 > 0.0 ? std::clamp((place - from).dot(way) / length2, 0.0, 1.0) : 0.0;
-  return (place - from - share * way).norm();
+double towards(double from, double to, double most) {
+  return from + std::clamp(to - from, -most, most);
+}
+
+VelocityCommand towards(const DriveLimits& limits, const VelocityCommand& from,
+                        const VelocityCommand& to, double dt_s) {
+  return {towards(from.forward_mps, to.forward_mps, limits.max_acceleration_mps2 * dt_s),
+          towards(from.turn_radps, to.turn_radps, limits.max_turn_acceleration_radps2 * dt_s)};
+}
+
+VelocityCommand lesser(const VelocityCommand& a, const VelocityCommand& b) {
+  return {std::min(a.forward_mps, b.forward_mps), std::min(a.turn_radps, b.turn_radps)};
+}
+
+VelocityCommand greater(const VelocityCommand& a, const VelocityCommand& b) {
+  return {std::max(a.forward_mps, b.forward_mps), std::max(a.turn_radps, b.turn_radps)};
+}
+
+VelocityCommand middle(const VelocityCommand& a, const VelocityCommand& b) {
+  return {0.5 * (a.forward_mps + b.forward_mps), 0.5 * (a.turn_radps + b.turn_radps)};
+}
+
+double most(double a, double b) { return std::max(std::abs(a), std::abs(b)); }
+
+// How long a speed takes to get where it goes to; no time if it is there.
+double untilThere(double from, double to, double acceleration) {
+  const double left_s = std::abs(to - from) / acceleration;
+  return left_s > kSoon_s ? left_s : std::numeric_limits<double>::infinity();
+}
+
+double untilThere(const DriveLimits& limits, const VelocityCommand& from,
+                  const VelocityCommand& to) {
+  return std::min(untilThere(from.forward_mps, to.forward_mps, limits.max_acceleration_mps2),
+                  untilThere(from.turn_radps, to.turn_radps, limits.max_turn_acceleration_radps2));
 }
 
 }  // namespace
@@ -66,6 +98,7 @@ LastGate::LastGate(const LastGateParams& params)
                               2.0 * params.wheels_latency_s + 0.5);
   things_.reserve(kThings);
   near_.reserve(kThings);
+  pieces_.reserve(kPieces);
   for (Look& look : looks_) look.stamp_s = kNever;
   sent_.fill({kNever, {}});
 }
@@ -118,7 +151,7 @@ void LastGate::addScan(const LaserScan& scan, const FloorPose& base, double stam
     const double angle = scan.angle(i);
     const Vector2d place =
         look.scanner * Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
-    keep({place, stamp_s, true, true, 0.0, 0.0});
+    keep({place, stamp_s, true, true});
   }
 }
 
@@ -157,7 +190,7 @@ void LastGate::addPoints(const std::vector<Eigen::Vector3f>& points, const Floor
                 things_.end());
   for (const Cell& cell : cells_) {
     if (cell.points < params_.min_points) continue;
-    keep({placeOf(cell), stamp_s, false, cell.is_sure, 0.0, 0.0});
+    keep({placeOf(cell), stamp_s, false, cell.is_sure});
   }
 }
 
@@ -174,107 +207,211 @@ double LastGate::clearance(const Vector2d& place) const {
 }
 
 // What can be touched, and how near it may come.
-void LastGate::approach(const Vector2d& robot, double now_s) {
+void LastGate::approach(const Vector2d& robot, double reach_m, double now_s) {
   near_.clear();
   const double body_m = params_.limits.radius_m;
   double nearest_m = body_m + params_.margin_m;
-  for (Thing& thing : things_) {
+  for (const Thing& thing : things_) {
     if (now_s - thing.seen_s > params_.remembers_s) continue;
-    thing.away_m = (thing.place - robot).norm();
-    if (thing.away_m > reach_m_) continue;
-    if (thing.away_m >= body_m) nearest_m = std::min(nearest_m, thing.away_m);
-    near_.push_back(&thing);
+    const double away2 = (thing.place - robot).squaredNorm();
+    if (away2 > reach_m * reach_m) continue;
+    const double away_m = std::sqrt(away2);
+    if (away_m >= body_m) nearest_m = std::min(nearest_m, away_m);
+    near_.push_back({thing.place, away_m});
   }
-  // What the robot touches may come no nearer; else nothing may come nearer than the nearest is.
-  for (Thing* thing : near_) thing->allow_m = std::min(thing->away_m, nearest_m);
+  allow_m_ = nearest_m;
 }
 
-bool LastGate::isFreeBetween(const FloorPose& from, const FloorPose& to) const {
-  // An arc leaves its chord by no more than this.
-  const double chord_m = (to.position - from.position).norm();
-  const double bulge_m = 0.125 * chord_m * std::abs(wrapped(to.yaw_rad - from.yaw_rad));
-  return std::all_of(near_.begin(), near_.end(), [&](const Thing* thing) {
-    return distanceToLine(thing->place, from.position, to.position) - bulge_m >=
-           thing->allow_m - kRounding_m;
+// Whether a thing surely comes no nearer while the robot drives a piece of its way: it is behind
+// the robot, wherever in the piece that is and however it is turned.
+bool LastGate::recedes(const Piece& piece, double along_m, double aside_m) {
+  if (!piece.moves) return true;
+  if (piece.turned_rad > 1.0) return false;
+  const double cosine = 1.0 - 0.5 * piece.turned_rad * piece.turned_rad;  // or more
+  const double aside = (std::abs(aside_m) + piece.aside_m) * piece.turned_rad;
+  return (!piece.backs && (piece.first_m - along_m) * cosine >= aside) ||
+         (!piece.advances && (along_m - piece.last_m) * cosine >= aside);
+}
+
+// What it touches, it never drives towards; all else stays as far off as is allowed, or recedes.
+bool LastGate::isFree() const {
+  const double body_m = params_.limits.radius_m;
+  return std::all_of(near_.begin(), near_.end(), [&](const Near& thing) {
+    const bool touches = thing.away_m < body_m;
+    double safe_m = touches ? kNever : thing.away_m - allow_m_;  // so far it can drive anyhow
+    for (const Piece& piece : pieces_) {
+      if (piece.driven_m <= safe_m) continue;
+      const Vector2d to = thing.place - piece.from;
+      const double along_m = to.dot(piece.way);
+      const double aside_m = piece.way.x() * to.y() - piece.way.y() * to.x();
+      const double off_m = std::max({0.0, piece.first_m - along_m, along_m - piece.last_m});
+      const double away_m = std::sqrt(off_m * off_m + aside_m * aside_m) - piece.aside_m;
+      if (!touches && away_m >= allow_m_ - kRounding_m) {
+        safe_m = piece.driven_m + away_m - allow_m_;
+      } else if (!recedes(piece, along_m, aside_m)) {
+        return false;
+      }
+    }
+    return true;
   });
 }
 
 // The front of the body, in the direction in which it goes; the sides were the front before.
-bool LastGate::isSeenAhead(const DriveState& state, const Vector2d& start, double now_s) const {
+bool LastGate::isSeenAhead(const Vector2d& start, double now_s) const {
   const double body_m = params_.limits.radius_m;
-  const double way_rad = state.pose.yaw_rad + (state.speed.forward_mps < 0.0 ? M_PI : 0.0);
-  for (const double aside_rad : {0.0, 0.5, -0.5, 1.0, -1.0}) {
-    const double angle = way_rad + aside_rad;
-    const Vector2d rim = state.pose.position + body_m * Vector2d(std::cos(angle), std::sin(angle));
-    if ((rim - start).norm() > body_m && !isSeen(rim, now_s)) return false;
+  double looked_m = kNever;
+  for (const Piece& piece : pieces_) {
+    const bool is_last = &piece == &pieces_.back();
+    if (!piece.moves || (!is_last && piece.driven_m - looked_m < kSurface_m)) continue;
+    looked_m = piece.driven_m;
+    for (const double sign : {1.0, -1.0}) {
+      if (!(sign > 0.0 ? piece.advances : piece.backs)) continue;
+      const Vector2d way = sign * piece.way;
+      const Vector2d end = piece.from + (sign > 0.0 ? piece.last_m : piece.first_m) * piece.way;
+      for (const Eigen::Rotation2Dd& aside : kAside) {
+        const Vector2d rim = end + body_m * (aside * way);
+        if ((rim - start).squaredNorm() > body_m * body_m && !isSeen(rim, now_s)) return false;
+      }
+    }
   }
   return true;
 }
 
-// The command that was the newest at a time, and when the next was sent.
-LastGate::Sent LastGate::sentAt(double time_s) const {
-  double until_s = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < sent_.size(); ++i) {
-    const Sent& sent = sent_[(sent_newest_ + sent_.size() - i) % sent_.size()];
-    if (sent.stamp_s <= time_s + kSoon_s) return {until_s, sent.velocity};
-    until_s = sent.stamp_s;
+// What the wheels may obey at a time, any command that was the newest within the latency, and
+// until when that is so.
+LastGate::Obeyed LastGate::obeyed(double time_s, const Sent* planned) const {
+  Obeyed out{std::numeric_limits<double>::infinity(), {}, {}};
+  double ends_s = std::numeric_limits<double>::infinity();
+  bool is_any = false;
+  const std::size_t plans = planned == nullptr ? 0 : 2;
+  for (std::size_t i = 0; i < sent_.size() + plans; ++i) {
+    const Sent& sent = i < plans
+                           ? planned[plans - 1 - i]
+                           : sent_[(sent_newest_ + sent_.size() - (i - plans)) % sent_.size()];
+    const double left_s = ends_s + params_.wheels_latency_s;
+    ends_s = sent.stamp_s;
+    if (sent.stamp_s > time_s + kSoon_s) {
+      out.until_s = sent.stamp_s;
+      continue;
+    }
+    if (is_any && left_s <= time_s + kSoon_s) break;
+    out.least = is_any ? lesser(out.least, sent.velocity) : sent.velocity;
+    out.most = is_any ? greater(out.most, sent.velocity) : sent.velocity;
+    out.until_s = std::min(out.until_s, left_s);
+    is_any = true;
   }
-  return {until_s, {}};
+  return out;
 }
 
 // Odometry tells the mean speed of a while, and late; what was sent, what the speed is by now.
-DriveState LastGate::fastest(const DriveState& now, double at_s) {
-  const double latency_s = params_.wheels_latency_s;
+void LastGate::believe(const VelocityCommand& measured, double at_s) {
   double time_s = std::max(believed_s_, at_s - params_.remembers_s);
   while (time_s < at_s - kSoon_s) {
-    const Sent sent = sentAt(time_s - latency_s);
-    const double until_s = std::min(at_s, sent.stamp_s + latency_s);
-    believed_.speed = driven(params_.limits, believed_, sent.velocity, until_s - time_s).speed;
+    const Obeyed command = obeyed(time_s, nullptr);
+    const double until_s = std::min(at_s, command.until_s);
+    least_ = towards(params_.limits, least_, command.least, until_s - time_s);
+    most_ = towards(params_.limits, most_, command.most, until_s - time_s);
     time_s = until_s;
   }
   believed_s_ = time_s;
-  const auto faster = [](double a, double b) { return std::abs(a) > std::abs(b) ? a : b; };
-  return {now.pose,
-          {faster(now.speed.forward_mps, believed_.speed.forward_mps),
-           faster(now.speed.turn_radps, believed_.speed.turn_radps)}};
+  slow_ = lesser(measured, least_);
+  fast_ = greater(measured, most_);
 }
 
-// From the last odometry through the commands that were sent, this one, and the brakes.
-GateReason LastGate::judge(const VelocityCommand& velocity, const DriveState& then, double then_s,
-                           double now_s, double latency_s) const {
-  const double begins_s = now_s + latency_s;
-  const double brakes_s = now_s + params_.limits.period_s + params_.wheels_latency_s;
-  DriveState state = then;
-  double time_s = then_s;
-  const auto rolls = [&] {
-    return std::abs(state.speed.forward_mps) > 1e-9 || std::abs(state.speed.turn_radps) > 1e-9;
-  };
-  while (time_s < brakes_s - kSoon_s || rolls()) {
-    Sent command{std::numeric_limits<double>::infinity(), {}};  // the brakes
-    if (time_s < begins_s - kSoon_s) {
-      command = sentAt(time_s - latency_s);
-      command.stamp_s = std::min(command.stamp_s + latency_s, begins_s);
-    } else if (time_s < brakes_s - kSoon_s) {
-      command = {brakes_s, velocity};
-    }
-    const double until_s = std::min(time_s + kStep_s, command.stamp_s);
-    const DriveState next = driven(params_.limits, state, command.velocity, until_s - time_s);
-    if (!isFreeBetween(state.pose, next.pose)) return GateReason::kThing;
-    if (next.speed.forward_mps != 0.0 && !isSeenAhead(next, then.pose.position, now_s)) {
-      return GateReason::kUnseen;
-    }
-    state = next;
-    time_s = until_s;
+// Of what can still be obeyed.
+double LastGate::fastestSent(double then_s) const {
+  double top_mps = 0.0;
+  double ends_s = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < sent_.size(); ++i) {
+    const Sent& sent = sent_[(sent_newest_ + sent_.size() - i) % sent_.size()];
+    if (ends_s + params_.wheels_latency_s < then_s - kSoon_s) break;
+    top_mps = std::max(top_mps, std::abs(sent.velocity.forward_mps));
+    ends_s = sent.stamp_s;
   }
-  return GateReason::kFree;
+  return top_mps;
 }
 
-// With each command as late as can be, and at once.
-GateReason LastGate::judge(const VelocityCommand& velocity, const DriveState& then, double then_s,
-                           double now_s) const {
-  const GateReason late = judge(velocity, then, then_s, now_s, params_.wheels_latency_s);
-  if (late != GateReason::kFree || params_.wheels_latency_s == 0.0) return late;
-  return judge(velocity, then, then_s, now_s, 0.0);
+// All ways from the last odometry through the commands that were sent, this one, and the brakes.
+// A speed that goes towards a greater command never falls below one that goes towards a lesser: so
+// both speeds are always between two of them, `slow` and `fast`. The way in the middle is followed,
+// and e, how far any other is from it along its heading and aside of it: with d the difference in
+// heading and w the middle's turn
+//   e_along' = v cos d - v_middle + w e_aside,  e_aside' = v sin d - w e_along.
+void LastGate::layOut(const VelocityCommand& velocity, const FloorPose& from, double then_s,
+                      double now_s) {
+  const DriveLimits& limits = params_.limits;
+  const std::array<Sent, 2> planned{{{now_s, velocity}, {now_s + limits.period_s, {}}}};
+  const double brakes_s = now_s + limits.period_s + params_.wheels_latency_s;
+  VelocityCommand slow = slow_, fast = fast_;
+  FloorPose pose = from;
+  double time_s = then_s, along_m = 0.0, aside_m = 0.0, off_rad = 0.0, driven_m = 0.0;
+  const auto rolls = [&] {
+    return most(slow.forward_mps, fast.forward_mps) > 1e-9 ||
+           most(slow.turn_radps, fast.turn_radps) > 1e-9;
+  };
+  pieces_.clear();
+  while (time_s < brakes_s - kSoon_s || rolls()) {
+    const Obeyed command = obeyed(time_s, planned.data());
+    // Pieces in which each speed changes evenly.
+    const double dt_s =
+        std::min({kStep_s, command.until_s - time_s, untilThere(limits, slow, command.least),
+                  untilThere(limits, fast, command.most)});
+    const VelocityCommand next_slow = towards(limits, slow, command.least, dt_s);
+    const VelocityCommand next_fast = towards(limits, fast, command.most, dt_s);
+    const VelocityCommand begin = middle(slow, fast), end = middle(next_slow, next_fast);
+    const VelocityCommand mean = middle(begin, end);
+    const VelocityCommand wide =
+        middle({fast.forward_mps - slow.forward_mps, fast.turn_radps - slow.turn_radps},
+               {next_fast.forward_mps - next_slow.forward_mps,
+                next_fast.turn_radps - next_slow.turn_radps});
+    const double top_mps = std::max(most(slow.forward_mps, next_slow.forward_mps),
+                                    most(fast.forward_mps, next_fast.forward_mps));
+    const double turn_rad = dt_s * most(begin.turn_radps, end.turn_radps);
+    const double way_m = dt_s * top_mps;
+    const double faster_mps = end.forward_mps - begin.forward_mps;
+    // The bounds of e grow by their rates, by what the chord of an arc leaves out of a way whose
+    // speeds change, and as the heading turns one into the other.
+    off_rad += 0.5 * wide.turn_radps * dt_s;
+    const double along = along_m + 0.5 * wide.forward_mps * dt_s + 0.5 * way_m * off_rad * off_rad +
+                         0.5 * way_m * turn_rad * turn_rad;
+    const double aside = aside_m + way_m * off_rad + way_m * turn_rad * turn_rad * turn_rad / 6.0 +
+                         dt_s * dt_s / 12.0 *
+                             (std::abs(mean.forward_mps * (end.turn_radps - begin.turn_radps)) +
+                              std::abs(mean.turn_radps * faster_mps));
+    along_m = along + turn_rad * aside;
+    aside_m = aside + turn_rad * along;
+    driven_m += way_m;
+    const FloorPose next = alongArc(pose, mean.forward_mps * dt_s, mean.turn_radps * dt_s);
+    const double half_rad = pose.yaw_rad + 0.5 * mean.turn_radps * dt_s;
+    Piece piece;
+    piece.from = pose.position;
+    piece.way = {std::cos(half_rad), std::sin(half_rad)};
+    piece.driven_m = driven_m;
+    piece.turned_rad = turn_rad + off_rad;
+    piece.advances = fast.forward_mps > 0.0 || next_fast.forward_mps > 0.0;
+    piece.backs = slow.forward_mps < 0.0 || next_slow.forward_mps < 0.0;
+    piece.moves = piece.advances || piece.backs;
+    // Where it turns back within the piece it has been a little further.
+    const double beyond_m =
+        begin.forward_mps * end.forward_mps < 0.0 ? std::abs(faster_mps) * dt_s / 8.0 : 0.0;
+    const double chord_m = (next.position - pose.position).dot(piece.way);
+    const double spare_m = along_m + turn_rad * aside_m + beyond_m;
+    piece.first_m = std::min(chord_m, 0.0) - spare_m;
+    piece.last_m = std::max(chord_m, 0.0) + spare_m;
+    piece.aside_m = aside_m + turn_rad * along_m + 0.5 * way_m * turn_rad;
+    pieces_.push_back(piece);
+    slow = next_slow;
+    fast = next_fast;
+    pose = next;
+    time_s += dt_s;
+  }
+}
+
+GateReason LastGate::judge(const VelocityCommand& velocity, const FloorPose& from, double then_s,
+                           double now_s) {
+  layOut(velocity, from, then_s, now_s);
+  if (!isFree()) return GateReason::kThing;
+  return isSeenAhead(from.position, now_s) ? GateReason::kFree : GateReason::kUnseen;
 }
 
 GatedVelocity LastGate::pass(const VelocityCommand& wanted, const DriveState& now, double age_s,
@@ -286,10 +423,16 @@ GatedVelocity LastGate::pass(const VelocityCommand& wanted, const DriveState& no
     gated.reason = GateReason::kBadMotion;
   } else {
     const double then_s = now_s - age_s;
-    const DriveState then = fastest(now, then_s);
-    approach(then.pose.position, now_s);
+    believe(now.speed, then_s);
+    const double top_mps = std::max({most(slow_.forward_mps, fast_.forward_mps),
+                                     std::abs(wanted.forward_mps), fastestSent(then_s)});
+    const double until_brakes_s = age_s + params_.limits.period_s + params_.wheels_latency_s;
+    approach(now.pose.position,
+             params_.limits.radius_m + params_.margin_m +
+                 stoppingDistance(params_.limits, top_mps, until_brakes_s),
+             now_s);
     const auto passes = [&](const VelocityCommand& velocity) {
-      const GateReason reason = judge(velocity, then, then_s, now_s);
+      const GateReason reason = judge(velocity, now.pose, then_s, now_s);
       if (reason == GateReason::kFree) gated.velocity = velocity;
       if (gated.reason == GateReason::kFree) gated.reason = reason;  // why not all of it
       return reason == GateReason::kFree;

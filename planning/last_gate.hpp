@@ -21,7 +21,7 @@ namespace heel {
 struct LastGateParams {
   DriveLimits limits;        ///< The robot's; it brakes as fast as it accelerates.
   FloorPose T_base_scanner;  ///< Where the laser scanner is, in the base frame.
-  /// A command acts on the wheels at most so long after it was sent [s].
+  /// A command acts on the wheels at most so long after it was sent, or at any time before [s].
   double wheels_latency_s = 0.0;
   /// Room that is left to what was seen: two standard deviations of a laser's ranges.
   double margin_m = 0.02;
@@ -49,14 +49,27 @@ struct GatedVelocity {
 /// Takes a velocity and gives one with which the robot stops in time, from raw readings alone:
 /// neither the map nor the tracks nor who is followed. The robot is a disc about its base's origin.
 ///
-/// It lets a velocity through if the robot, with it for a control period and then braking, with
-/// each command at once or `wheels_latency_s` late, comes no nearer than `margin_m` to what was
-/// seen (or no nearer than it is), and goes only where a scan of the last `remembers_s` has seen.
+/// It lets a velocity through if the robot, with it for a control period and then braking,
+/// - comes no nearer than `margin_m` to what was seen, or, where the nearest that it does not touch
+///   was nearer at the last odometry, no nearer than that;
+/// - does not drive towards what it touched then, not even as far as it has moved off since;
+/// - goes only where a scan of the last `remembers_s` has seen, as far as five places on the front
+///   of the body tell, asked every 5 cm and where it stands at last.
 /// Else it scales forward speed and turn alike; else it lets only the turn through; else nothing.
 ///
-/// So, if stamps, odometry and latencies are as described: what stands still and was seen before
-/// the robot had to brake for it is not driven into. No component is ever larger than that which
-/// was asked for, nor of the other sign.
+/// The first two hold for every way that the robot can take, not for some of them: each command
+/// comes to the wheels at any time within `wheels_latency_s`, in the order of sending, and the
+/// speed was anything between the measured one and those that the commands can have brought about.
+/// A box around all of these ways is followed; it is never too small, and may be too large.
+///
+/// So what stands still, and was seen before the robot had to brake for it, is not driven into.
+/// That needs: the stamps and the odometry's places are right; the wheels change their speed as
+/// `limits` say, by no less and no more, and do not slip; a velocity is asked for each control
+/// period or more often, and none beyond `limits`; the things are fewer than there is room for
+/// (4096 points); and between two beams that end on a thing it does not stand out. It is the points
+/// that count: with a scanner that does not look all around, the far flank of a thing may never
+/// have been seen, and the five places do not find all of it. No component is ever larger than that
+/// which was asked for, nor of the other sign.
 ///
 /// All poses are of the base in one frame that does not jump, the odometry's. Nothing is allocated
 /// once as many things have been seen as ever will be.
@@ -89,9 +102,23 @@ class LastGate {
     Eigen::Vector2d place;  // in the odometry's frame
     double seen_s;
     bool by_laser;
-    bool is_sure;    // by the laser, or in two pictures one after the other
-    double away_m;   // from the robot's middle,
-    double allow_m;  // and how near it may come
+    bool is_sure;  // by the laser, or in two pictures one after the other
+  };
+  struct Near {
+    Eigen::Vector2d place;
+    double away_m;  // from the robot's middle
+  };
+  /// A box that the robot's middle does not leave for a while: along a way from a place, and aside.
+  struct Piece {
+    Eigen::Vector2d from, way;
+    double first_m, last_m, aside_m;
+    double turned_rad;            // the heading is off the way by no more than this
+    double driven_m;              // no more, since the last odometry
+    bool moves, advances, backs;  // maybe
+  };
+  struct Obeyed {
+    double until_s;
+    VelocityCommand least, most;
   };
   struct Look {
     FloorPose scanner;
@@ -111,28 +138,32 @@ class LastGate {
   static bool sees(const Look& look, const Eigen::Vector2d& place);
   bool isSeen(const Eigen::Vector2d& place, double now_s) const;
   void keep(const Thing& thing);
-  void approach(const Eigen::Vector2d& robot, double now_s);
-  Sent sentAt(double time_s) const;
-  DriveState fastest(const DriveState& now, double at_s);
-  GateReason judge(const VelocityCommand& velocity, const DriveState& then, double then_s,
-                   double now_s, double latency_s) const;
-  GateReason judge(const VelocityCommand& velocity, const DriveState& then, double then_s,
-                   double now_s) const;
-  bool isFreeBetween(const FloorPose& from, const FloorPose& to) const;
-  bool isSeenAhead(const DriveState& state, const Eigen::Vector2d& start, double now_s) const;
+  void approach(const Eigen::Vector2d& robot, double reach_m, double now_s);
+  static bool recedes(const Piece& piece, double along_m, double aside_m);
+  bool isFree() const;
+  bool isSeenAhead(const Eigen::Vector2d& start, double now_s) const;
+  Obeyed obeyed(double time_s, const Sent* planned) const;
+  double fastestSent(double then_s) const;
+  void believe(const VelocityCommand& measured, double at_s);
+  void layOut(const VelocityCommand& velocity, const FloorPose& from, double then_s, double now_s);
+  GateReason judge(const VelocityCommand& velocity, const FloorPose& from, double then_s,
+                   double now_s);
 
   LastGateParams params_;
   double reach_m_;  // what is further away can't be touched before the robot stands
   std::vector<Thing> things_;
-  std::vector<Thing*> near_;
+  std::vector<Near> near_;
+  double allow_m_ = 0.0;  // how near what it does not touch may come
+  std::vector<Piece> pieces_;
   std::array<Look, 20> looks_;  // a ring; looks_[newest_] is the last
   std::size_t newest_ = 0;
   std::array<Sent, 32> sent_;  // a ring
   std::size_t sent_newest_ = 0;
   std::vector<Cell> cells_;
   double points_s_;
-  DriveState believed_;  // the speed that the commands should have come to,
-  double believed_s_;    // and when
+  VelocityCommand least_, most_;  // between these the commands should have brought the speed,
+  double believed_s_;             // and when
+  VelocityCommand slow_, fast_;   // and between these it is, by the odometry too
 };
 
 }  // namespace heel

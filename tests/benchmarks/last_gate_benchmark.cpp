@@ -3,8 +3,8 @@
 
 /// @file
 /// The last gate's promise in ten million drawn situations, or as many as are asked for: ends with
-/// 1 if it was broken. Then the time of one velocity before a wall.
-///   last_gate_benchmark [SITUATIONS]
+/// 1 if it was broken. Then the time of one velocity before a wall. After SECONDS no more is drawn.
+///   last_gate_benchmark [SITUATIONS [SECONDS]]
 
 #include "tests/support/gate_trial.hpp"
 #include <heel/planning/last_gate.hpp>
@@ -42,9 +42,12 @@ double microseconds() {
 
 int main(int argc, char** argv) {
   const long wanted = argc > 1 ? std::atol(argv[1]) : 10'000'000;
+  const std::chrono::duration<double> most(argc > 2 ? std::atof(argv[2]) : 1e6);
+  const auto start = std::chrono::steady_clock::now();
   long situations = 0, held_back = 0, broken = 0;
   double deepest_m = 0.0, way_m = 0.0;
-  for (std::uint64_t seed = 1; situations < wanted; ++seed) {
+  for (std::uint64_t seed = 1;
+       situations < wanted && std::chrono::steady_clock::now() - start < most; ++seed) {
     const heel::test::GateTrial trial = heel::test::runGateTrial(seed);
     situations += trial.situations;
     held_back += trial.held_back;

@@ -39,6 +39,8 @@ struct World {
   LastGateParams params;
   int scan_ticks = 0, odometry_ticks = 0, wheel_ticks = 0;  // how late they are
   bool looks_round = true;
+  bool is_uneven = false;    // Commands come early too, each as late as it happens to,
+  bool tells_means = false;  // and odometry tells the mean speed of the last period.
   std::vector<Post> posts;
   std::mt19937_64* random_ = nullptr;
 };
@@ -108,21 +110,50 @@ bool adds(double given, double asked) {
 
 }  // namespace
 
+// The ticks at which the commands that are sent each period come to the wheels, in their order.
+std::array<int, kPeriods> arrivals(const World& world, std::uint64_t seed) {
+  std::mt19937_64 random(~seed);
+  std::uniform_int_distribution<int> late(0, world.wheel_ticks);
+  std::array<int, kPeriods> ticks{};
+  int last = 0;
+  for (int period = 0; period < kPeriods; ++period) {
+    last = std::max(last, period * kTicks + (world.is_uneven ? late(random) : world.wheel_ticks));
+    ticks[static_cast<std::size_t>(period)] = last;
+  }
+  return ticks;
+}
+
 GateTrial runGateTrial(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   static thread_local World world;
   static thread_local LaserScan scan;
   world.draw(random);
+  world.is_uneven = seed % 2 == 0;
+  world.tells_means = seed / 2 % 2 == 0;
+  const std::array<int, kPeriods> arrives = arrivals(world, seed);
   const DriveLimits& limits = world.params.limits;
   LastGate gate(world.params);
   GateTrial trial;
   VelocityCommand wanted;
   std::array<VelocityCommand, kPeriods> sent;
   DriveState state;
-  std::array<DriveState, kTicks> past;  // at the beginning of each tick of the last period
-  past.fill(state);
+  std::array<DriveState, kPeriods * kTicks + 1> past;  // at the beginning of each tick
+  int ticks_past = 0;
+  VelocityCommand obeyed;
+  int obeys_period = -1;
   const auto before = [&](int ticks) {
-    return ticks == 0 ? state : past[static_cast<std::size_t>(kTicks - ticks)];
+    return past[static_cast<std::size_t>(std::max(ticks_past - ticks, 0))];
+  };
+  const auto odometry = [&] {
+    DriveState told = before(world.odometry_ticks);
+    if (!world.tells_means) return told;
+    told.speed = {};
+    for (int tick = 0; tick < kTicks; ++tick) {
+      const VelocityCommand& speed = before(world.odometry_ticks + tick).speed;
+      told.speed.forward_mps += speed.forward_mps / kTicks;
+      told.speed.turn_radps += speed.turn_radps / kTicks;
+    }
+    return told;
   };
   for (int period = 0; period < kPeriods; ++period) {
     const double now_s = period * limits.period_s;
@@ -135,19 +166,19 @@ GateTrial runGateTrial(std::uint64_t seed) {
       wanted = {world.between(-1.3, 1.3) * limits.max_speed_mps, world.between(-1.2, 1.2)};
       if (world.share() < 0.3) wanted.turn_radps = 0.0;
     }
-    const int ticks = world.odometry_ticks;
-    const GatedVelocity out = gate.pass(wanted, before(ticks), ticks * kTick_s, now_s);
+    const GatedVelocity out = gate.pass(wanted, odometry(), world.odometry_ticks * kTick_s, now_s);
     sent[static_cast<std::size_t>(period)] = out.velocity;
     trial.adds_speed = trial.adds_speed || adds(out.velocity.forward_mps, wanted.forward_mps) ||
                        adds(out.velocity.turn_radps, wanted.turn_radps);
     ++trial.situations;
     trial.held_back += out.reason != GateReason::kFree ? 1 : 0;
     for (int tick = 0; tick < kTicks; ++tick) {
-      const int sent_tick = period * kTicks + tick - world.wheel_ticks;
-      const VelocityCommand obeyed =
-          sent_tick < 0 ? VelocityCommand{} : sent[static_cast<std::size_t>(sent_tick / kTicks)];
-      past[static_cast<std::size_t>(tick)] = state;
+      while (obeys_period < period &&
+             arrives[static_cast<std::size_t>(obeys_period + 1)] <= ticks_past) {
+        obeyed = sent[static_cast<std::size_t>(++obeys_period)];
+      }
       state = driven(limits, state, obeyed, kTick_s);
+      past[static_cast<std::size_t>(++ticks_past)] = state;
       trial.way_m += std::abs(state.speed.forward_mps) * kTick_s;
       for (Post& post : world.posts)
         trial.deepest_m = std::max(trial.deepest_m, world.touch(post, state));

@@ -23,7 +23,9 @@ struct GateTrial {
 
 /// Robot, posts, latencies and commands are drawn from the seed; each trial is of 20 control
 /// periods. The scanner looks all around, or 220 degrees ahead; posts count that it has seen. All
-/// stamps are true, readings and commands come as late as is said.
+/// stamps are true, readings come as late as is said. With odd seeds each command comes as late as
+/// is said, with even ones earlier too, each as it happens; with seeds that leave 2 or 3 when
+/// divided by 4 odometry tells the speed, else its mean over the last period.
 GateTrial runGateTrial(std::uint64_t seed);
 
 }  // namespace heel::test
