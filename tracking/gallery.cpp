@@ -78,17 +78,8 @@ void Gallery::takeApart(const Eigen::ArrayXXf& look) {
   }
 }
 
-/// How many parts both the look and the person show.
-int Gallery::partsOf(const Person& person) const {
-  int parts = 0;
-  for (std::size_t part = 0, i = 0; part < ends_.size(); i = ends_[part++]) {
-    if (i < ends_[part] && person.knows[part]) ++parts;
-  }
-  return parts;
-}
-
 /// Over the parts that both the look and the person show, in the light that fits best.
-double Gallery::logOdds(const Person& person) const {
+double Gallery::likeness(const Person& person) const {
   const double rare = params_.rarity_share;
   double best = -std::numeric_limits<double>::infinity();
   for (const Tint& tint : looks_.tints) {
@@ -125,11 +116,7 @@ Evidence Gallery::logLikelihood(const Observation& seen) {
   takeApart(*seen.look);
   if (look_.empty()) return evidence;
   for (int h = kTarget; h < kHypotheses; ++h) {
-    if (!isKnown(h)) continue;
-    const Person& person = people_[index(h)];
-    const double known = person.usual_weight / (person.usual_weight + 1.0);
-    const double odds = logOdds(person);
-    evidence[h] = odds - known * std::max(partsOf(person) * person.usual - odds, 0.0);
+    if (isKnown(h)) evidence[h] = likeness(people_[index(h)]);
   }
   if (looks_.stature_m && seen.stature_m) {
     // Among people, statures are spread by about 0.1 m.
@@ -168,11 +155,6 @@ void Gallery::average(Person& person, const Eigen::ArrayXXf& look, double weight
 void Gallery::addLookAt(int hypothesis, const Observation& seen, double weight) {
   if (seen.look == nullptr || !isKnown(hypothesis)) return;
   Person& person = people_[index(hypothesis)];
-  takeApart(*seen.look);
-  if (const int parts = partsOf(person); parts > 0) {
-    person.usual_weight = std::min(person.usual_weight + weight, kMostWeight);
-    person.usual += weight / person.usual_weight * (logOdds(person) / parts - person.usual);
-  }
   average(hypothesis == kTarget ? lately_ : person, *seen.look, weight);
   if (hypothesis == kTarget) mixLately();
   refresh(person);
@@ -207,7 +189,6 @@ int Gallery::meet(const Eigen::ArrayXXf& mean_look, double weight, int replaced)
   }
   if (hypothesis < kFirstOther) return kStranger;
   Person& person = people_[index(hypothesis)];
-  person = {};
   person.mean = mean_look;
   person.weight = weight;
   refresh(person);

@@ -44,9 +44,7 @@ using Evidence = Eigen::Array<double, kHypotheses, 1>;
 
 /// A look's log odds is look_gain * sum over its parts of (likeness + likeness_offset), where
 /// likeness = rarity_share * KL(look || anybody) - KL(look || person), in the light that fits best.
-/// The first two were learned on people of real recordings, see docs/results.md. What it lacks of
-/// the usual log odds of the person's own sure looks counts twice: somebody dressed alike is less
-/// like them than they are themselves.
+/// The first two were learned on people of real recordings, see docs/results.md.
 struct GalleryParams {
   /// Factor on a look's log odds; less than 1, for the parts of a body are not independent.
   double look_gain = 0.9;
@@ -85,15 +83,12 @@ class Gallery {
     Eigen::ArrayXXf log_shares;  // of a bin, with a little of anybody's
     std::vector<bool> knows;     // which parts
     double weight = 0.0;         // independent looks that it rests on; 0: nobody
-    double usual = 0.0;          // mean log odds of a part in their sure looks since they were met,
-    double usual_weight = 0.0;   // of so many independent ones
   };
   static std::size_t index(int hypothesis) { return static_cast<std::size_t>(hypothesis); }
   void refresh(Person& person) const;
   static void average(Person& person, const Eigen::ArrayXXf& look, double weight);
   void takeApart(const Eigen::ArrayXXf& look);
-  int partsOf(const Person& person) const;
-  double logOdds(const Person& person) const;
+  double likeness(const Person& person) const;
   void mixLately();
 
   TargetLooks looks_;

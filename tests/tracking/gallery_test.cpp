@@ -182,7 +182,7 @@ TEST(Gallery, WhatWasLearnedAtFirstKeepsHalfOfTheSay) {
   EXPECT_NEAR(of(gallery, clothes(0, 1))[kTarget], target(0.9 * 2.0 * partLogOdds(1.0 - lately)),
               1e-4);
   EXPECT_NEAR(of(gallery, clothes(2, 3))[kTarget], target(0.9 * 2.0 * partLogOdds(lately)), 1e-4);
-  EXPECT_LT(of(gallery, clothes(4, 5))[kTarget], target(0.9 * 2.0 * partLogOdds(0.0)));
+  EXPECT_NEAR(of(gallery, clothes(4, 5))[kTarget], target(0.9 * 2.0 * partLogOdds(0.0)), 1e-4);
 }
 
 TEST(Gallery, AFewLooksChangeThePortraitALittle) {
@@ -210,21 +210,6 @@ TEST(Gallery, ALookThatShowsNothingTeachesNothing) {
   gallery.addLookAt(kTarget, seen(0, 0), 1.0);
   gallery.addLookAt(kTarget, seen(0, 0, &nothing), 1.0);
   EXPECT_EQ(of(gallery, clothes(0, 1))[kTarget], before);
-}
-
-TEST(Gallery, WhatLacksOfTheUsualCountsTwice) {
-  Gallery gallery(looksOf(clothes(0, 1)));
-  const Eigen::ArrayXXf own = clothes(0, 1), alike = clothes(0, 5);
-  const double whole = 2.0 * partLogOdds(1.0), half = partLogOdds(1.0) + partLogOdds(0.0);
-  EXPECT_NEAR(of(gallery, alike)[kTarget], target(0.9 * half), 1e-5) << "nothing is usual yet";
-  for (int i = 0; i < 9; ++i) gallery.addLookAt(kTarget, seen(0, 0, &own), 1.0);
-  const double known = 0.9;  // after nine looks
-  EXPECT_NEAR(of(gallery, own)[kTarget], target(0.9 * whole), 1e-5);
-  EXPECT_NEAR(of(gallery, alike)[kTarget], target(0.9 * (half - known * (whole - half))), 1e-5);
-  Eigen::ArrayXXf upper = own;
-  upper.col(1).setZero();
-  EXPECT_NEAR(of(gallery, upper)[kTarget], target(0.9 * 0.5 * whole), 1e-5)
-      << "a part that is hidden is not lacking";
 }
 
 TEST(Gallery, TellsOthersApartWhoWereMet) {
