@@ -18,7 +18,8 @@ namespace heel {
 ///
 /// Each depth covers in the colour image what its pixel covers in its own, at its new range, so
 /// that a coarser depth image leaves no holes; of several, the nearest counts. What only the colour
-/// camera sees has no depth.
+/// camera sees has no depth. (OpenCV's rgbd::registerDepth writes beyond its memory where the depth
+/// image is the larger one, up to 4.10 at least: opencv_contrib issue 3761.)
 class DepthRegistration {
  public:
   /// @param T_color_depth  Maps the depth camera's optical frame to the colour camera's.

@@ -239,12 +239,12 @@ void Follower::learn(const Frame& frame) {
     throw NobodyLearned("nobody entered to be learned, or several did together");
   }
   const Vector2d place = step_.robot.pose * learner_->result().last_place_m;
-  follow(learner_->learn());
+  skipLearning(learner_->learn());
   perception_->startAt(place);
   last_.position = place;
 }
 
-void Follower::follow(const AppearanceModel& whom) {
+void Follower::skipLearning(const AppearanceModel& whom) {
   PerceptionParams params = params_.perception;
   params.gate = wallGate(walls_, params_.gate);
   perception_.emplace(robot_.camera, whom, params);

@@ -65,7 +65,7 @@ class Follower {
            const std::optional<FloorPose>& start, const FollowerParams& params = {});
 
   /// Ends phase 1 before its time: follows whom the model tells, wherever they are.
-  void follow(const AppearanceModel& whom);
+  void skipLearning(const AppearanceModel& whom);
 
   /// @throws NobodyLearned  if nobody entered in phase 1, or several did together.
   const FollowStep& step(const RobotReadings& readings, const StageDone& done = {});

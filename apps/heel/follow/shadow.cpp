@@ -140,7 +140,7 @@ FollowLog runShadow(const ShadowParams& params, const PetriPlan& plan, const Loo
   LogLaser laser = openLogLaser(params.recording, params.opening.topics, params.map);
   LogReadings readings(std::move(recording), std::move(laser.scans), std::move(odometry));
   Follower follower = makeFollower(params, plan, setup, laser, readings.nextScan());
-  if (params.model) follower.follow(*params.model);
+  if (params.model) follower.skipLearning(*params.model);
 
   FollowLog log;
   const RecordingInfo& info = readings.recording().info();

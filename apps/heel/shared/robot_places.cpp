@@ -173,7 +173,7 @@ std::optional<RobotPlace> RobotPlaces::at(double stamp_s,
 
 // As the follower does: beams that end on people are left out.
 void RobotPlaces::takeScans(double until_s, const std::vector<Eigen::Vector2d>& people) {
-  const double radius_m = FollowerParams().target_radius_m;
+  static const double radius_m = FollowerParams().target_radius_m;
   for (; has_scan_ && scan_.stamp_s <= until_s + kSameTime_s; has_scan_ = scans_->next(scan_)) {
     const auto odometry = odometryAt(scan_.stamp_s);
     if (!odometry) continue;

@@ -97,14 +97,15 @@ void run(const TrackOptions& options) {
   for (const std::string& warning : setup.warnings) warn(warning);
   RobotPlaces robot(*recording, setup);
   std::vector<GeometricGate> gates;
-  if (!options.map.map.empty()) useMap(options, setup, robot, gates);
+  const bool on_map = !options.map.map.empty();
+  if (on_map) useMap(options, setup, robot, gates);
 
   PerceptionParams params;
   TrackOutputParams output_params;
   output_params.film = !options.no_film;
   output_params.bag = options.bag;
   output_params.inputs = {options.recording, options.model};
-  if (!options.map.map.empty()) output_params.inputs.push_back(mapSource(options.map.map));
+  if (on_map) output_params.inputs.push_back(mapSource(options.map.map));
   output_params.person = picturedPerson(options.model, model);
   output_params.frame = robot.frame();
   if (!options.bounds_m.empty()) {
@@ -127,7 +128,8 @@ void run(const TrackOptions& options) {
   Frame frame;
   StageTimes times_ms{};
   while (!isStopRequested() && recording->next(frame)) {
-    const auto place = robot.at(frame.stamp_s, peopleOf(perception));
+    const auto place =
+        on_map ? robot.at(frame.stamp_s, peopleOf(perception)) : robot.at(frame.stamp_s);
     if (!place) {
       (robot.isLost() ? unplaced : end.skipped)
           .push_back({frame.number, frame.name + ": " + robot.whyAbsent()});

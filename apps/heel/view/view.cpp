@@ -216,9 +216,8 @@ void addView(CLI::App& app) {
       "  heel view recordings/kitchen --model person.yaml --out pictures\n"
       "Shows the cloud of each frame; with a model, also the points of the person's colours, the\n"
       "blobs on the floor, and the tracks as poles (the target's is orange). If the robot moves,\n"
-      "all of it is in the frame of its odometry; with a map, in the map's. Opens a window; with "
-      "no display, or with --out,\n"
-      "it writes pictures of the same.");
+      "all of it is in the frame of its odometry; with a map, in the map's. Opens a window; with\n"
+      "no display, or with --out, it writes pictures of the same.");
   verb->add_option("RECORDING", options->recording, "folder of a recording, a bag, or a PCD file")
       ->required();
   verb->add_option("--model", options->model, "the person, as 'heel learn' wrote it");

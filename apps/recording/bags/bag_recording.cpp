@@ -70,7 +70,7 @@ void undistortDepth(const cv::Mat& raw_m, const cv::Mat& x, const cv::Mat& y, cv
             cv::Scalar::all(std::numeric_limits<double>::quiet_NaN()));
 }
 
-/// "the bag has several cameras; it is read by /a and /b, not by /c (... names others)".
+/// Which of several cameras is read, and one that is not.
 std::string severalCameras(const BagSurvey& survey, const BagCamera& camera) {
   std::string text = survey.path.string() + ": there are several cameras; what is read is " +
                      camera.first->topic.name;
