@@ -18,19 +18,10 @@ namespace {
 constexpr double kHour_s = 3600.0;
 constexpr int kPerson = 0;  // The scene's first person is the one to follow.
 
-FollowSample sampleOf(const Readings& readings, const FollowStep& step,
-                      const TargetEstimate* target, const ClosedLoopParams& params) {
-  FollowSample sample;
+void addTruth(const Readings& readings, const ClosedLoopParams& params, FollowSample& sample) {
   sample.stamp_s = readings.stamp_s;
   sample.robot_true = readings.truth.robot;
-  sample.robot_estimated = step.robot.pose;
-  sample.position_sigma_m = std::sqrt(step.robot.covariance.topLeftCorner<2, 2>().trace() / 2.0);
-  sample.is_localized = !step.robot.lost;
-  sample.command = step.velocity;
   sample.speed_true = readings.truth.robot_speed;
-  sample.state = step.state();
-  sample.reason = step.reason;
-  sample.target_status = target != nullptr ? toText(target->status) : "";
   const PersonTruth& person = readings.truth.people[kPerson];
   sample.person_true = person.position;
   for (std::size_t i = 1; i < readings.truth.people.size(); ++i) {
@@ -40,16 +31,9 @@ FollowSample sampleOf(const Readings& readings, const FollowStep& step,
   sample.clearance_m = std::max(readings.truth.clearance_m, 0.0);
   sample.contact = readings.truth.contact;
   sample.contact_by_robot = readings.truth.contact_by_robot;
-  if (step.perception != nullptr) {
-    const auto pixels = static_cast<double>(step.perception->mask.total());
-    if (pixels > 0.0) sample.candidate_share = step.perception->color_pixels / pixels;
-  }
-  if (step.target && !step.is_learning) {
-    sample.target_estimate = step.target;
-    sample.wrong_person =
-        isWrongPerson(*step.target, sample.person_true, sample.others_true, params.wrong_apart_m);
-  }
-  return sample;
+  if (!sample.target_estimate) return;
+  sample.wrong_person = isWrongPerson(*sample.target_estimate, sample.person_true,
+                                      sample.others_true, params.wrong_apart_m);
 }
 
 }  // namespace
@@ -70,6 +54,24 @@ RobotDescription describeRobot(const Simulator& simulator) {
   robot.camera.T_base_camera = simulator.T_base_camera();
   robot.camera.is_configured = true;
   return robot;
+}
+
+FollowSample sampleOf(const FollowStep& step, const Follower& follower) {
+  FollowSample sample;
+  sample.stamp_s = step.stamp_s;
+  sample.robot_estimated = step.robot.pose;
+  sample.position_sigma_m = std::sqrt(step.robot.covariance.topLeftCorner<2, 2>().trace() / 2.0);
+  sample.is_localized = !step.robot.lost;
+  sample.command = step.velocity;
+  sample.state = step.state();
+  sample.reason = step.reason;
+  if (follower.perception() != nullptr) sample.target_status = toText(follower.target().status);
+  if (step.perception != nullptr && !step.perception->mask.empty()) {
+    sample.candidate_share =
+        step.perception->color_pixels / static_cast<double>(step.perception->mask.total());
+  }
+  if (!step.is_learning) sample.target_estimate = step.target;
+  return sample;
 }
 
 FollowLog runClosedLoop(const Scene& scene, const PetriPlan& plan, const ClosedLoopParams& params,
@@ -115,9 +117,8 @@ FollowLog runClosedLoop(const Scene& scene, const PetriPlan& plan, const ClosedL
       break;
     }
     command = step->velocity;
-    const TargetEstimate* target = follower.perception() ? &follower.target() : nullptr;
-    log.samples.push_back(sampleOf(readings, *step, target, params));
-    const FollowSample& sample = log.samples.back();
+    FollowSample& sample = log.samples.emplace_back(sampleOf(*step, follower));
+    addTruth(readings, params, sample);
     if (observer) observer(readings, *step, follower, sample);
 
     const bool with_person = readings.truth.people[kPerson].is_done && sample.target_estimate &&

@@ -38,6 +38,9 @@ using LoopObserver =
 /// What a scene's robot is.
 RobotDescription describeRobot(const Simulator& simulator);
 
+/// What a step tells of itself, without the truth.
+FollowSample sampleOf(const FollowStep& step, const Follower& follower);
+
 /// The scene's first person enters and is learned and followed, until they have walked all of their
 /// path and the robot is with them ("reached"), the plan fails ("failed") or comes to a goal of its
 /// own ("done"), nobody could be learned ("nobody learned"), the time is over ("timeout"), or a

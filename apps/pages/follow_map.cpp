@@ -138,10 +138,7 @@ MapFrame followFrame(const FollowLog& log) {
 std::string followMap(const FollowLog& log, const MapFrame& frame) {
   std::string svg =
       svgMap(frame, "Map seen from above with the paths of the robot and of the person");
-  if (!log.map.empty()) {
-    svg += svgShape("nobody-knows", outlinePath(log.map, Occupancy::kUnknown, frame.topLeft()));
-    svg += svgShape("walls", outlinePath(log.map, Occupancy::kOccupied, frame.topLeft()));
-  }
+  svg += svgWalls(log.map, frame);
   for (std::size_t i = 0; i < mostOthers(log); ++i) {
     svg += svgShape("other-path", pathOf(log, frame, [i](const FollowSample& sample) {
                       return i < sample.others_true.size()

@@ -11,10 +11,6 @@
 namespace heel {
 namespace {
 
-std::string timesText(int count) {
-  return count == 1 ? "once" : count == 2 ? "twice" : std::to_string(count) + " times";
-}
-
 std::string lead(const FollowLog& log, const FollowSummary& sum) {
   if (log.is_shadow) {
     return "The robot of this log went <strong>" + shownNumber(sum.distance_m, 1, "m") +
@@ -32,14 +28,16 @@ std::string lead(const FollowLog& log, const FollowSummary& sum) {
   if (std::isfinite(sum.last_distance_m)) {
     text += " and was " + shownNumber(sum.last_distance_m, 2, "m") + " from them at the end";
   }
-  text += sum.losses == 0 ? ". It never lost sight of them for more than half a second."
-                          : ". It lost them " + timesText(sum.losses) + ".";
+  text += sum.losses == 0
+              ? ". It never lost sight of them for more than half a second."
+              : ". It lost them " + timesText(static_cast<std::size_t>(sum.losses)) + ".";
   if (sum.contacts_by_robot > 0) {
-    text += " <strong class=\"bad\">It touched something " + timesText(sum.contacts_by_robot) +
-            ".</strong>";
+    text += " <strong class=\"bad\">It touched something " +
+            timesText(static_cast<std::size_t>(sum.contacts_by_robot)) + ".</strong>";
   }
   if (sum.contactsByPeople() > 0) {
-    text += " It was bumped into " + timesText(sum.contactsByPeople()) + ".";
+    text +=
+        " It was bumped into " + timesText(static_cast<std::size_t>(sum.contactsByPeople())) + ".";
   }
   return text;
 }
@@ -58,7 +56,7 @@ std::string tiles(const FollowSummary& sum) {
                   shownNumber(sum.min_clearance_m, 2, "m"),
               sum.contacts_by_robot == 0 ? Tone::kGood : Tone::kBad) +
          tile("Target in view", share(sum.elapsed_s > 0 ? sum.with_target_s / sum.elapsed_s : 0.0),
-              "lost " + timesText(sum.losses)) +
+              "lost " + timesText(static_cast<std::size_t>(sum.losses))) +
          tile("Wrong person", shownNumber(sum.wrong_person_s, 1, "s"),
               share(sum.wrongShare()) + " of the time",
               sum.wrongShare() < 0.01 ? Tone::kGood : Tone::kBad) +

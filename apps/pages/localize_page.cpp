@@ -15,7 +15,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr std::size_t kMostMoments = 3000;
 constexpr double kJump_m = 1.5;  // The estimate found itself elsewhere: no way was gone.
 
 bool hasReference(const LocalizedLog& log) {
@@ -35,10 +34,7 @@ std::string mapOf(const LocalizedLog& log, const OccupancyGrid& map, const MapFr
     before = at;
   }
   std::string svg = svgMap(frame, "The map, and the robot's way on it");
-  if (!map.empty()) {
-    svg += svgShape("nobody-knows", outlinePath(map, Occupancy::kUnknown, frame.topLeft()));
-    svg += svgShape("walls", outlinePath(map, Occupancy::kOccupied, frame.topLeft()));
-  }
+  svg += svgWalls(map, frame);
   svg += svgShape("person-path", svgPath(simplified(references, 0.015)));
   svg += svgShape("robot-path", svgPath(simplified(estimates, 0.015)));
   return svg +
@@ -51,7 +47,7 @@ RunMoments momentsOf(const LocalizedLog& log, const MapFrame& frame, StateTones&
   const auto& all = log.moments;
   std::vector<double> stamps_s;
   for (const LocalizedMoment& moment : all) stamps_s.push_back(moment.stamp_s);
-  RunMoments moments(stamps_s, kMostMoments);
+  RunMoments moments(stamps_s);
   moments.addState([&](std::size_t i) { return all[i].state; },
                    [](std::size_t) { return std::string(); }, tones);
   moments.addColumn(

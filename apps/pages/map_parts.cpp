@@ -3,6 +3,7 @@
 
 #include <heel/apps/output/csv_file.hpp>
 #include <heel/apps/pages/map_parts.hpp>
+#include <heel/apps/pictures/map_picture.hpp>
 
 #include <cmath>
 
@@ -59,6 +60,12 @@ std::string svgSquare(const Vector2d& at, double half) {
 std::string svgMap(const MapFrame& frame, const std::string& what) {
   return "<svg viewBox=\"0 0 " + svgPlace(frame.size()) + "\" role=\"img\" aria-label=\"" + what +
          "\">\n" + lattice(frame);
+}
+
+std::string svgWalls(const OccupancyGrid& map, const MapFrame& frame) {
+  if (map.empty()) return {};
+  return svgShape("nobody-knows", outlinePath(map, Occupancy::kUnknown, frame.topLeft())) +
+         svgShape("walls", outlinePath(map, Occupancy::kOccupied, frame.topLeft()));
 }
 
 std::string legendItem(const std::string& drawing, const std::string& text) {

@@ -5,6 +5,8 @@
 /// What the maps of pages are drawn with: SVG in metres.
 #pragma once
 
+#include <heel/mapping/occupancy_grid.hpp>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -48,6 +50,9 @@ std::string svgSquare(const Eigen::Vector2d& at, double half);
 
 /// The beginning of the map: `what` is its description for those who do not see it.
 std::string svgMap(const MapFrame& frame, const std::string& what);
+
+/// What nobody knows of the map, and its walls; nothing of an empty one.
+std::string svgWalls(const OccupancyGrid& map, const MapFrame& frame);
 
 /// An item of a map's legend: SVG of 26 by 14, and HTML.
 std::string legendItem(const std::string& drawing, const std::string& text);

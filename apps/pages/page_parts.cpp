@@ -96,6 +96,10 @@ constexpr std::array<const char*, 8> kFurtherTones = {"a", "b", "c", "d", "e", "
 
 }  // namespace
 
+std::string timesText(std::size_t count) {
+  return count == 1 ? "once" : count == 2 ? "twice" : std::to_string(count) + " times";
+}
+
 std::string wordsOf(const std::string& state) {
   std::string words;
   for (const char c : state) {

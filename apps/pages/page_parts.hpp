@@ -10,6 +10,7 @@
 
 #include <opencv2/core/types.hpp>
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,9 @@ std::string timingTable(const std::vector<StageTime>& stages, const StageTime& s
 
 /// The command line as a sentence; empty for none.
 std::string howToRepeat(const std::string& command);
+
+/// "once", "twice", "3 times".
+std::string timesText(std::size_t count);
 
 /// A state's name as words: "goToLastSeen" is "go to last seen".
 std::string wordsOf(const std::string& state);

@@ -24,7 +24,7 @@ class RunMoments {
  public:
   /// @param stamps_s  Of the samples, in order.
   /// @param most      Longer runs are thinned out evenly to about as many.
-  RunMoments(const std::vector<double>& stamps_s, std::size_t most);
+  RunMoments(const std::vector<double>& stamps_s, std::size_t most = 3000);
 
   std::size_t count() const { return chosen_.size(); }
   double first_s() const { return first_s_; }

@@ -15,7 +15,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr std::size_t kMostMoments = 3000;
 constexpr std::size_t kMostRows = 8;     // of others in the timeline
 constexpr std::size_t kMostOthers = 40;  // in the table and on the map
 constexpr std::size_t kMostAtOnce = 12;  // marks on the map
@@ -195,7 +194,7 @@ std::string mapLegend(const TrackLog& log, const std::vector<Other>& others,
 RunMoments momentsOf(const TrackLog& log, const MapFrame& frame, StateTones& tones) {
   std::vector<double> stamps_s;
   for (const TrackSample& sample : log.samples) stamps_s.push_back(sample.stamp_s);
-  RunMoments moments(stamps_s, kMostMoments);
+  RunMoments moments(stamps_s);
   const auto& samples = log.samples;
   moments.addState([&](std::size_t i) { return std::string(wordsFor(samples[i].state).words); },
                    [&](std::size_t i) { return samples[i].reason; }, tones);
@@ -301,10 +300,6 @@ Sums sumsOf(const TrackLog& log) {
     sums.longest_s = std::fmax(sums.longest_s, span.to_s - span.from_s);
   }
   return sums;
-}
-
-std::string timesText(std::size_t count) {
-  return count == 1 ? "once" : count == 2 ? "twice" : std::to_string(count) + " times";
 }
 
 std::string leadOf(const TrackLog& log, const Sums& sums) {

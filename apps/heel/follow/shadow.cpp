@@ -94,30 +94,6 @@ class DrivenSpeed {
   VelocityCommand speed_;
 };
 
-FollowSample sampleOf(const FollowStep& step, const Follower& follower,
-                      const std::optional<FloorPose>& reference, const VelocityCommand& driven) {
-  FollowSample sample;
-  sample.stamp_s = step.stamp_s;
-  sample.robot_estimated = step.robot.pose;
-  sample.robot_true = reference.value_or(step.robot.pose);
-  sample.position_sigma_m = std::sqrt(step.robot.covariance.topLeftCorner<2, 2>().trace() / 2.0);
-  sample.is_localized = !step.robot.lost;
-  sample.command = step.velocity;
-  sample.speed_true = driven;
-  sample.state = step.state();
-  sample.reason = step.reason;
-  if (follower.perception() != nullptr) sample.target_status = toText(follower.target().status);
-  if (step.perception != nullptr && !step.perception->mask.empty()) {
-    sample.candidate_share =
-        step.perception->color_pixels / static_cast<double>(step.perception->mask.total());
-  }
-  if (step.target && !step.is_learning) {
-    sample.target_estimate = step.target;
-    sample.person_distance_m = (*step.target - step.robot.pose.position).norm();
-  }
-  return sample;
-}
-
 Follower makeFollower(const ShadowParams& params, const PetriPlan& plan, const CameraSetup& setup,
                       const LogLaser& laser, const LaserReading& first) {
   RobotDescription robot;
@@ -171,14 +147,19 @@ FollowLog runShadow(const ShadowParams& params, const PetriPlan& plan, const Loo
       log.outcome = "nobody learned";
       break;
     }
-    log.samples.push_back(sampleOf(*step, follower, readings.reference(), driven.at(now)));
+    FollowSample& sample = log.samples.emplace_back(sampleOf(*step, follower));
+    sample.robot_true = readings.reference().value_or(step->robot.pose);
+    sample.speed_true = driven.at(now);
+    if (sample.target_estimate) {
+      sample.person_distance_m = (*sample.target_estimate - step->robot.pose.position).norm();
+    }
     shown.stamp_s = now.stamp_s;
     shown.stereo = nullptr;
     if (now.frame != nullptr && !now.frame->image_bgr.empty()) {
       picture.left_bgr = now.frame->image_bgr;
       shown.stereo = &picture;
     }
-    if (observer) observer(shown, *step, follower, log.samples.back());
+    if (observer) observer(shown, *step, follower, sample);
     if (step->outcome != PlanOutcome::kRunning) {
       log.outcome = step->outcome == PlanOutcome::kFailed ? "failed" : "done";
       break;
