@@ -24,8 +24,6 @@ enum class Sight {
 using SightOf = std::function<Sight(const Eigen::Vector2d&)>;
 
 struct ClutterMapParams {
-  double cell_m = 0.25;  ///< Edge of a cell.
-  double range_m = 8.0;  ///< Nothing further away than this is counted.
   /// Things per square metre that look like people, assumed where nothing is known yet.
   double density_per_m2 = 0.1;
   /// How long a place must be looked at for this to count as much as density_per_m2.
@@ -34,8 +32,8 @@ struct ClutterMapParams {
 
 /// Remembers, for each place, how much of the time in which it was seen a thing was observed there.
 /// Things stay: where nothing was, somebody who is there now came; where something always was,
-/// it is no person, however alike. A torus of cells, 40 m around: what is further apart shares
-/// them.
+/// it is no person, however alike. A torus of cells of 0.25 m, 40 m around: what is further apart
+/// shares them. Nothing further than 8 m from the camera is counted.
 class ClutterMap {
  public:
   /// @throws std::invalid_argument  if a parameter is out of its range.
@@ -59,7 +57,6 @@ class ClutterMap {
   void forCorners(const Eigen::Vector2d& place_m, const Visitor& visit) const;
 
   ClutterMapParams params_;
-  int size_;
   std::vector<Cell> cells_;
 };
 

@@ -20,10 +20,8 @@ constexpr double kMostWeight = 30.0;  // Independent looks; an older one fades a
 
 Gallery::Gallery(TargetLooks looks, const GalleryParams& params)
     : looks_(std::move(looks)), params_(params), people_(kHypotheses) {
-  if (!(params.look_gain >= 0.0 && params.rarity_share >= 0.0) ||
-      !std::isfinite(params.likeness_offset) || !(params.worst_likeness < 0.0) ||
-      !(params.misleading_share >= 1e-6 && params.misleading_share < 1.0)) {
-    throw std::invalid_argument("GalleryParams: look_gain or misleading_share is out of its range");
+  if (!(params.misleading_share >= 1e-6 && params.misleading_share < 1.0)) {
+    throw std::invalid_argument("GalleryParams: misleading_share is out of its range");
   }
   if (looks_.target.size() == 0) return;
   const Eigen::Index bins = looks_.target.rows();
@@ -80,7 +78,6 @@ void Gallery::takeApart(const Eigen::ArrayXXf& look) {
 
 /// Over the parts that both the look and the person show, in the light that fits best.
 double Gallery::likeness(const Person& person) const {
-  const double rare = params_.rarity_share;
   double best = -std::numeric_limits<double>::infinity();
   for (const Tint& tint : looks_.tints) {
     double sum = tint.log_prior;
@@ -94,13 +91,13 @@ double Gallery::likeness(const Person& person) const {
         usual += look_[n].share * log_anybody_[bin];
       }
       const double entropy = entropies_[part];
-      const double likeness =
-          static_cast<double>(like) - entropy + rare * (entropy - static_cast<double>(usual));
-      sum += params_.likeness_offset + std::max(likeness, params_.worst_likeness);
+      const double likeness = static_cast<double>(like) - entropy +
+                              kRarityShare * (entropy - static_cast<double>(usual));
+      sum += kLikenessOffset + std::max(likeness, kWorstLikeness);
     }
     best = std::max(best, sum);
   }
-  return params_.look_gain * best;
+  return kLookGain * best;
 }
 
 Evidence Gallery::logLikelihood(const Observation& seen) {
@@ -123,8 +120,8 @@ Evidence Gallery::logLikelihood(const Observation& seen) {
     const double sigma = looks_.stature_sigma_m;
     const double apart = (*seen.stature_m - *looks_.stature_m) / sigma;
     const double usual = (*seen.stature_m - 1.7) / std::hypot(0.1, sigma);
-    evidence[kTarget] += params_.look_gain * (0.5 * (usual * usual - apart * apart) +
-                                              std::log(std::hypot(0.1, sigma) / sigma));
+    evidence[kTarget] += kLookGain * (0.5 * (usual * usual - apart * apart) +
+                                      std::log(std::hypot(0.1, sigma) / sigma));
   }
   for (int h = kTarget; h < kHypotheses; ++h) {
     if (!std::isfinite(evidence[h])) continue;

@@ -42,17 +42,18 @@ inline constexpr int kHypotheses = kFirstOther + kMostOthers;
 /// A value a hypothesis.
 using Evidence = Eigen::Array<double, kHypotheses, 1>;
 
-/// A look's log odds is look_gain * sum over its parts of (likeness + likeness_offset), where
-/// likeness = rarity_share * KL(look || anybody) - KL(look || person), in the light that fits best.
-/// The first two were learned on people of real recordings, see docs/results.md.
+/// A look's log odds is kLookGain * sum over its parts of (likeness + kLikenessOffset), where
+/// likeness = kRarityShare * KL(look || anybody) - KL(look || person), in the light that fits best.
+/// The gain and the offset were learned by logistic regression on people of real recordings, see
+/// docs/results.md: another description of bodies needs others.
+inline constexpr double kLookGain = 0.9;  ///< Less than 1: a body's parts are not independent.
+/// A part whose likeness is minus this says nothing.
+inline constexpr double kLikenessOffset = 0.38;
+inline constexpr double kWorstLikeness = -1.5;  ///< No part says more against a person [nat].
+/// How much of a rare colour's evidence counts: whoever wears a rare colour wears much of it.
+inline constexpr double kRarityShare = 0.5;
+
 struct GalleryParams {
-  /// Factor on a look's log odds; less than 1, for the parts of a body are not independent.
-  double look_gain = 0.9;
-  /// Added to the likeness of each part; a part whose likeness is minus this says nothing.
-  double likeness_offset = 0.38;
-  double worst_likeness = -1.5;  ///< No part says more against a person than this [nat].
-  /// How much of a rare colour's evidence counts: whoever wears a rare colour wears much of it.
-  double rarity_share = 0.5;
   /// Share of looks that mislead (shade, somebody half in front). It bounds what one look can say
   /// against anybody; its square bounds what one can say for them.
   double misleading_share = 0.05;

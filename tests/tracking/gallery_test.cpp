@@ -26,10 +26,10 @@ Evidence of(Gallery& gallery, const Eigen::ArrayXXf& look) {
 
 // Truth for looks and portraits of whole colours, of which anybody wears each with 1/6. A bin of
 // the portrait with this share is left this much of a look that is all in that bin:
-double partLogOdds(double share_of_portrait, const GalleryParams& params = {}) {
+double partLogOdds(double share_of_portrait) {
   const double like = std::log((share_of_portrait + 0.1 / test::kColors) / 1.1);
-  const double rare = params.rarity_share * std::log(test::kColors);
-  return params.likeness_offset + std::max(like + rare, params.worst_likeness);
+  const double rare = kRarityShare * std::log(test::kColors);
+  return kLikenessOffset + std::max(like + rare, kWorstLikeness);
 }
 
 /// The target's evidence over a stranger's where its looks have these log odds.
@@ -59,14 +59,12 @@ TEST(Gallery, WhatIsNotSeenSaysNothing) {
 
 TEST(Gallery, ALookHasTheLogOddsOfItsParts) {
   Gallery gallery(looksOf(clothes(0, 1)));
-  const GalleryParams params;
   const double alike = partLogOdds(1.0), unlike = partLogOdds(0.0);
   EXPECT_NEAR(alike, 0.38 + std::log(61.0 / 66.0) + 0.5 * std::log(6.0), 1e-12);
   EXPECT_NEAR(unlike, 0.38 - 1.5, 1e-12);
-  EXPECT_NEAR(of(gallery, clothes(0, 1))[kTarget], target(params.look_gain * 2.0 * alike), 1e-5);
-  EXPECT_NEAR(of(gallery, clothes(0, 5))[kTarget], target(params.look_gain * (alike + unlike)),
-              1e-5);
-  EXPECT_NEAR(of(gallery, clothes(1, 0))[kTarget], target(params.look_gain * 2.0 * unlike), 1e-5)
+  EXPECT_NEAR(of(gallery, clothes(0, 1))[kTarget], target(kLookGain * 2.0 * alike), 1e-5);
+  EXPECT_NEAR(of(gallery, clothes(0, 5))[kTarget], target(kLookGain * (alike + unlike)), 1e-5);
+  EXPECT_NEAR(of(gallery, clothes(1, 0))[kTarget], target(kLookGain * 2.0 * unlike), 1e-5)
       << "the right colours at the wrong parts";
 }
 
@@ -85,7 +83,7 @@ TEST(Gallery, ALookOfSeveralColorsIsComparedByItsDivergence) {
   const double to_person = std::log(0.5) - 0.5 * (std::log(first) + std::log(second));
   const double to_anybody = std::log(0.5) - std::log(usual);
   const double log_odds =
-      params.look_gain * (params.likeness_offset - to_person + params.rarity_share * to_anybody);
+      kLookGain * (kLikenessOffset - to_person + kRarityShare * to_anybody);
   Gallery gallery(looks, params);
   EXPECT_NEAR(of(gallery, look)[kTarget], target(log_odds, params), 1e-5);
 }
@@ -134,12 +132,14 @@ TEST(Gallery, NoLookSaysMoreThanTheMisleadingShareLeaves) {
   std::uniform_real_distribution<float> any(0.0F, 1.0F);
   for (const double share : {0.01, 0.05, 0.3}) {
     GalleryParams params;
-    params.look_gain = 20.0;
     params.misleading_share = share;
-    Gallery gallery(looksOf(clothes(0, 1)), params);
-    gallery.meet(clothes(2, 3), 1.0);
+    const auto tall = [](int top, int bottom) {
+      return clothes(top, bottom).replicate(1, 12).eval();
+    };
+    Gallery gallery(looksOf(tall(0, 1)), params);
+    gallery.meet(tall(2, 3), 1.0);
     for (int i = 0; i < 100; ++i) {
-      Eigen::ArrayXXf look(test::kColors, 2);
+      Eigen::ArrayXXf look(test::kColors, 24);
       for (float& value : look.reshaped()) value = std::pow(any(random), 4.0F);
       look.rowwise() /= look.colwise().sum().eval();
       const Evidence evidence = of(gallery, look);
@@ -150,9 +150,9 @@ TEST(Gallery, NoLookSaysMoreThanTheMisleadingShareLeaves) {
       EXPECT_EQ(evidence[kThing], 0.0);
     }
     // The clearest look says all that it may.
-    EXPECT_NEAR(of(gallery, clothes(0, 1))[kTarget], std::log(1.0 - share) - 2.0 * std::log(share),
+    EXPECT_NEAR(of(gallery, tall(0, 1))[kTarget], std::log(1.0 - share) - 2.0 * std::log(share),
                 1e-3);
-    EXPECT_NEAR(of(gallery, clothes(4, 5))[kTarget], std::log(share), 1e-3);
+    EXPECT_NEAR(of(gallery, tall(4, 5))[kTarget], std::log(share), 1e-3);
   }
 }
 
@@ -265,12 +265,6 @@ TEST(Gallery, RejectsBadParameters) {
     Gallery gallery(looksOf(clothes(0, 1)), params);
   };
   EXPECT_NO_THROW(with([](GalleryParams&) {}));
-  EXPECT_THROW(with([](GalleryParams& p) { p.look_gain = -0.1; }), std::invalid_argument);
-  EXPECT_THROW(with([](GalleryParams& p) { p.look_gain = std::nan(""); }), std::invalid_argument);
-  EXPECT_THROW(with([](GalleryParams& p) { p.rarity_share = -0.1; }), std::invalid_argument);
-  EXPECT_THROW(with([](GalleryParams& p) { p.likeness_offset = kInfinity; }),
-               std::invalid_argument);
-  EXPECT_THROW(with([](GalleryParams& p) { p.worst_likeness = 0.0; }), std::invalid_argument);
   EXPECT_THROW(with([](GalleryParams& p) { p.misleading_share = 0.0; }), std::invalid_argument);
   EXPECT_THROW(with([](GalleryParams& p) { p.misleading_share = 1.0; }), std::invalid_argument);
 }

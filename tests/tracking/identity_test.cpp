@@ -551,7 +551,7 @@ TEST(Identity, RejectsBadParameters) {
   EXPECT_THROW(with([](IdentityParams& p) { p.walk_mps = 0.0; }), std::invalid_argument);
   EXPECT_THROW(with([](IdentityParams& p) { p.gallery.misleading_share = 2.0; }),
                std::invalid_argument);
-  EXPECT_THROW(with([](IdentityParams& p) { p.clutter.cell_m = 0.0; }), std::invalid_argument);
+  EXPECT_THROW(with([](IdentityParams& p) { p.clutter.prior_s = 0.0; }), std::invalid_argument);
 }
 
 }  // namespace
