@@ -70,6 +70,15 @@ TEST(DepthRegistration, TurnsWithTheCamera) {
   EXPECT_NEAR(registered_m.at<float>(24, u), 2.0 * std::cos(0.1), 0.01);
 }
 
+TEST(DepthRegistration, OfFocalLengthsBeyondAllMeasureNothingIsLeft) {
+  PinholeCamera depth = kDepth, color = kColor;
+  depth.cx = 31.0;  // A ray straight ahead: 0 times infinity is no number.
+  color.fx = 1e39;
+  cv::Mat registered_m;
+  DepthRegistration(depth, color, Eigen::Isometry3d::Identity()).apply(wall(2.0), registered_m);
+  EXPECT_EQ(cv::countNonZero(registered_m == registered_m), 0);
+}
+
 TEST(DepthRegistration, RejectsWhatDoesNotFit) {
   EXPECT_THROW(DepthRegistration({}, kColor, Eigen::Isometry3d::Identity()), std::invalid_argument);
   const DepthRegistration registration(kDepth, kColor, Eigen::Isometry3d::Identity());
