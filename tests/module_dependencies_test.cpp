@@ -19,11 +19,11 @@ namespace fs = std::filesystem;
 using Folders = std::set<std::string>;
 
 /// What a verb may include: everything but the other verbs.
-const Folders kVerb = {"cloud",           "segmentation",    "tracking",        "mapping",
-                       "planning",        "apps/output",     "apps/bag",        "apps/recording",
-                       "apps/follower",   "apps/results",    "apps/pictures",   "apps/film",
-                       "apps/pages",      "apps/simulation", "apps/experiment", "apps/heel",
-                       "apps/heel/shared"};
+const Folders kVerb = {"cloud",         "segmentation",    "tracking",        "mapping",
+                       "planning",      "apps/output",     "apps/bag",        "apps/recording",
+                       "apps/follower", "apps/results",    "apps/pictures",   "apps/film",
+                       "apps/pages",    "apps/simulation", "apps/experiment", "apps/heel",
+                       "apps/live",     "apps/heel/shared"};
 
 /// Which of the others each folder may include. A folder without a row belongs to the one above it.
 const std::map<std::string, Folders> kKnows = {
@@ -51,6 +51,10 @@ const std::map<std::string, Folders> kKnows = {
       "apps/output", "apps/pages", "apps/pictures", "apps/recording", "apps/results",
       "apps/simulation"}},
 
+    {"apps/live",
+     {"cloud", "mapping", "planning", "apps/bag", "apps/follower", "apps/output", "apps/recording",
+      "apps/simulation"}},
+
     {"apps/heel/shared",
      {"cloud", "segmentation", "tracking", "mapping", "planning", "apps/bag", "apps/experiment",
       "apps/follower", "apps/output", "apps/pictures", "apps/recording", "apps/results",
@@ -62,6 +66,7 @@ const std::map<std::string, Folders> kKnows = {
     {"apps/heel/evaluate", kVerb},
     {"apps/heel/experiment", kVerb},
     {"apps/heel/follow", kVerb},
+    {"apps/heel/live", kVerb},
     {"apps/heel/inspect", kVerb},
     {"apps/heel/localize", kVerb},
     {"apps/heel/planview", kVerb},

@@ -123,6 +123,7 @@ struct PoseWithCovarianceMsg {
 
 struct TwistMsg {
   static constexpr const char* kType = "geometry_msgs/Twist";
+  static constexpr const char* kMd5 = "9f195f881246fdfa2798d1d3eebca84a";
   Vector3Msg linear, angular;
 
   template <class Self, class Archive>

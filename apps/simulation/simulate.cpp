@@ -11,6 +11,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace heel {
@@ -19,7 +20,23 @@ namespace {
 constexpr double kPace_s = 0.01;
 constexpr double kLongest_s = 1e6;  // eleven days
 
-/// The longest step, in whole ticks, that skips no measurement of any sensor.
+/// A pose in the decimals that odometry.csv has: the bag tells the same.
+FloorPose asInTables(const FloorPose& pose) {
+  const auto rounded = [](double value, double steps) { return std::round(value * steps) / steps; };
+  return {{rounded(pose.position.x(), 1e5), rounded(pose.position.y(), 1e5)},
+          rounded(pose.yaw_rad, 1e6)};
+}
+
+void addTruth(SensorBag& bag, const Readings& readings) {
+  std::vector<FloorPose> people;
+  for (const PersonTruth& person : readings.truth.people) {
+    people.push_back({person.position, person.yaw_rad});
+  }
+  bag.addTruth(readings.stamp_s, readings.truth.robot, people);
+}
+
+}  // namespace
+
 double stepFor(const RobotParams& robot) {
   const double fastest =
       std::max({robot.camera.rate_hz, robot.laser.rate_hz, robot.odometry.rate_hz});
@@ -34,12 +51,13 @@ double stepFor(const RobotParams& robot) {
   return step;
 }
 
-SensorBag beginBag(const std::filesystem::path& path, const Simulator& simulator) {
+SensorBag sensorBag(std::unique_ptr<BagWriter> writer, const Simulator& simulator,
+                    bool packs_images) {
   RecordingInfo info;
   info.sensor = SensorKind::kStereo;
   info.camera = simulator.camera();
   info.T_base_camera = simulator.T_base_camera();
-  SensorBag bag(path, info);
+  SensorBag bag(std::move(writer), info, packs_images);
   const LaserParams& laser = simulator.scene().robot.laser;
   Eigen::Isometry3d T_base_scanner = Eigen::Isometry3d::Identity();
   T_base_scanner.translation() = laser.at;
@@ -47,20 +65,7 @@ SensorBag beginBag(const std::filesystem::path& path, const Simulator& simulator
   return bag;
 }
 
-/// A pose in the decimals that odometry.csv has: the bag tells the same.
-FloorPose asInTables(const FloorPose& pose) {
-  const auto rounded = [](double value, double steps) { return std::round(value * steps) / steps; };
-  return {{rounded(pose.position.x(), 1e5), rounded(pose.position.y(), 1e5)},
-          rounded(pose.yaw_rad, 1e6)};
-}
-
 void addTo(SensorBag& bag, const Readings& readings) {
-  std::vector<FloorPose> people;
-  for (const PersonTruth& person : readings.truth.people) {
-    people.push_back({person.position, person.yaw_rad});
-  }
-  bag.addTruth(readings.stamp_s, readings.truth.robot, people);
-  // The odometry comes before what is measured from where it says.
   if (readings.odometry) bag.addOdometry(readings.stamp_s, *readings.odometry);
   if (readings.laser != nullptr) bag.add(readings.stamp_s, *readings.laser);
   if (readings.stereo == nullptr) return;
@@ -70,8 +75,6 @@ void addTo(SensorBag& bag, const Readings& readings) {
   frame.right_bgr = readings.stereo->right_bgr;
   bag.add(frame);
 }
-
-}  // namespace
 
 SimulateResult simulate(const Scene& scene, const SimulateOptions& options) {
   SimulateResult result;
@@ -83,7 +86,9 @@ SimulateResult simulate(const Scene& scene, const SimulateOptions& options) {
   Simulator simulator(scene, {options.seed, options.threads, true});
   RecordingWriter writer(options.out, simulator, options.write_pixel_truth);
   std::optional<SensorBag> bag;
-  if (!options.bag.empty()) bag.emplace(beginBag(options.bag, simulator));
+  if (!options.bag.empty()) {
+    bag.emplace(sensorBag(createBag(BagPlan{options.bag, {}, "simulate"}), simulator));
+  }
   const double step_s = stepFor(scene.robot);
   const auto steps = std::lround(std::ceil(result.duration_s / step_s - 1e-6));
   Readings readings;
@@ -98,7 +103,10 @@ SimulateResult simulate(const Scene& scene, const SimulateOptions& options) {
     if (readings.odometry) readings.odometry = asInTables(*readings.odometry);
     if (options.drive) command = options.drive(readings.truth);
     writer.add(readings);
-    if (bag) addTo(*bag, readings);
+    if (bag) {
+      addTruth(*bag, readings);
+      addTo(*bag, readings);
+    }
     if (options.progress) options.progress(static_cast<double>(i + 1) / static_cast<double>(steps));
   }
   result.frames = writer.frames();

@@ -5,6 +5,7 @@
 /// A simulation as a recording that the other commands read.
 #pragma once
 
+#include <heel/apps/recording/bags/sensor_bag.hpp>
 #include <heel/apps/simulation/scene.hpp>
 #include <heel/apps/simulation/simulator.hpp>
 
@@ -26,6 +27,16 @@ struct SimulateOptions {
   std::function<VelocityCommand(const WorldTruth&)> drive;
   std::function<void(double)> progress;  ///< Called with the share that is done; may be empty.
 };
+
+/// The longest step, in whole ticks of the simulator, that skips no measurement of any sensor [s].
+double stepFor(const RobotParams& robot);
+
+/// Begins to write what a simulated robot measures.
+SensorBag sensorBag(std::unique_ptr<BagWriter> bag, const Simulator& simulator,
+                    bool packs_images = true);
+
+/// Adds what the sensors read: odometry first, then what is measured from where it says.
+void addTo(SensorBag& bag, const Readings& readings);
 
 /// What was recorded.
 struct SimulateResult {

@@ -12,8 +12,12 @@
 
 namespace heel {
 
-BagLaserLog::BagLaserLog(const std::filesystem::path& path, const BagTopics& topics) {
-  const BagSurvey survey = surveyBag(path);
+BagLaserLog::BagLaserLog(const std::filesystem::path& path, const BagTopics& topics)
+    : BagLaserLog(surveyBag(path), openBag(path), topics) {}
+
+BagLaserLog::BagLaserLog(const BagSurvey& survey, std::unique_ptr<BagReader> reader,
+                         const BagTopics& topics)
+    : bag_(std::move(reader)) {
   const BagTopicSummary* scans =
       findBagTopic<LaserScanMsg>(survey, topics.scan, {"base_scan", "scan_front", "scan"});
   if (scans == nullptr) failWithTopics(survey, "has no laser scans");
@@ -27,7 +31,6 @@ BagLaserLog::BagLaserLog(const std::filesystem::path& path, const BagTopics& top
     T_base_scanner_ = FloorPose{T.translation().head<2>(), std::atan2(T(1, 0), T(0, 0))};
     scanner_height_m_ = T.translation().z();
   }
-  bag_ = openBag(path);
   std::vector<std::string> read = poses_->topics();
   read.push_back(scan_topic_);
   bag_->select(survey.queryOf(std::move(read), true));

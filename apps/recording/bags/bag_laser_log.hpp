@@ -18,6 +18,8 @@ class BagLaserLog : public LaserLog {
   /// @throws std::runtime_error  one sentence that names the topics, if scans or odometry are
   ///         missing.
   BagLaserLog(const std::filesystem::path& path, const BagTopics& topics);
+  /// Of what the reader gives, which may go on after next() was false.
+  BagLaserLog(const BagSurvey& survey, std::unique_ptr<BagReader> reader, const BagTopics& topics);
 
   bool next(LaserReading& reading) override;
   std::optional<FloorPose> T_base_scanner() const override { return T_base_scanner_; }

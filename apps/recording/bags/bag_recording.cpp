@@ -93,10 +93,25 @@ std::string layoutOf(const BagSurvey& survey, const BagCamera& camera) {
 
 std::unique_ptr<Recording> BagRecording::open(const std::filesystem::path& path,
                                               const RecordingParams& params) {
-  const BagSurvey survey = surveyBag(path, params.span);
+  auto recording = open(surveyBag(path, params.span), openBag(path), params);
+  recording->info_.name = std::filesystem::canonical(path).filename().string();
+  return recording;
+}
+
+std::unique_ptr<Recording> BagRecording::openLive(const BagSurvey& survey,
+                                                  std::unique_ptr<BagReader> reader,
+                                                  const RecordingParams& params) {
+  auto recording = open(survey, std::move(reader), params);
+  recording->is_live_ = true;
+  return recording;
+}
+
+std::unique_ptr<BagRecording> BagRecording::open(const BagSurvey& survey,
+                                                 std::unique_ptr<BagReader> reader,
+                                                 const RecordingParams& params) {
   const BagCamera camera = findBagCamera(survey, params.topics);
   RecordingInfo info;
-  info.name = std::filesystem::canonical(path).filename().string();
+  info.name = survey.path.string();
   info.layout = layoutOf(survey, camera);
   info.sensor = camera.sensor;
   info.frame_count = camera.first->count;
@@ -104,13 +119,13 @@ std::unique_ptr<Recording> BagRecording::open(const std::filesystem::path& path,
   if (!camera.others.empty()) info.warnings.push_back(severalCameras(survey, camera));
   info.T_base_camera = placeOnRobot(survey, params.topics, camera.first->frame_id);
   BagMotion motion(survey, params.topics, camera.first->frame_id);
-  return std::unique_ptr<Recording>(
-      new BagRecording(survey, camera, std::move(motion), std::move(info)));
+  return std::unique_ptr<BagRecording>(
+      new BagRecording(survey, std::move(reader), camera, std::move(motion), std::move(info)));
 }
 
-BagRecording::BagRecording(const BagSurvey& survey, const BagCamera& camera, BagMotion motion,
-                           RecordingInfo info)
-    : path_(survey.path.string()), bag_(openBag(survey.path)), bag_motion_(std::move(motion)) {
+BagRecording::BagRecording(const BagSurvey& survey, std::unique_ptr<BagReader> reader,
+                           const BagCamera& camera, BagMotion motion, RecordingInfo info)
+    : path_(survey.path.string()), bag_(std::move(reader)), bag_motion_(std::move(motion)) {
   info_ = std::move(info);
   const auto queueOf = [](const BagTopicSummary& topic) {
     Queue queue;
@@ -219,7 +234,7 @@ bool BagRecording::readMessage() {
     if (second_.waiting.size() > kMostWaiting) second_.waiting.pop_front();
     return true;
   }
-  at_end_ = true;
+  at_end_ = !is_live_;
   return false;
 }
 
@@ -227,11 +242,12 @@ bool BagRecording::readMessage() {
 /// right.
 bool BagRecording::isDecided() const {
   if (at_end_ || first_.waiting.size() > kMostWaiting) return true;
-  if (first_.waiting.size() <= kReadAhead) return false;
-  const double stamp_s = first_.waiting.front().stamp_s;
+  if (first_.waiting.size() <= (is_live_ ? 0 : kReadAhead)) return false;
+  // A live robot's first partner that fits is taken: the best may be the next, but that is late.
+  const double from_s = first_.waiting.front().stamp_s - (is_live_ ? limit_s_ : 0.0);
   return info_.sensor == SensorKind::kCloud ||
          std::any_of(second_.waiting.begin(), second_.waiting.end(),
-                     [&](const Waiting& other) { return other.stamp_s >= stamp_s; });
+                     [&](const Waiting& other) { return other.stamp_s >= from_s; });
 }
 
 void BagRecording::checkStamp(double stamp_s) {
@@ -255,7 +271,8 @@ std::optional<BagRecording::Waiting> BagRecording::takePartner(double stamp_s) {
 
 bool BagRecording::next(Frame& frame) {
   while (true) {
-    while (!isDecided() && !at_end_) readMessage();
+    while (!isDecided() && readMessage()) continue;
+    if (is_live_ && !isDecided()) return false;
     if (first_.waiting.empty()) {
       // By its index, damage is found where it is read.
       if (info_.lost.empty()) info_.lost = bag_->lost();

@@ -36,6 +36,14 @@ class BagRecording final : public Recording {
   static std::unique_ptr<Recording> open(const std::filesystem::path& path,
                                          const RecordingParams& params);
 
+  /// Of a robot that is on: next() gives a frame as soon as all of it has come, and false when
+  /// there is none for now. It does not tell motions.
+  /// @param survey  Of what has come so far.
+  /// @param reader  What comes from now on.
+  static std::unique_ptr<Recording> openLive(const BagSurvey& survey,
+                                             std::unique_ptr<BagReader> reader,
+                                             const RecordingParams& params);
+
   bool next(Frame& frame) override;
 
   std::optional<RobotMotion> readMotion() const override { return bag_motion_.read(); }
@@ -56,8 +64,11 @@ class BagRecording final : public Recording {
     std::deque<Waiting> waiting;
   };
 
-  BagRecording(const BagSurvey& survey, const BagCamera& camera, BagMotion motion,
-               RecordingInfo info);
+  static std::unique_ptr<BagRecording> open(const BagSurvey& survey,
+                                            std::unique_ptr<BagReader> reader,
+                                            const RecordingParams& params);
+  BagRecording(const BagSurvey& survey, std::unique_ptr<BagReader> reader, const BagCamera& camera,
+               BagMotion motion, RecordingInfo info);
 
   void setUpStereo(const BagSurvey& survey, const BagCamera& camera);
   void setUpRgbd(const BagSurvey& survey, const BagCamera& camera);
@@ -77,6 +88,7 @@ class BagRecording final : public Recording {
   std::string path_;
   std::unique_ptr<BagReader> bag_;
   BagMotion bag_motion_;
+  bool is_live_ = false;
   bool at_end_ = false;
   Queue first_, second_;
   double last_s_ = -std::numeric_limits<double>::infinity();

@@ -365,6 +365,14 @@ BagQuery BagSurvey::queryOf(std::vector<std::string> names, bool with_tf, double
   return query;
 }
 
+BagSurvey surveyMessages(BagReader& reader, const std::string& name) {
+  BagSurvey survey;
+  survey.path = name;
+  survey.form = reader.form();
+  Surveyor(reader, survey).byScan({});
+  return survey;
+}
+
 BagSurvey surveyBag(const std::filesystem::path& path, const TimeSpan& span) {
   const auto reader = openBag(path);
   BagSurvey survey;

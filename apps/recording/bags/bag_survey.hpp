@@ -82,6 +82,10 @@ struct BagSurvey {
 /// @throws std::runtime_error  as openBag(); if there is no message in it, or in the span.
 BagSurvey surveyBag(const std::filesystem::path& path, const TimeSpan& span = {});
 
+/// Looks at all messages that there are now, of what is no file.
+/// @param name  What errors call it.
+BagSurvey surveyMessages(BagReader& reader, const std::string& name);
+
 /// A frame's name without the '/' that old bags begin it with.
 std::string frameName(const std::string& frame_id);
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -28,7 +29,10 @@ Eigen::Isometry3d asInBags(const Eigen::Isometry3d& T) {
 }
 
 SensorBag::SensorBag(const std::filesystem::path& path, const RecordingInfo& camera)
-    : bag_(createBag(BagPlan{path, {}, "simulate"})), camera_(camera) {
+    : SensorBag(createBag(BagPlan{path, {}, "simulate"}), camera) {}
+
+SensorBag::SensorBag(std::unique_ptr<BagWriter> bag, const RecordingInfo& camera, bool packs_images)
+    : bag_(std::move(bag)), camera_(camera), packs_images_(packs_images) {
   if (camera_.T_base_camera) {
     static_.transforms.push_back(
         toTransform(toPoseMsg(*camera_.T_base_camera), header(0.0, kBase), kCamera));
@@ -57,6 +61,18 @@ void SensorBag::writeStatic(double stamp_s) {
 }
 
 void SensorBag::writeImage(const std::string& topic, double stamp_s, const cv::Mat& image_bgr) {
+  if (!packs_images_) {
+    ImageMsg raw;
+    raw.header = header(stamp_s, kCamera);
+    raw.width = static_cast<std::uint32_t>(image_bgr.cols);
+    raw.height = static_cast<std::uint32_t>(image_bgr.rows);
+    raw.encoding = "bgr8";
+    raw.step = 3 * raw.width;
+    const cv::Mat whole = image_bgr.isContinuous() ? image_bgr : image_bgr.clone();
+    raw.data.assign(whole.datastart, whole.dataend);
+    bag_->write(topic + "/image_rect_color", raw.header.stamp.ns, raw);
+    return;
+  }
   CompressedImageMsg message;
   message.header = header(stamp_s, kCamera);
   message.format = "bgr8; png compressed bgr8";

@@ -36,6 +36,8 @@ class SensorBag {
  public:
   /// @throws std::runtime_error  if it can't be written; so do the others.
   SensorBag(const std::filesystem::path& path, const RecordingInfo& camera);
+  /// The same for any writer; images that are not packed take less time and more room.
+  SensorBag(std::unique_ptr<BagWriter> bag, const RecordingInfo& camera, bool packs_images = true);
 
   /// Where the scanner is; before the first scan.
   void setScanner(const Eigen::Isometry3d& T_base_scanner, float max_range_m);
@@ -58,6 +60,7 @@ class SensorBag {
   RecordingInfo camera_;
   TFMessageMsg static_;
   float max_range_m_ = 0.0F;
+  bool packs_images_ = true;
   bool has_static_ = false;
 };
 

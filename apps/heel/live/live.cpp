@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <heel/apps/heel/commands.hpp>
+#include <heel/apps/heel/follow/follow_output.hpp>
+#include <heel/apps/heel/shared/arguments.hpp>
+#include <heel/apps/heel/shared/lap_clock.hpp>
+#include <heel/apps/heel/shared/network_options.hpp>
+#include <heel/apps/heel/shared/robot_places.hpp>
+#include <heel/apps/live/command_sender.hpp>
+#include <heel/apps/live/find_robot.hpp>
+#include <heel/apps/output/run_end.hpp>
+#include <heel/planning/plan_file.hpp>
+#include <heel/segmentation/appearance_model_io.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace heel {
+namespace {
+
+struct LiveOptions {
+  LogMapOptions map;
+  std::filesystem::path model;
+  std::string plan = "search";
+  BagTopics topics;
+  Ros2NetworkParams network;
+  std::string command_topic = "/cmd_vel";
+  bool dry = false;
+  double wait_s = std::numeric_limits<double>::infinity();
+  double limit_s = std::numeric_limits<double>::infinity();
+  std::filesystem::path out = "out/live";
+};
+
+FoundRobot waitForRobot(Ros2Network& network, const LiveOptions& options) {
+  const double began_s = steadyClock_s();
+  std::string told;
+  return findRobot(network, options.topics, [&](const std::string& missing) {
+    if (isStopRequested()) throw Stopped("stopped before there was a robot");
+    if (missing != told) warn("waiting: " + missing);
+    told = missing;
+    return steadyClock_s() - began_s < options.wait_s;
+  });
+}
+
+Follower makeFollower(const LiveOptions& options, const FoundRobot& found) {
+  const LogMap map = openLogMap(options.map);
+  const LaserLog& laser = found.readings->laser();
+  RobotDescription robot;
+  robot.camera = found.camera;
+  robot.T_base_scanner =
+      map.scanner ? *map.scanner : laser.T_base_scanner().value_or(map.scene_scanner);
+  robot.scanner_height_m = laser.scannerHeight_m().value_or(map.scanner_height_m);
+  const PetriPlan plan = loadPlan(planFile(options.plan), followingVocabulary());
+  return Follower(robot, map.walls, plan, map.start);
+}
+
+/// What a run tells on the terminal: each state when it begins, and why.
+class StateTeller {
+ public:
+  void tell(const FollowStep& step, double since_s) {
+    const std::string state = step.state();
+    if (state == last_) return;
+    last_ = state;
+    std::fprintf(stderr, "heel: %7.1f s: %s%s%s\n", since_s, state.c_str(),
+                 step.reason.empty() ? "" : ", ", step.reason.c_str());
+  }
+
+ private:
+  std::string last_;
+};
+
+double share95(std::vector<double>& values) {
+  if (values.empty()) return 0.0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 95 / 100);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// Takes in what comes until it is time for the next command: after a period, or, not much before
+/// that, as soon as there is a new frame.
+void listen(Ros2Network& network, LiveReadings& readings, double period_s) {
+  constexpr double kLeastShare = 0.7;
+  const double began_s = steadyClock_s();
+  bool has_frame = false;
+  for (double past_s = 0.0; past_s < period_s; past_s = steadyClock_s() - began_s) {
+    if (has_frame && past_s > kLeastShare * period_s) return;
+    const double until_s = (has_frame ? kLeastShare : 1.0) * period_s;
+    if (const auto message = network.next(std::max(until_s - past_s, 0.0))) {
+      has_frame = readings.take(message->topic, message->stamp_ns, message->bytes, steadyClock_s());
+    }
+  }
+}
+
+void run(const LiveOptions& options) {
+  std::optional<AppearanceModel> model;
+  if (!options.model.empty()) model = loadAppearance(options.model);
+  FollowOutput output(options.out, false, {}, {options.model, mapSource(options.map.map)});
+  Ros2Network network(options.network);
+  const FoundRobot found = waitForRobot(network, options);
+  for (const std::string& warning : found.camera.warnings) warn(warning);
+  LiveReadings& readings = *found.readings;
+  std::fprintf(stderr, "heel: the robot's camera: %s\n", readings.info().layout.c_str());
+  Follower follower = makeFollower(options, found);
+  if (model) follower.skipLearning(*model);
+
+  FollowLog log;
+  log.scene = "live";
+  log.plan = options.plan;
+  log.map = follower.floor();
+  log.robot_radius_m = follower.robot().drive.radius_m;
+  log.max_speed_mps = follower.robot().drive.max_speed_mps;
+  log.is_shadow = true;  // there is no truth to show
+  log.outcome = "ended";
+  LapClock clock;
+  const Follower::StageDone stage_done = [&](FollowStage stage) {
+    const double ms = clock.lap_ms();
+    if (stage != FollowStage::kBegin) output.addTime(stage, ms);
+  };
+  std::unique_ptr<CommandSender> sender;
+  if (!options.dry) {
+    CommandSenderParams params;
+    params.topic = options.command_topic;
+    sender = std::make_unique<CommandSender>(network.writer(), params);
+  }
+  const double period_s = follower.robot().drive.period_s;
+  const double began_s = steadyClock_s();
+  StateTeller teller;
+  StereoReading picture;
+  std::vector<double> latencies_s;
+  while (true) {
+    listen(network, readings, period_s);
+    if (isStopRequested()) {
+      log.outcome = kStoppedRun;
+      break;
+    }
+    const RobotReadings& now = readings.read(steadyClock_s());
+    const FollowStep* step = nullptr;
+    try {
+      step = &follower.step(now, stage_done);
+    } catch (const NobodyLearned&) {
+      log.outcome = "nobody learned";
+      break;
+    }
+    if (sender) sender->set(step->velocity);
+    if (now.frame != nullptr) latencies_s.push_back(readings.frameAge_s(steadyClock_s()));
+    teller.tell(*step, steadyClock_s() - began_s);
+    FollowSample& sample = log.samples.emplace_back(sampleOf(*step, follower));
+    sample.robot_true = step->robot.pose;
+    sample.speed_true = step->velocity;
+    if (sample.target_estimate) {
+      sample.person_distance_m = (*sample.target_estimate - step->robot.pose.position).norm();
+    }
+    Readings shown;
+    shown.stamp_s = now.stamp_s;
+    if (now.frame != nullptr && !now.frame->image_bgr.empty()) {
+      picture.left_bgr = now.frame->image_bgr;
+      shown.stereo = &picture;
+    }
+    output.add(shown, *step, follower, sample);
+    if (step->outcome != PlanOutcome::kRunning) {
+      log.outcome = step->outcome == PlanOutcome::kFailed ? "failed" : "done";
+      break;
+    }
+    if (steadyClock_s() - began_s >= options.limit_s) break;
+  }
+  const std::size_t stopped = sender ? sender->stopped() : 0;
+  sender.reset();  // the robot stands before anything is written
+  if (log.samples.empty()) throw NothingFound("nothing came from the robot");
+  const FollowSummary summary = summarize(log);
+  output.commit(log, summary);
+  std::printf(
+      "%s after %.1f s: %.2f m; from picture to velocity %.0f ms in 95 of 100, "
+      "%zu pictures left out, %zu times no command in time\n",
+      summary.outcome.c_str(), summary.elapsed_s, summary.distance_m, 1e3 * share95(latencies_s),
+      readings.framesLeftOut(), stopped);
+  std::printf("results in %s: %s\n", output.folder().c_str(), output.fileNames().c_str());
+  if (log.outcome == kStoppedRun) throw Stopped("stopped: the robot was told to stand");
+  if (log.outcome == "nobody learned") throw NothingFound("nobody was learned");
+}
+
+}  // namespace
+
+void addLive(CLI::App& app) {
+  auto options = std::make_shared<LiveOptions>();
+  CLI::App* verb = app.add_subcommand("live", "Follow a person with a robot that runs ROS 2");
+  verb->footer(
+      "Example (in two terminals; no robot and no ROS are needed):\n"
+      "  heel simulate home --live\n"
+      "  heel live --map home --robot-start 1.2,1.5,0\n"
+      "Hears a camera (stereo, or colour and depth), a laser, odometry and tf; sends velocities\n"
+      "to /cmd_vel, 20 a second, and zeros when anything is late, and when it ends. A program "
+      "that\n"
+      "is killed sends nothing: the robot's base must stop by itself then.\n"
+      "First let it run with --dry, and with the wheels off the floor.");
+  verb->add_option("--map", options->map.map, "a .bt, a map_server YAML, or a scene's name")
+      ->required();
+  verb->add_option("--model", options->model,
+                   "the person, as 'heel learn' wrote it (default: the robot learns them first)");
+  verb->add_option("--plan", options->plan,
+                   "what to do when the person is lost: 'paper', 'search', or a PNML file")
+      ->capture_default_str();
+  verb->add_option("--out", options->out, "folder for the results")->capture_default_str();
+  verb->add_flag("--dry", options->dry, "send no velocities");
+  verb->add_option("--wait", options->wait_s, "for the robot, so long [s] (default: for ever)")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--limit", options->limit_s, "end after so long [s] (default: never)")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--command-topic", options->command_topic, "where velocities go")
+      ->capture_default_str();
+  addNetwork(*verb, options->network);
+  addLogMap(*verb, options->map, options->topics);
+  addCameraTopics(*verb, options->topics);
+  addOdometryTopic(*verb, options->topics);
+  verb->callback([options] { run(*options); });
+}
+
+}  // namespace heel

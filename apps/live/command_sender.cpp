@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <heel/apps/live/command_sender.hpp>
+#include <heel/apps/live/find_robot.hpp>
+
+#include <chrono>
+#include <exception>
+#include <utility>
+
+namespace heel {
+
+CommandSender::CommandSender(std::unique_ptr<BagWriter> writer, CommandSenderParams params)
+    : params_(std::move(params)), writer_(std::move(writer)), thread_([this] { run(); }) {}
+
+CommandSender::~CommandSender() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ends_ = true;
+  }
+  wakes_.notify_one();
+  thread_.join();
+  constexpr int kZeros = 5;  // one may be lost
+  try {
+    for (int i = 0; i < kZeros; ++i) {
+      send({});
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  } catch (const std::exception&) {
+    // There is no way to the robot any more.
+  }
+}
+
+void CommandSender::set(const VelocityCommand& command) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  command_ = command;
+  set_s_ = steadyClock_s();
+}
+
+std::size_t CommandSender::stopped() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return stopped_;
+}
+
+void CommandSender::send(const VelocityCommand& command) {
+  TwistMsg twist;
+  twist.linear.x = command.forward_mps;
+  twist.angular.z = command.turn_radps;
+  writer_->write(params_.topic, 0, twist);
+}
+
+void CommandSender::run() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!ends_) {
+    const bool is_fresh = set_s_ > 0.0 && steadyClock_s() - set_s_ <= params_.timeout_s;
+    if (is_fresh_ && !is_fresh) ++stopped_;
+    is_fresh_ = is_fresh;
+    const VelocityCommand command = is_fresh ? command_ : VelocityCommand{};
+    lock.unlock();
+    send(command);
+    lock.lock();
+    wakes_.wait_for(lock, std::chrono::duration<double>(1.0 / params_.rate_hz),
+                    [this] { return ends_; });
+  }
+}
+
+}  // namespace heel

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// A robot on the network: its camera, its laser, its wheels.
+#pragma once
+
+#include <heel/apps/follower/camera_setup.hpp>
+#include <heel/apps/live/live_readings.hpp>
+#include <heel/apps/live/ros2_network.hpp>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace heel {
+
+struct FoundRobot {
+  std::unique_ptr<LiveReadings> readings;
+  CameraSetup camera;
+};
+
+/// Listens until the messages of a robot's camera, laser, wheels and tf have come, and leaves only
+/// their topics subscribed.
+/// @param goes_on  Asked about once a second, and told what is missing still; false ends the
+/// search.
+/// @throws std::runtime_error  if it was ended, with what is missing; as findCameraSetup().
+FoundRobot findRobot(Ros2Network& network, const BagTopics& topics,
+                     const std::function<bool(const std::string& missing)>& goes_on);
+
+/// A clock that does not jump [s].
+double steadyClock_s();
+
+}  // namespace heel

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <heel/apps/live/live_readings.hpp>
+#include <heel/apps/recording/bags/bag_laser_log.hpp>
+#include <heel/apps/recording/bags/bag_recording.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace heel {
+
+LiveReadings::LiveReadings(const BagSurvey& survey, const BagTopics& topics)
+    : poses_(survey, topics) {
+  auto camera_messages = std::make_unique<FedBagReader>();
+  auto laser_messages = std::make_unique<FedBagReader>();
+  camera_messages_ = camera_messages.get();
+  laser_messages_ = laser_messages.get();
+  RecordingParams opening;
+  opening.topics = topics;
+  recording_ = BagRecording::openLive(survey, std::move(camera_messages), opening);
+  laser_ = std::make_unique<BagLaserLog>(survey, std::move(laser_messages), topics);
+  pose_messages_.select(survey.queryOf(poses_.topics(), true));
+  for (const BagTopicSummary& t : survey.topics) {
+    const std::string& name = t.topic.name;
+    if (camera_messages_->wants(name) || laser_messages_->wants(name)) topics_.push_back(name);
+  }
+}
+
+bool LiveReadings::take(const BagTopic& topic, std::int64_t stamp_ns,
+                        const std::vector<std::uint8_t>& bytes, double clock_s) {
+  for (FedBagReader* reader : {camera_messages_, laser_messages_, &pose_messages_}) {
+    reader->feed(topic, stamp_ns, bytes);
+  }
+  if (camera_messages_->wants(topic.name)) takeFrames(clock_s);
+  return has_next_;
+}
+
+void LiveReadings::takeFrames(double clock_s) {
+  while (recording_->next(next_frame_)) {
+    if (has_next_) ++left_out_;
+    has_next_ = true;
+    next_came_s_ = clock_s;
+    notice(next_frame_.stamp_s, clock_s);
+  }
+}
+
+void LiveReadings::notice(double stamp_s, double clock_s) {
+  if (has_time_ && stamp_s <= newest_s_) return;
+  newest_s_ = stamp_s;
+  newest_came_s_ = clock_s;
+  has_time_ = true;
+}
+
+const RobotReadings& LiveReadings::read(double clock_s) {
+  readings_ = {};
+  if (has_next_) {
+    std::swap(frame_, next_frame_);
+    readings_.frame = &frame_;
+    frame_came_s_ = next_came_s_;
+    has_next_ = false;
+  }
+  while (laser_->next(scan_)) {
+    readings_.scan = &scan_.scan;
+    readings_.scan_stamp_s = scan_.stamp_s;
+    notice(scan_.stamp_s, clock_s);
+  }
+  BagMessage raw;
+  bool has_moved = false;
+  while (pose_messages_.next(raw)) {
+    poses_.take(pose_messages_, raw);
+    has_moved = true;
+  }
+  if (const StampedPose* odometry = poses_.lastOdometry(); has_moved && odometry != nullptr) {
+    readings_.odometry = odometry->pose;
+    readings_.odometry_stamp_s = odometry->stamp_s;
+    notice(odometry->stamp_s, clock_s);
+  }
+  readings_.stamp_s = newest_s_ + (clock_s - newest_came_s_);
+  return readings_;
+}
+
+}  // namespace heel
