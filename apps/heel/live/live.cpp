@@ -79,6 +79,34 @@ class StateTeller {
   std::string last_;
 };
 
+/// Tells when a sensor has been silent for too long, and when it is heard again.
+class SilenceTeller {
+ public:
+  void tell(const RobotReadings& now, double clock_s) {
+    camera_.tell("picture", now.frame != nullptr, clock_s);
+    laser_.tell("laser scan", now.scan != nullptr, clock_s);
+    wheels_.tell("odometry", now.odometry.has_value(), clock_s);
+  }
+
+ private:
+  struct Sensor {
+    void tell(const char* what, bool has_come, double clock_s) {
+      constexpr double kSilent_s = 1.0;
+      if (has_come || heard_s == 0.0) {
+        if (is_silent) std::fprintf(stderr, "heel: a %s has come again\n", what);
+        is_silent = false;
+        heard_s = clock_s;
+      } else if (!is_silent && clock_s - heard_s > kSilent_s) {
+        is_silent = true;
+        warn(std::string("no ") + what + " has come for a second: the robot is told to stand");
+      }
+    }
+    double heard_s = 0.0;
+    bool is_silent = false;
+  };
+  Sensor camera_, laser_, wheels_;
+};
+
 double share95(std::vector<double>& values) {
   if (values.empty()) return 0.0;
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 95 / 100);
@@ -135,6 +163,7 @@ void run(const LiveOptions& options) {
   const double period_s = follower.robot().drive.period_s;
   const double began_s = steadyClock_s();
   StateTeller teller;
+  SilenceTeller silence;
   StereoReading picture;
   std::vector<double> latencies_s;
   while (true) {
@@ -144,6 +173,7 @@ void run(const LiveOptions& options) {
       break;
     }
     const RobotReadings& now = readings.read(steadyClock_s());
+    silence.tell(now, steadyClock_s());
     const FollowStep* step = nullptr;
     try {
       step = &follower.step(now, stage_done);

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// A robot and the follower as two programs, with a network between them.
+
+#include "tests/commands/hall_scene.hpp"
+#include "tests/commands/heel.hpp"
+#include "tests/support/temp_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <future>
+#include <regex>
+
+namespace heel::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kRosa =
+    "{name: rosa, height_m: 1.7, start: [4.4, 1.5], speed_mps: 0.7, outfit: {top: {color: red}, "
+    "trousers: {color: charcoal}}, path: [{wait_s: 5}, {to: [2.4, 0.4]}, {to: [3.4, -0.6]}, "
+    "{to: [2.6, 0.6]}, {to: [3.4, -0.4]}, {to: [2.8, 0.4]}, {to: [3.6, -0.6]}, {to: [3.0, 0.4]}, "
+    "{to: [4.2, 0.0]}]}";
+constexpr const char* kCamera =
+    "{at: [0.05, 0.06, 1.13], pitch_deg: 5.7, width: 160, height: 120, view_deg: 60, rate_hz: 5}";
+
+class Live : public testing::Test {
+ protected:
+  void SetUp() override {
+    setenv("ROS_LOCALHOST_ONLY", "1", 1);
+    domain_ = std::to_string(1 + getpid() % 200);
+    folder_.write("hall.yaml", hallScene("60", kRosa, kCamera));
+  }
+  void TearDown() override { unsetenv("ROS_LOCALHOST_ONLY"); }
+
+  /// Simulated time is as slow as the machine needs.
+  std::future<HeelRun> robot(const std::string& duration_s, const std::string& speed = "1") {
+    return std::async(std::launch::async, [=] {
+      return heel({"simulate", folder_ / "hall.yaml", "--live", "--domain", domain_, "--duration",
+                   duration_s, "--speed", speed});
+    });
+  }
+  std::vector<std::string> live(std::vector<std::string> more) const {
+    std::vector<std::string> call = {"live",          "--map",   folder_ / "hall.yaml",
+                                     "--robot-start", "0.5,0,0", "--domain",
+                                     domain_,         "--out",   folder_ / "live"};
+    call.insert(call.end(), more.begin(), more.end());
+    return call;
+  }
+
+  TempFolder folder_;
+  std::string domain_;
+};
+
+TEST_F(Live, ARobotOnTheNetworkLearnsAPersonAndFollowsThem) {
+  auto robot = this->robot("35");
+  const HeelRun follower = heel(live({"--limit", "28", "--wait", "60"}));
+  const HeelRun world = robot.get();
+  ASSERT_EQ(follower.exit_code, 0) << follower.err;
+  ASSERT_TRUE(succeeds(world));
+  EXPECT_THAT(follower.err, HasSubstr("/camera/left/image_rect_color"));
+  EXPECT_THAT(follower.err, HasSubstr("follow"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "live/report.html"));
+  std::smatch drove;
+  ASSERT_TRUE(std::regex_search(world.out, drove, std::regex("drove ([0-9.]+) m by ([0-9]+) ")))
+      << world.out;
+  EXPECT_GT(std::stod(drove[1]), 0.05);
+  EXPECT_GT(std::stoi(drove[2]), 100);
+  EXPECT_THAT(world.out, HasSubstr("contacts by the robot 0"));
+}
+
+TEST_F(Live, WithoutARobotItSaysWhatIsMissing) {
+  EXPECT_TRUE(failsWith(heel(live({"--wait", "1"})), {"nothing is sent on the network"}));
+}
+
+TEST_F(Live, WhenTheRobotIsGoneItStandsAndSaysSo) {
+  auto robot = this->robot("4");
+  const HeelRun follower = heel(live({"--limit", "12", "--wait", "60"}));
+  ASSERT_TRUE(succeeds(robot.get()));
+  EXPECT_EQ(follower.exit_code, 0) << follower.err;
+  EXPECT_THAT(follower.err, HasSubstr("no picture has come for a second"));
+}
+
+TEST_F(Live, WithDryItSendsNothing) {
+  auto robot = this->robot("8");
+  const HeelRun follower = heel(live({"--limit", "3", "--wait", "60", "--dry"}));
+  EXPECT_EQ(follower.exit_code, 0) << follower.err;
+  EXPECT_THAT(robot.get().out, HasSubstr("drove 0.00 m by 0 commands"));
+}
+
+TEST_F(Live, RefusesANetworkThatCannotBe) {
+  EXPECT_TRUE(
+      failsWith(heel({"live", "--map", folder_ / "hall.yaml", "--domain", "300"}), {"--domain"}));
+}
+
+}  // namespace
+}  // namespace heel::test
