@@ -9,7 +9,9 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <thread>
 
 namespace heel {
@@ -130,6 +132,47 @@ TEST(Ros2Network, ATopicThatIsLeftIsSilent) {
     writer->write("/scan", 0, LaserScanMsg());
     return heel.next(0.1).has_value();
   })) << "and can be heard again";
+}
+
+/// Cyclone DDS sends a scan, and gets a velocity.
+TEST(Ros2Network, SpeaksWithAnotherMakersDds) {
+#ifndef HEEL_CYCLONE_PEER
+  GTEST_SKIP() << "Cyclone DDS is not installed (cyclonedds-dev, cyclonedds-tools)";
+#else
+  setenv("CYCLONEDDS_URI",
+         "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" "
+         "multicast=\"true\"/></Interfaces></General></Domain></CycloneDDS>",
+         1);
+  const std::string call = HEEL_CYCLONE_PEER " " + std::to_string(ownNetwork().domain);
+  const std::unique_ptr<FILE, int (*)(FILE*)> peer(popen(call.c_str(), "r"), pclose);
+  Ros2Network heel(ownNetwork());
+  heel.subscribe(kScan);
+  std::optional<LiveMessage> message;
+  ASSERT_TRUE(waitFor([&] { return (message = heel.next(0.2)).has_value(); }));
+  LaserScanMsg scan;
+  readMessage(BagForm::kRos2, message->bytes.data(), message->bytes.size(), scan);
+  EXPECT_EQ(scan.header.stamp.ns, 12500000000);
+  EXPECT_EQ(scan.header.frame_id, "laser");
+  EXPECT_EQ(scan.angle_min, -1.0F);
+  EXPECT_EQ(scan.range_max, 8.0F);
+  EXPECT_THAT(scan.ranges, testing::ElementsAre(1.5F, 2.5F, 3.5F));
+
+  const auto writer = heel.writer();
+  TwistMsg twist;
+  twist.linear.x = 0.25;
+  twist.angular.z = -0.5;
+  EXPECT_TRUE(waitFor([&] { return heel.hasListener("/cmd_vel"); }));
+  std::thread sending([&] {
+    for (int i = 0; i < 100; ++i) {
+      writer->write("/cmd_vel", 0, twist);
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  });
+  char said[64] = {};
+  EXPECT_NE(fgets(said, sizeof said, peer.get()), nullptr);
+  EXPECT_STREQ(said, "0.250 -0.500\n");
+  sending.join();
+#endif
 }
 
 TEST(Ros2Network, TheEnvironmentTellsTheDomain) {
