@@ -27,7 +27,7 @@ void addTrack(CLI::App& app);
 void addFilter(CLI::App& app);
 void addFollow(CLI::App& app);
 void addInspect(CLI::App& app);
-void addLive(CLI::App& app);  // only where Heel was built with ROS 2
+void addLive(CLI::App& app);
 void addLocalize(CLI::App& app);
 void addMap(CLI::App& app);
 void addPlan(CLI::App& app);

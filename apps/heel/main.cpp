@@ -127,9 +127,7 @@ int main(int argc, char** argv) {
   heel::addFilter(app);
   heel::addFollow(app);
   heel::addInspect(app);
-#ifdef HEEL_WITH_ROS2
   heel::addLive(app);
-#endif
   heel::addLocalize(app);
   heel::addMap(app);
   heel::addPlan(app);

@@ -4,11 +4,9 @@
 #include <heel/apps/experiment/roaming_driver.hpp>
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/shared/arguments.hpp>
-#ifdef HEEL_WITH_ROS2
 #include <heel/apps/heel/shared/network_options.hpp>
-#include <heel/apps/live/live_simulation.hpp>
-#endif
 #include <heel/apps/heel/shared/terminal.hpp>
+#include <heel/apps/live/live_simulation.hpp>
 #include <heel/apps/output/run_end.hpp>
 #include <heel/apps/recording/stamps.hpp>
 #include <heel/apps/simulation/path_driver.hpp>
@@ -26,7 +24,6 @@
 namespace heel {
 namespace {
 
-#ifdef HEEL_WITH_ROS2
 struct LiveArguments {
   bool is_wanted = false;
   Ros2NetworkParams network;
@@ -50,16 +47,13 @@ void runLive(const Scene& scene, const LiveArguments& options) {
       result.everyone_is_done ? "has gone all of their way" : "is still on their way",
       result.contacts_by_robot, result.contacts - result.contacts_by_robot, result.slowest);
 }
-#endif
 
 struct SimulateArguments {
   std::string scene;
   std::string light;  // empty: the scene's
   std::string drive;  // empty: the robot stands still
   SimulateOptions simulate;
-#ifdef HEEL_WITH_ROS2
   LiveArguments live;
-#endif
 };
 
 std::function<VelocityCommand(const WorldTruth&)> driverOf(const Scene& scene,
@@ -78,13 +72,11 @@ std::function<VelocityCommand(const WorldTruth&)> driverOf(const Scene& scene,
 void run(SimulateArguments& options) {
   Scene scene = loadScene(sceneFile(options.scene).string());
   setLight(scene, options.light);
-#ifdef HEEL_WITH_ROS2
   if (options.live.is_wanted) {
     options.live.run.seed = options.simulate.seed;
     if (options.simulate.duration_s) options.live.run.duration_s = *options.simulate.duration_s;
     return runLive(scene, options.live);
   }
-#endif
   if (options.simulate.out.empty()) throw std::invalid_argument("--out is required");
   options.simulate.drive = driverOf(scene, options);
   ProgressBar progress("simulating", 100);
@@ -123,7 +115,6 @@ void addSimulate(CLI::App& app) {
       ->required();
   CLI::Option* out =
       verb->add_option("--out", options->simulate.out, "folder for the recording; must be empty");
-#ifdef HEEL_WITH_ROS2
   CLI::Option* live = verb->add_flag(
       "--live", options->live.is_wanted,
       "write nothing: be a robot on ROS 2's network, in real time, that /cmd_vel drives");
@@ -133,9 +124,6 @@ void addSimulate(CLI::App& app) {
       ->check(CLI::Range(0.01, 100.0))
       ->capture_default_str();
   addNetwork(*verb, options->live.network);
-#else
-  out->required();
-#endif
   verb->add_option(
       "--bag", options->simulate.bag,
       "also write a bag: NAME.bag for ROS 1; NAME.mcap, NAME.db3, or a folder, for ROS 2");

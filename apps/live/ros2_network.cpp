@@ -3,6 +3,17 @@
 
 #include <heel/apps/live/ros2_network.hpp>
 
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
+#include <cstring>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+
+#ifdef HEEL_HAS_ROS2
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
@@ -17,18 +28,26 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-
-#include <algorithm>
-#include <chrono>
-#include <condition_variable>
-#include <cstdlib>
-#include <cstring>
-#include <deque>
-#include <map>
-#include <mutex>
-#include <stdexcept>
+#endif
 
 namespace heel {
+
+Ros2NetworkParams ros2Environment() {
+  Ros2NetworkParams params;
+  if (const char* domain = std::getenv("ROS_DOMAIN_ID"); domain != nullptr && *domain != '\0') {
+    char* end = nullptr;
+    const long number = std::strtol(domain, &end, 10);
+    if (*end != '\0' || number < 0 || number > 232) {
+      throw std::invalid_argument("ROS_DOMAIN_ID must be a number from 0 to 232");
+    }
+    params.domain = static_cast<int>(number);
+  }
+  const char* local = std::getenv("ROS_LOCALHOST_ONLY");
+  params.localhost_only = local != nullptr && std::string(local) == "1";
+  return params;
+}
+
+#ifdef HEEL_HAS_ROS2
 namespace {
 
 namespace dds = eprosima::fastdds::dds;
@@ -204,21 +223,6 @@ class Ros2Writer final : public BagWriter {
 
 }  // namespace
 
-Ros2NetworkParams ros2Environment() {
-  Ros2NetworkParams params;
-  if (const char* domain = std::getenv("ROS_DOMAIN_ID"); domain != nullptr && *domain != '\0') {
-    char* end = nullptr;
-    const long number = std::strtol(domain, &end, 10);
-    if (*end != '\0' || number < 0 || number > 232) {
-      throw std::invalid_argument("ROS_DOMAIN_ID must be a number from 0 to 232");
-    }
-    params.domain = static_cast<int>(number);
-  }
-  const char* local = std::getenv("ROS_LOCALHOST_ONLY");
-  params.localhost_only = local != nullptr && std::string(local) == "1";
-  return params;
-}
-
 Ros2Network::Ros2Network(const Ros2NetworkParams& params) : state_(std::make_unique<State>()) {
   state_->params = params;
   dds::DomainParticipantQos qos;
@@ -335,5 +339,25 @@ std::unique_ptr<BagWriter> Ros2Network::writer() {
         return writer;
       });
 }
+
+#else
+
+struct Ros2Network::State {};
+
+Ros2Network::Ros2Network(const Ros2NetworkParams& /*params*/) {
+  throw std::runtime_error(
+      "ROS 2: this build of Heel is without it (Debian's libfastrtps-dev; "
+      "cmake -DHEEL_WITH_ROS2=ON)");
+}
+Ros2Network::~Ros2Network() = default;
+std::vector<BagTopic> Ros2Network::topics() const { return {}; }
+bool Ros2Network::hasWriter(const std::string& /*topic*/) const { return false; }
+bool Ros2Network::hasListener(const std::string& /*topic*/) const { return false; }
+void Ros2Network::subscribe(const BagTopic& /*topic*/, bool /*latched*/, std::size_t /*depth*/) {}
+void Ros2Network::unsubscribe(const std::string& /*topic*/) {}
+std::optional<LiveMessage> Ros2Network::next(double /*timeout_s*/) { return std::nullopt; }
+std::unique_ptr<BagWriter> Ros2Network::writer() { return nullptr; }
+
+#endif
 
 }  // namespace heel

@@ -38,7 +38,7 @@ struct LiveOptions {
   bool dry = false;
   double wait_s = std::numeric_limits<double>::infinity();
   double limit_s = std::numeric_limits<double>::infinity();
-  std::filesystem::path out = "out/live";
+  std::filesystem::path out;
 };
 
 FoundRobot waitForRobot(Ros2Network& network, const LiveOptions& options) {
@@ -226,7 +226,7 @@ void addLive(CLI::App& app) {
   verb->footer(
       "Example (in two terminals; no robot and no ROS are needed):\n"
       "  heel simulate home --live\n"
-      "  heel live --map home --robot-start 1.2,1.5,0\n"
+      "  heel live --map home --robot-start 0.8,2.2,0 --out out/live\n"
       "Hears a camera (stereo, or colour and depth), a laser, odometry and tf; sends velocities\n"
       "to /cmd_vel, 20 a second, and zeros when anything is late, and when it ends. A program "
       "that\n"
@@ -239,7 +239,7 @@ void addLive(CLI::App& app) {
   verb->add_option("--plan", options->plan,
                    "what to do when the person is lost: 'paper', 'search', or a PNML file")
       ->capture_default_str();
-  verb->add_option("--out", options->out, "folder for the results")->capture_default_str();
+  verb->add_option("--out", options->out, "folder for the results")->required();
   verb->add_flag("--dry", options->dry, "send no velocities");
   verb->add_option("--wait", options->wait_s, "for the robot, so long [s] (default: for ever)")
       ->check(CLI::PositiveNumber);
