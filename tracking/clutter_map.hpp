@@ -23,6 +23,7 @@ enum class Sight {
 /// Tells what is seen of a place on the floor, in the observations' frame.
 using SightOf = std::function<Sight(const Eigen::Vector2d&)>;
 
+/// How fast places are learned at which things look like people.
 struct ClutterMapParams {
   double cell_m = 0.25;  ///< Edge of a cell.
   double range_m = 8.0;  ///< Nothing further away than this is counted.
