@@ -32,9 +32,19 @@ function(heel_install_module name)
     DESTINATION "${HEEL_CONFIG_DIR}" COMPONENT development)
 endfunction()
 
-# Installs the heel command and what it reads: scenes and plans.
+# Installs the heel command, what it reads (scenes and plans), and what completes its calls in bash
+# and zsh, where Debian's look for it; the command itself writes that.
 function(heel_install_command)
   install(TARGETS heel_command RUNTIME COMPONENT runtime)
+  set(completions "${PROJECT_BINARY_DIR}/completions")
+  file(MAKE_DIRECTORY "${completions}")
+  add_custom_command(TARGET heel_command POST_BUILD
+    COMMAND heel_command completion bash > "${completions}/heel"
+    COMMAND heel_command completion zsh > "${completions}/_heel" VERBATIM)
+  install(FILES "${completions}/heel" COMPONENT runtime
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
+  install(FILES "${completions}/_heel" COMPONENT runtime
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions")
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/apps/scenes" "${PROJECT_SOURCE_DIR}/apps/plans"
     DESTINATION "${HEEL_DATA_DIR}" COMPONENT runtime)
 endfunction()

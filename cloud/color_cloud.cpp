@@ -218,7 +218,7 @@ std::optional<PinholeCamera> fitPinhole(const ColorCloud& cloud) {
   camera.cx = across.offset();
   camera.cy = down.offset();
   const bool fits = across.residual() < kMaxResidual_px && down.residual() < kMaxResidual_px &&
-                    camera.fx > 0.0 && camera.fy > 0.0;
+                    isCalibrated(camera);
   return fits ? std::optional(camera) : std::nullopt;
 }
 

@@ -17,12 +17,6 @@ namespace {
 /// beside each other, or not calibrated.
 constexpr float kMostHalf_px = 8.0F;
 
-bool isUsable(const PinholeCamera& camera) {
-  return camera.width > 0 && camera.height > 0 && camera.fx > 0.0 && camera.fy > 0.0 &&
-         std::isfinite(camera.fx) && std::isfinite(camera.fy) && std::isfinite(camera.cx) &&
-         std::isfinite(camera.cy);
-}
-
 /// The pixels whose middles are within `half` of `at`: from the first to one before the second.
 /// None of what is no number.
 cv::Range pixelsNear(float at, float half, int size) {
@@ -42,7 +36,7 @@ DepthRegistration::DepthRegistration(const PinholeCamera& depth, const PinholeCa
       t_color_depth_(T_color_depth.translation().cast<float>()),
       half_width_(static_cast<float>(0.5 * color.fx / depth.fx)),
       half_height_(static_cast<float>(0.5 * color.fy / depth.fy)) {
-  if (!isUsable(depth) || !isUsable(color)) {
+  if (!isCalibrated(depth) || !isCalibrated(color)) {
     throw std::invalid_argument("DepthRegistration: a camera has no size or no focal length");
   }
   if (!T_color_depth.matrix().allFinite()) {

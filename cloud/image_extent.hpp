@@ -12,6 +12,7 @@
 
 namespace heel {
 
+/// The size of a picture [px].
 struct ImageExtent {
   std::size_t width = 0;
   std::size_t height = 0;

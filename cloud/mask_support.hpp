@@ -11,6 +11,7 @@
 
 namespace heel {
 
+/// What was left of a mask.
 struct SupportCount {
   int wanted = 0;  ///< Non-zero pixels of the mask.
   int kept = 0;    ///< Of them, those with support.

@@ -5,6 +5,8 @@
 /// A rectified pinhole camera.
 #pragma once
 
+#include <cmath>
+
 namespace heel {
 
 /// Intrinsics of a rectified camera without distortion, in pixels.
@@ -18,6 +20,14 @@ struct PinholeCamera {
   double cx = 0.0;
   double cy = 0.0;
 };
+
+/// Whether points and pixels can be turned into each other: it has a size, positive focal lengths,
+/// and all of it is finite.
+inline bool isCalibrated(const PinholeCamera& camera) {
+  return camera.width > 0 && camera.height > 0 && camera.fx > 0.0 && camera.fy > 0.0 &&
+         std::isfinite(camera.fx) && std::isfinite(camera.fy) && std::isfinite(camera.cx) &&
+         std::isfinite(camera.cy);
+}
 
 /// A rectified stereo pair: the left camera, and what turns a disparity into a depth.
 ///

@@ -31,6 +31,7 @@ struct Features {
   std::uint8_t* low;
   std::uint8_t* high;
 };
+/// What two pixels are compared by.
 struct RowFeatures {
   Features gradient;    ///< Sobel in x, cut to +-cap, plus cap.
   Features brightness;  ///< As it is.

@@ -37,6 +37,7 @@ FloorPose alongArc(const FloorPose& pose, double distance_m, double turn_rad);
 /// Which way a place is from a pose [rad], 0 straight ahead, to the left from there.
 double bearingOf(const FloorPose& from, const Eigen::Vector2d& place);
 
+/// What stands on the floor, in the world.
 struct FloorDisc {
   Eigen::Vector2d center = Eigen::Vector2d::Zero();  ///< [m]
   double radius_m = 0.0;

@@ -13,6 +13,7 @@
 
 namespace heel {
 
+/// Which narrow places of a map are doorways.
 struct DoorwayParams {
   double min_width_m = 0.55;  ///< Narrower passages are no doorways.
   double max_width_m = 1.1;   ///< Wider passages are no doorways.

@@ -29,6 +29,7 @@ constexpr std::size_t kDriveTerms = 7;
 using DriveScores = std::array<double, kDriveTerms>;
 const char* nameOf(DriveTerm term);
 
+/// What a motion costs.
 struct DriveTermParams {
   /// Weights of the costs, in the order of DriveTerm: progress, path, heading, clearance, people,
   /// view, smoothness.

@@ -14,6 +14,7 @@
 
 namespace heel {
 
+/// How near to be, and what makes a place bad.
 struct GoalChooserParams {
   double standoff_m = 1.0;        ///< Distance to keep, from the person's middle to the robot's.
   double least_standoff_m = 0.8;  ///< The robot never stands nearer to the person than this.

@@ -18,6 +18,7 @@
 
 namespace heel {
 
+/// How late the robot acts, and how much room it keeps.
 struct LastGateParams {
   DriveLimits limits;        ///< The robot's; it brakes as fast as it accelerates.
   FloorPose T_base_scanner;  ///< Where the laser scanner is, in the base frame.
@@ -41,6 +42,7 @@ struct LastGateParams {
 enum class GateReason { kFree, kThing, kUnseen, kBadMotion };
 const char* describe(GateReason reason);
 
+/// The velocity to drive, and what it was reduced for.
 struct GatedVelocity {
   VelocityCommand velocity;
   GateReason reason = GateReason::kFree;

@@ -13,6 +13,7 @@
 
 namespace heel {
 
+/// Which motions are tried, and how they are rated.
 struct LocalPlannerParams {
   DriveLimits limits;
   DriveTermParams terms;

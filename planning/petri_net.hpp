@@ -22,6 +22,7 @@ struct NetGraphics {
   Eigen::Vector2d label_offset = Eigen::Vector2d::Zero();  ///< Of the name, from its usual place.
 };
 
+/// Where tokens lie.
 struct PetriPlace {
   std::string id;    ///< Unique in its net.
   std::string name;  ///< May be empty.
@@ -37,6 +38,7 @@ struct PetriArc {
   std::vector<Eigen::Vector2d> bends;  ///< Where the drawn line bends, from source to target.
 };
 
+/// Takes tokens from places, and gives them to others.
 struct PetriTransition {
   std::string id;
   std::string name;

@@ -22,6 +22,7 @@ enum class PlanFlaw {
   kTooLarge,          ///< It has more states than are looked at.
 };
 
+/// What is wrong with a plan.
 struct PlanFault {
   PlanFlaw flaw = PlanFlaw::kNoGoal;
   std::string sentence;  ///< Names the element and the reason.

@@ -18,6 +18,7 @@
 
 namespace heel {
 
+/// How the belief is divided, how people walk, and what the robot sees.
 struct SearchMapParams {
   double cell_size_m = 0.2;    ///< Edge of a cell of the belief.
   double body_radius_m = 0.2;  ///< Radius of a person.

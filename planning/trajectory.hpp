@@ -69,6 +69,7 @@ struct Trajectories {
 void addHeld(const DriveLimits& limits, const DriveState& now, const VelocityCommand& command,
              Trajectories& out);
 
+/// How the robot turns on the spot.
 struct FacingParams {
   double gain = 1.8;        ///< Speed of turning per angle that is left [1/s].
   double still_rad = 0.05;  ///< A turn ends when no more than this is left of it.

@@ -12,6 +12,7 @@
 
 namespace heel {
 
+/// How much room a person needs to pass, and where the robot waits.
 struct WaysideParams {
   double radius_m = 0.26;        ///< Radius of the robot.
   double margin_m = 0.08;        ///< Room that the robot needs around it.

@@ -85,6 +85,7 @@ enum class AppearanceDoubt {
   kLikeTheRoom,   ///< In each band that has, most is lost or most of the room passes.
 };
 
+/// How well the person's colours can be told from the room's.
 struct Separability {
   AppearanceDoubt doubt = AppearanceDoubt::kNone;
   double error_share = 1.0;  ///< Of the best band: both error shares together; 0 is perfect.

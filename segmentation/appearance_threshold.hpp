@@ -37,6 +37,7 @@ enum class ThresholdRule {
   kMostSelective,  ///< The highest that still loses no more than a given share of the person.
 };
 
+/// How the score is chosen from which on a colour is the person's.
 struct ThresholdParams {
   /// How the threshold is chosen. Fewest errors: on real recordings the other rule lost people
   /// whose clothes looked darker on their way back.

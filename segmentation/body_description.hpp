@@ -39,6 +39,7 @@ struct BodyDescription {
   std::optional<double> stature_m;  ///< If the head was seen.
 };
 
+/// How the colours of a body are counted, stripe by stripe of its height.
 struct BodyDescriberParams {
   double radius_m = 0.25;  ///< Radius of the upright cylinder that holds the body.
   /// Half the width of the board of BodyView::depth_is_masked: that of a trunk.

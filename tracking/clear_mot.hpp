@@ -24,6 +24,7 @@ struct TrackingFrame {
   std::vector<LabelledPlace> estimates;
 };
 
+/// What counts as a match.
 struct ClearMotParams {
   double match_distance_m = 0.5;  ///< An estimate further than this from a person is not of them.
   /// Whether last frame's pairs are kept while they are near enough, and switches counted. Off for

@@ -23,6 +23,7 @@ enum class Sight {
 /// Tells what is seen of a place on the floor, in the observations' frame.
 using SightOf = std::function<Sight(const Eigen::Vector2d&)>;
 
+/// How fast places are learned at which things look like people.
 struct ClutterMapParams {
   /// Things per square metre that look like people, assumed where nothing is known yet.
   double density_per_m2 = 0.1;

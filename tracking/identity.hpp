@@ -18,6 +18,7 @@
 
 namespace heel {
 
+/// How much looks, ways and absences count as evidence.
 struct IdentityParams {
   GalleryParams gallery;
   ClutterMapParams clutter;

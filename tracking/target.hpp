@@ -16,6 +16,7 @@
 
 namespace heel {
 
+/// When somebody is the target, and no longer.
 struct TargetParams {
   IdentityParams identity;
   double start_distance_m = 0.5;  ///< A track this near to a given starting place is the target.

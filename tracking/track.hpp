@@ -16,6 +16,7 @@
 
 namespace heel {
 
+/// How far a track may be from what it explains, and how long it lives.
 struct TrackerParams {
   MotionParams motion;
   double position_sigma_m = 0.12;  ///< Standard deviation of an observation's place, per axis.
@@ -89,6 +90,7 @@ enum class ObservationFate {
   kTooLittle,  ///< No track took it, and it can't start one.
   kFragment,   ///< Too close to track `track_id`, which has a better observation.
 };
+/// What became of an observation, and of which track it is.
 struct ObservationUse {
   ObservationFate fate = ObservationFate::kIgnored;
   GateVerdict verdict = GateVerdict::kAccepted;

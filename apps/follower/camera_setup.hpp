@@ -18,6 +18,7 @@
 
 namespace heel {
 
+/// How the camera is found over the floor, and what is warned of.
 struct CameraSetupParams {
   double look_at_s = 2.0;  ///< How much of the recording's beginning is looked at.
   StereoMatcherParams stereo;

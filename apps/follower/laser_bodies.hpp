@@ -17,6 +17,7 @@
 
 namespace heel {
 
+/// Which ends of beams are taken for people.
 struct LaserBodiesParams {
   double off_map_m = 0.15;  ///< A beam's end this near to something on the map is that.
   /// Nothing further away is taken for legs: there a leg is a beam or two.

@@ -23,6 +23,7 @@ inline AppearanceParams ofWholeBody() {
   return params;
 }
 
+/// How phase 1 looks, and what it learns.
 struct LearnPersonParams {
   AcquisitionParams acquisition;
   AppearanceParams appearance = ofWholeBody();
@@ -58,6 +59,7 @@ class PersonLearner {
   pcl::Indices person_;
 };
 
+/// Whom phase 1 found.
 struct LearnedPerson {
   AppearanceModel model;
   AcquisitionResult acquisition;      ///< On what the model rests, and why it ended.

@@ -16,6 +16,7 @@
 
 namespace heel {
 
+/// Which points of the camera are in the robot's way.
 struct ObstaclePointsParams {
   int width_px = 160;        ///< Images are reduced to this width, or left as they are if smaller.
   double nearest_m = 0.45;   ///< Nearer things can't be matched; what seems to be nearer is false.

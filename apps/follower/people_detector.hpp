@@ -18,6 +18,7 @@
 
 namespace heel {
 
+/// What is taken for a person before a background that is known.
 struct PeopleDetectorParams {
   HeightCropParams height;
   PlanViewParams plan_view;

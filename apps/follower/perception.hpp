@@ -46,6 +46,7 @@ struct CandidateParams {
   double min_distance_m = 0.3;
 };
 
+/// The parameters of the stages of phase 2, in their order.
 struct PerceptionParams {
   StereoMatcherParams stereo;
   PlanViewParams plan_view;

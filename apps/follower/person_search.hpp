@@ -12,6 +12,7 @@
 
 namespace heel {
 
+/// How a person who is lost is looked for.
 struct PersonSearchParams {
   SearchMapParams map;
   double budget_s = 240.0;  ///< A search ends after so long.

@@ -32,6 +32,7 @@ struct RobotReadings {
   std::optional<double> odometry_stamp_s;
 };
 
+/// How old readings may be before the robot stops.
 struct SensorWatchParams {
   double max_image_age_s = 0.6;  ///< The robot stops when the last good image is older than this.
   double max_scan_age_s = 0.35;  ///< The robot stops when the last scan is older than this.

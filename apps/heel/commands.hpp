@@ -38,7 +38,10 @@ void addEvaluate(CLI::App& app);
 void addExperiment(CLI::App& app);
 
 /// Gives each verb the option --max-memory, and lets it refuse numbers that are not finite; call it
-/// when all verbs are there.
+/// when all these verbs are there.
 void completeVerbs(CLI::App& app);
+
+/// The verb that prints what completes the calls of all verbs in a shell.
+void addCompletion(CLI::App& app);
 
 }  // namespace heel

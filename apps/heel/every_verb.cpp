@@ -9,7 +9,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <functional>
 #include <string>
 
@@ -24,9 +23,7 @@ std::string whyNotFinite(const std::string& text) {
 
 }  // namespace
 
-void warn(const std::string& warning) {
-  std::fprintf(stderr, "heel: warning: %s\n", sentenceForTerminal(warning).c_str());
-}
+void warn(const std::string& warning) { tell("warning: " + warning); }
 
 void completeVerbs(CLI::App& app) {
   const auto verbs = app.get_subcommands([](const CLI::App*) { return true; });

@@ -26,7 +26,7 @@ namespace {
 
 struct LearnOptions {
   std::filesystem::path recording;
-  std::filesystem::path out = "person.yaml";
+  std::filesystem::path out;
   RecordingParams opening;
   LearnPersonParams params;
 };
@@ -197,7 +197,7 @@ void addLearn(CLI::App& app) {
       "It reads no further than 2 minutes, unless --to says so.\n"
       "Writes the model, a picture of it, and a picture of who was learned.");
   verb->add_option("RECORDING", options->recording, "folder of a recording, or a bag")->required();
-  verb->add_option("--out", options->out, "where to write the model")->capture_default_str();
+  verb->add_option("--out", options->out, "where to write the model (.yaml)")->required();
   verb->add_option("--background", options->params.acquisition.background_s,
                    "how long the room is empty at the beginning [s]")
       ->capture_default_str();

@@ -20,16 +20,57 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace {
 
-/// "learn, track, filter": what one of must be named after `app`.
-std::string verbsOf(const CLI::App& app) {
-  std::string names;
+/// What one of must be named after `app`.
+std::vector<std::string> verbsOf(const CLI::App& app) {
+  std::vector<std::string> names;
   for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
-    names += (names.empty() ? "" : ", ") + verb->get_name();
+    names.push_back(verb->get_name());
   }
   return names;
+}
+
+std::vector<std::string> optionsOf(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+/// How many letters must be put in, left out, changed or swapped with the next to make `b` of `a`.
+std::size_t typosBetween(const std::string& a, const std::string& b) {
+  std::vector<std::vector<std::size_t>> typos(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) {
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      std::size_t& least = typos[i][j] = std::max(i, j);
+      if (i == 0 || j == 0) continue;
+      least = std::min({typos[i - 1][j] + 1, typos[i][j - 1] + 1,
+                        typos[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        least = std::min(least, typos[i - 2][j - 2] + 1);
+      }
+    }
+  }
+  return typos[a.size()][b.size()];
+}
+
+/// "; did you mean --model?", if a name is near enough to what was written: a third of its letters
+/// may be wrong.
+std::string nearest(const std::string& written, const std::vector<std::string>& names,
+                    const std::string& quote) {
+  const std::string* best = nullptr;
+  std::size_t least = written.size() / 3 + 1;
+  for (const std::string& name : names) {
+    const std::size_t typos = typosBetween(written, name);
+    if (typos >= least) continue;
+    best = &name;
+    least = typos;
+  }
+  return best == nullptr ? std::string() : "; did you mean " + quote + *best + quote + "?";
 }
 
 /// What was wrong with the call, in one sentence, and where to read more.
@@ -40,24 +81,27 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
     called = called->get_subcommands().front();
     name += " " + called->get_name();
   }
-  const std::string verbs = verbsOf(*called);
+  const std::vector<std::string> verbs = verbsOf(*called);
   std::string what = error.what();
   const auto others = called->remaining();
   const auto unknown = std::find_if(others.begin(), others.end(), [](const std::string& word) {
     return word.size() > 1 && word.front() == '-';
   });
   if (unknown != others.end()) {
-    what = "there is no option " + *unknown;  // rather than that another is missing
+    // Rather than that another is missing.
+    const std::string written = unknown->substr(0, unknown->find('='));
+    what = "there is no option " + written + nearest(written, optionsOf(*called), "");
   } else if (!verbs.empty() && error.get_name() == "RequiredError") {
     what = others.empty() ? "name a verb" : "there is no verb '" + others.front() + "'";
-    what += "; there are " + verbs;
+    const std::string meant = others.empty() ? "" : nearest(others.front(), verbs, "'");
+    what += meant.empty() ? "; there are " + CLI::detail::join(verbs, ", ") : meant;
   }
   return what + " ('" + name + " --help' tells more)";
 }
 
-/// Ends the program with a sentence on one line, whatever a library put into its message.
+/// Ends the program with a sentence.
 int fail(heel::ExitCode code, const std::string& sentence) {
-  std::fprintf(stderr, "heel: %s\n", heel::sentenceForTerminal(sentence).c_str());
+  heel::tell(sentence);
   return static_cast<int>(code);
 }
 
@@ -137,6 +181,7 @@ int main(int argc, char** argv) {
   heel::addEvaluate(app);
   heel::addExperiment(app);
   heel::completeVerbs(app);
+  heel::addCompletion(app);
   try {
     app.parse(argc, argv);
   } catch (...) {

@@ -20,7 +20,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <stdexcept>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 struct PlanOptions {
   std::string map;
   std::vector<double> from, to;
-  fs::path out = "plan";
+  fs::path out;
   MapSourceParams source;
   GlobalPlannerParams planner;
 };
@@ -69,26 +69,11 @@ cv::Mat drawPlan(const OccupancyGrid& map, const GlobalPlan& plan, const PlanOpt
   return picture;
 }
 
-void run(const PlanOptions& options) {
-  const fs::path source = mapSource(options.map);
-  Output output({"plan",
-                 OutputKind::kFolder,
-                 options.out,
-                 {source},
-                 {"plan.png", "path.csv", "summary.json"}});
-  const OccupancyGrid map = openMap(source, options.source).map.floorGrid();
-  if (map.empty()) throw NothingFound(source.string() + ": there is nothing to map in it");
-  GlobalPlanner planner(map, options.planner);
-  const GlobalPlan plan =
-      planner.plan({options.from[0], options.from[1]}, {options.to[0], options.to[1]});
-
-  const FloorPath path = resample(plan.path, kStep_m);
+void write(const Output& output, const PlanOptions& options, const OccupancyGrid& map,
+           const ClearanceMap& clearance, const GlobalPlan& plan, double least_m) {
   CsvWriter csv(output / "path.csv", {"x_m", "y_m", "clearance_m"});
-  double least_m = planner.clearance().reach_m();
-  for (const Eigen::Vector2d& p : path) {
-    const double clearance_m = planner.clearance().clearance(p);
-    least_m = std::min(least_m, clearance_m);
-    csv.number(p.x(), 3).number(p.y(), 3).number(clearance_m, 3).endRow();
+  for (const Eigen::Vector2d& p : resample(plan.path, kStep_m)) {
+    csv.number(p.x(), 3).number(p.y(), 3).number(clearance.clearance(p), 3).endRow();
   }
   csv.close();
   nlohmann::ordered_json summary;
@@ -104,13 +89,61 @@ void run(const PlanOptions& options) {
   summary["way_points"] = plan.path.size();
   writeJson(output / "summary.json", summary);
   writePicture(output / "plan.png", drawPlan(map, plan, options));
-  output.commit();
+}
+
+/// "; the map knows nothing at --from": what the map has at the end that there is no way from or
+/// to; empty if it is free floor.
+std::string whyNone(const OccupancyGrid& map, PlanStatus status, const PlanOptions& options) {
+  if (status == PlanStatus::kStartOutside || status == PlanStatus::kGoalOutside) {
+    const Eigen::Vector2d low = map.origin_m();
+    const Eigen::Vector2d high =
+        low + map.cell_size_m() * Eigen::Vector2d(map.width(), map.height());
+    char text[100];
+    std::snprintf(text, sizeof text, "; the map goes from %.1f,%.1f to %.1f,%.1f", low.x(), low.y(),
+                  high.x(), high.y());
+    return text;
+  }
+  const bool at_start = status == PlanStatus::kStartBlocked;
+  const std::vector<double>& place = at_start ? options.from : options.to;
+  const Occupancy there = map.at(Eigen::Vector2d(place[0], place[1]));
+  if (there == Occupancy::kFree) return {};
+  return std::string(there == Occupancy::kUnknown ? "; the map knows nothing" : "; something is") +
+         (at_start ? " at --from" : " at --to");
+}
+
+void run(const PlanOptions& options) {
+  const fs::path source = mapSource(options.map);
+  std::optional<Output> output;
+  if (!options.out.empty()) {
+    output.emplace(OutputPlan{"plan",
+                              OutputKind::kFolder,
+                              options.out,
+                              {source},
+                              {"plan.png", "path.csv", "summary.json"}});
+  }
+  const OccupancyGrid map = openMap(source, options.source).map.floorGrid();
+  if (map.empty()) throw NothingFound(source.string() + ": there is nothing to map in it");
+  GlobalPlanner planner(map, options.planner);
+  const GlobalPlan plan =
+      planner.plan({options.from[0], options.from[1]}, {options.to[0], options.to[1]});
+  double least_m = planner.clearance().reach_m();
+  for (const Eigen::Vector2d& p : resample(plan.path, kStep_m)) {
+    least_m = std::min(least_m, planner.clearance().clearance(p));
+  }
+  if (output) {
+    write(*output, options, map, planner.clearance(), plan, least_m);
+    output->commit();
+  }
   if (plan.found()) {
     std::printf("%s: %.2f m, %zu way points, clearance %.2f m at least\n", nameOf(plan.status),
                 plan.length_m, plan.path.size(), least_m);
+    for (const Eigen::Vector2d& p : plan.path) std::printf("  %.2f,%.2f\n", p.x(), p.y());
   }
-  std::printf("wrote %s\n", options.out.string().c_str());
-  if (!plan.found()) throw NothingFound(std::string("no path: ") + nameOf(plan.status));
+  if (output) std::printf("wrote %s\n", options.out.c_str());
+  if (!plan.found()) {
+    throw NothingFound(std::string("no path: ") + nameOf(plan.status) +
+                       whyNone(map, plan.status, options));
+  }
 }
 
 }  // namespace
@@ -118,20 +151,26 @@ void run(const PlanOptions& options) {
 void addPlan(CLI::App& app) {
   auto options = std::make_shared<PlanOptions>();
   CLI::App* verb = app.add_subcommand("plan", "Plan a path on a map");
-  verb->footer("Example:\n  heel plan home --from 1,1 --to 6,4 --out out/plan");
+  verb->footer(
+      "Examples:\n"
+      "  heel plan home --from 1,1 --to 6,4\n"
+      "  heel plan home --from 1,1 --to 6,4 --out out/plan\n"
+      "Prints the path's way points, x,y in metres.");
   verb->add_option("MAP", options->map,
                    "a scene's name or YAML file, a map_server YAML, a picture, or a wall map (.bt)")
       ->required();
-  verb->add_option("--from", options->from, "where the robot is: x,y in metres")
+  verb->add_option("--from", options->from, "where the robot is [m]")
       ->required()
       ->delimiter(',')
-      ->expected(2);
-  verb->add_option("--to", options->to, "where it shall go: x,y in metres")
+      ->expected(2)
+      ->option_text("X,Y REQUIRED");
+  verb->add_option("--to", options->to, "where it shall go [m]")
       ->required()
       ->delimiter(',')
-      ->expected(2);
-  verb->add_option("--out", options->out, "folder for plan.png, path.csv and summary.json")
-      ->capture_default_str();
+      ->expected(2)
+      ->option_text("X,Y REQUIRED");
+  verb->add_option("--out", options->out,
+                   "also write plan.png, path.csv and summary.json to this folder");
   verb->add_option("--radius", options->planner.robot_radius_m, "of the robot, in metres")
       ->check(CLI::Range(0.001, 100.0))
       ->capture_default_str();

@@ -5,6 +5,8 @@
 #include <heel/apps/pages/html.hpp>
 #include <heel/apps/pages/page_parts.hpp>
 
+#include "page_assets.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -82,6 +84,12 @@ std::string timingTable(const std::vector<StageTime>& stages, const StageTime& s
 std::string howToRepeat(const std::string& command) {
   if (command.empty()) return {};
   return "<p>Repeat it: <code>" + escapedHtml(command) + "</code></p>";
+}
+
+std::string scripts(const char* script) {
+  return filledTemplate(
+      assets::kScriptsHtml,
+      {{"uplot_licence", assets::kUplotLicence}, {"uplot", assets::kUplotJs}, {"script", script}});
 }
 
 namespace {

@@ -38,6 +38,9 @@ std::string timingTable(const std::vector<StageTime>& stages, const StageTime& s
 /// The command line as a sentence; empty for none.
 std::string howToRepeat(const std::string& command);
 
+/// The last elements of a page: uPlot with its licence, and the page's own script.
+std::string scripts(const char* script);
+
 /// "once", "twice", "3 times".
 std::string timesText(std::size_t count);
 

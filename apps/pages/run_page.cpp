@@ -123,9 +123,7 @@ std::string filledRunPage(const RunPage& page, RunMoments moments) {
        {"sections", page.sections},
        {"footer", page.footer},
        {"data", moments.json(charts)},
-       {"uplot_licence", assets::kUplotLicence},
-       {"uplot", assets::kUplotJs},
-       {"script", assets::kRunJs}});
+       {"scripts", scripts(assets::kRunJs)}});
 }
 
 std::string momentValue(const std::string& name, const std::string& column, int decimals,

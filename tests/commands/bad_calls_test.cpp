@@ -15,6 +15,7 @@ namespace heel::test {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 class Help : public testing::TestWithParam<std::vector<std::string>> {};
 
@@ -57,6 +58,7 @@ INSTANTIATE_TEST_SUITE_P(
                     std::vector<std::string>{"planview"}, std::vector<std::string>{"view"},
                     std::vector<std::string>{"follow"}, std::vector<std::string>{"simulate"},
                     std::vector<std::string>{"evaluate"}, std::vector<std::string>{"experiment"},
+                    std::vector<std::string>{"completion"},
                     std::vector<std::string>{"experiment", "detector"},
                     std::vector<std::string>{"experiment", "targets"},
                     std::vector<std::string>{"experiment", "protocol"},
@@ -74,13 +76,37 @@ TEST(Call, WithoutAVerbNamesTheVerbs) {
 
 TEST(Call, OfAnUnknownVerbNamesItAndTheVerbs) {
   EXPECT_TRUE(failsWith(heel({"dance"}), {"'dance'", "learn, track, filter", "'heel --help'"}));
+  EXPECT_TRUE(failsWith(heel({"lern"}), {"'lern'; did you mean 'learn'?"}));
 }
 
 TEST(Call, WithAnUnknownOptionNamesIt) {
   EXPECT_TRUE(failsWith(heel({"learn", "somewhere", "--colour", "1"}),
                         {"--colour", "'heel learn --help'"}));
-  EXPECT_TRUE(failsWith(heel({"track", "somewhere", "--modle", "a.yaml"}), {"--modle"}))
+  EXPECT_TRUE(failsWith(heel({"track", "somewhere", "--modle", "a.yaml"}),
+                        {"no option --modle; did you mean --model?"}))
       << "not that --model is missing";
+  EXPECT_TRUE(failsWith(heel({"track", "somewhere", "--modle=a.yaml"}), {"--modle; did you mean"}));
+  EXPECT_THAT(heel({"learn", "somewhere", "--qqq", "1"}).err, Not(HasSubstr("did you mean")));
+}
+
+TEST(Call, WithoutOutWritesNothing) {
+  const TempFolder folder;
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  for (const std::vector<std::string>& call : {std::vector<std::string>{"learn", "room"},
+                                               {"track", "room", "--model", "a.yaml"},
+                                               {"planview", "a.pcd"},
+                                               {"follow", "home"},
+                                               {"map", "home"},
+                                               {"simulate", "home"},
+                                               {"localize", "log", "--map", "home"},
+                                               {"experiment", "follow"}}) {
+    EXPECT_TRUE(failsWith(heel(call), {"--out is required"})) << call.front();
+  }
+  const HeelRun inspected = heel({"inspect", HEEL_SOURCE_DIR "/apps/plans/search.pnml"});
+  std::filesystem::current_path(before);
+  EXPECT_TRUE(succeeds(inspected));
+  EXPECT_THAT(filesBelow(folder.path()), testing::IsEmpty());
 }
 
 TEST(Call, WithoutARequiredArgumentNamesIt) {
@@ -95,7 +121,8 @@ TEST(Call, WithTextForANumberNamesBoth) {
 
 TEST(Call, WithANumberThatCannotBeNamesIt) {
   for (const std::string bad : {"nan", "1e9", "-1", "inf"}) {
-    EXPECT_TRUE(failsWith(heel({"planview", "some.pcd", "--cell", bad}), {"--cell", bad}));
+    EXPECT_TRUE(
+        failsWith(heel({"planview", "some.pcd", "--out", "o", "--cell", bad}), {"--cell", bad}));
     EXPECT_TRUE(failsWith(heel({"simulate", "home", "--out", "o", "--duration", bad}),
                           {"--duration", bad}));
     EXPECT_TRUE(
@@ -104,9 +131,10 @@ TEST(Call, WithANumberThatCannotBeNamesIt) {
 }
 
 TEST(Call, OfAnUnknownSwitchNamesTheSwitches) {
-  EXPECT_TRUE(failsWith(heel({"follow", "home", "--rough", "people,rain"}),
+  EXPECT_TRUE(failsWith(heel({"follow", "home", "--out", "o", "--rough", "people,rain"}),
                         {"'rain'", "people, latency, map, laser, light, odometry, and all"}));
-  EXPECT_TRUE(failsWith(heel({"experiment", "follow", "--rough", "rain"}), {"'rain'"}));
+  EXPECT_TRUE(
+      failsWith(heel({"experiment", "follow", "--out", "o", "--rough", "rain"}), {"'rain'"}));
 }
 
 TEST(Call, TellsTheLimitOfMemoryThatItWasGiven) {

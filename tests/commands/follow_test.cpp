@@ -89,7 +89,7 @@ TEST_F(Follow, TakesASceneForOneWhateverFolderHasItsName) {
   std::filesystem::create_directories(folder_ / "home");
   const std::filesystem::path here = std::filesystem::current_path();
   std::filesystem::current_path(folder_ / "");
-  const HeelRun run = heel({"follow", "home", "--plan", "nowhere"});
+  const HeelRun run = heel({"follow", "home", "--plan", "nowhere", "--out", "out"});
   std::filesystem::current_path(here);
   EXPECT_TRUE(failsWith(run, {"nowhere: there is no such plan"}));
 }

@@ -9,9 +9,9 @@
 
 namespace heel::test {
 
-/// A hall of 5 by 4 m with one person, `person` (keys of theirs, in YAML's braces), and a robot
-/// whose camera is `camera`.
-inline std::string hallScene(const std::string& duration_s, const std::string& person,
+/// A hall of 5 by 4 m with `people` (the items of a YAML list, the first without its dash), and a
+/// robot whose camera is `camera`.
+inline std::string hallScene(const std::string& duration_s, const std::string& people,
                              const std::string& camera) {
   return "name: hall\nduration_s: " + duration_s + R"(
 floor: {material: parquet, color: oak}
@@ -24,7 +24,7 @@ walls:
 lights:
   - {lamp: [2.5, 0, 2.4], power: 30, radius_m: 0.2}
 people:
-  - )" + person +
+  - )" + people +
          "\nrobot:\n  start: [0.5, 0]\n  camera: " + camera + "\n";
 }
 

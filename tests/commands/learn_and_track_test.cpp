@@ -155,6 +155,7 @@ TEST_F(LearnAndTrack, TracksNobodyInAnEmptyRoom) {
   writeSmallModel(folder_ / "rosa.yaml");
   const HeelRun run = track("rosa.yaml", "out");
   ASSERT_TRUE(findsNothing(run));
+  EXPECT_THAT(run.err, HasSubstr("mostly, no pixel has the target's colours; a person in other"));
   const auto summary = nlohmann::json::parse(readText(folder_ / "out/summary.json"));
   EXPECT_EQ(summary["frames"], 12);
   EXPECT_EQ(summary["frames_with_target"], 0);

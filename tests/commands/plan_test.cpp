@@ -77,6 +77,17 @@ TEST_F(Plan, KnowsTheScenesByTheirNames) {
   EXPECT_EQ(summary().at("status"), "found");
 }
 
+TEST_F(Plan, PrintsTheWayPointsAndWritesNothingUnasked) {
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_.path());
+  const HeelRun run = heel({"plan", "rooms.yaml", "--from", "1,0.6", "--to", "5,0.6"});
+  std::filesystem::current_path(before);
+  ASSERT_TRUE(succeeds(run));
+  EXPECT_THAT(run.out, testing::MatchesRegex("found: 4[^\n]+\n  1.00,0.60\n(  [0-9.,]+\n)+"
+                                             "  5.00,0.60\n"));
+  EXPECT_THAT(filesBelow(folder_.path()), ElementsAre("rooms.yaml"));
+}
+
 TEST_F(Plan, SaysWhyThereIsNoPath) {
   const HeelRun wide = plan(folder_ / "rooms.yaml", "5,0.6", {"--radius", "0.5"});
   ASSERT_TRUE(findsNothing(wide));
@@ -84,6 +95,30 @@ TEST_F(Plan, SaysWhyThereIsNoPath) {
   const HeelRun outside = plan(folder_ / "rooms.yaml", "50,0.6");
   ASSERT_TRUE(findsNothing(outside));
   EXPECT_THAT(outside.err, HasSubstr("no path: goal_outside"));
+}
+
+TEST_F(Plan, TellsWhatTheMapHasWhereThereIsNoWay) {
+  // 6 m x 2 m of free floor with a wall at its left end, and 2 m x 1 m in its middle that nobody
+  // has seen: map_server's grey.
+  std::string pixels(60 * 20, '\xFE');
+  for (std::size_t y = 0; y < 20; ++y) {
+    pixels[60 * y] = '\0';
+    if (y >= 5 && y < 15) pixels.replace(60 * y + 20, 20, 20, '\xCD');
+  }
+  writeText(folder_ / "grey.pgm", "P5\n60 20\n255\n" + pixels);
+  writeText(folder_ / "grey.yaml",
+            "image: grey.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\n"
+            "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
+  const auto why = [&](const std::string& from, const std::string& to) {
+    const HeelRun run =
+        heel({"plan", folder_ / "grey.yaml", "--from", from, "--to", to, "--radius", "0.1"});
+    EXPECT_TRUE(findsNothing(run));
+    return run.err;
+  };
+  EXPECT_THAT(why("3,1", "5,1"), HasSubstr("start_blocked; the map knows nothing at --from"));
+  EXPECT_THAT(why("5,1", "3,1"), HasSubstr("goal_unreachable; the map knows nothing at --to"));
+  EXPECT_THAT(why("0.05,1", "5,1"), HasSubstr("start_blocked; something is at --from"));
+  EXPECT_THAT(why("5,1", "9,1"), HasSubstr("goal_outside; the map goes from 0.0,0.0 to 6.0,2.0"));
 }
 
 TEST_F(Plan, NamesWhatIsWrong) {

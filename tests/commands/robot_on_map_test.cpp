@@ -4,6 +4,7 @@
 /// @file
 /// Recordings of a robot that roams past people, tracked on its map.
 
+#include "tests/commands/hall_scene.hpp"
 #include "tests/commands/heel.hpp"
 #include "tests/support/temp_folder.hpp"
 #include <heel/apps/recording/bags/sensor_bag.hpp>
@@ -25,19 +26,7 @@ using testing::Contains;
 using testing::HasSubstr;
 
 /// Rosa comes from behind the robot and walks about; otto does, later.
-constexpr const char* kGym = R"(name: gym
-duration_s: 9
-floor: {material: parquet, color: oak}
-wall_surface: {material: roughcast, color: beige}
-walls:
-  - {from: [0, -2], to: [0, 2]}
-  - {from: [0, 2], to: [5, 2]}
-  - {from: [5, 2], to: [5, -2]}
-  - {from: [5, -2], to: [0, -2]}
-lights:
-  - {lamp: [2.5, 0, 2.4], power: 30, radius_m: 0.2}
-people:
-  - name: rosa
+const std::string kHall = hallScene("9", R"(name: rosa
     height_m: 1.7
     start: [0.4, -1.6]
     speed_mps: 0.7
@@ -54,24 +43,22 @@ people:
     start: [0.4, 1.6]
     speed_mps: 0.5
     outfit: {top: {color: navy}, trousers: {color: khaki}}
-    path: [{wait_s: 7}, {to: [2.0, 1.4]}, {to: [4.4, 1.4]}]
-robot:
-  start: [0.5, 0]
-  camera: {at: [0.05, 0.06, 1.13], pitch_deg: 5.7, width: 320, height: 240, view_deg: 60}
-)";
+    path: [{wait_s: 7}, {to: [2.0, 1.4]}, {to: [4.4, 1.4]}])",
+                                    "{at: [0.05, 0.06, 1.13], pitch_deg: 5.7, width: 320, "
+                                    "height: 240, view_deg: 60}");
 
 class RobotsOnAMap : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     made_ = new TempFolder;
-    writeText(made() / "gym.yaml", kGym);
+    writeText(made() / "hall.yaml", kHall);
     for (const auto& call : std::vector<std::vector<std::string>>{
-             {"simulate", made() / "gym.yaml", "--out", made() / "still"},
+             {"simulate", made() / "hall.yaml", "--out", made() / "still"},
              {"learn", made() / "still", "--background", "1", "--person", "3", "--out",
               made() / "rosa.yaml"},
-             {"simulate", made() / "gym.yaml", "--drive", "roam", "--out", made() / "roam", "--bag",
-              made() / "roam.bag"},
-             {"map", made() / "gym.yaml", "--out", made() / "map"}}) {
+             {"simulate", made() / "hall.yaml", "--drive", "roam", "--out", made() / "roam",
+              "--bag", made() / "roam.bag"},
+             {"map", made() / "hall.yaml", "--out", made() / "map"}}) {
       ASSERT_TRUE(succeeds(heel(call)));
     }
   }
@@ -239,7 +226,7 @@ TEST_F(RobotsOnAMap, AreNotFollowedInTheShadowWithoutAMap) {
 }
 
 TEST_F(RobotsOnAMap, AreShownOnIt) {
-  const HeelRun run = heel({"view", made() / "roam.bag", "--map", made() / "gym.yaml", "--out",
+  const HeelRun run = heel({"view", made() / "roam.bag", "--map", made() / "hall.yaml", "--out",
                             folder_ / "view", "--pictures", "2"});
   EXPECT_TRUE(succeeds(run));
 }

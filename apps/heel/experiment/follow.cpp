@@ -20,7 +20,7 @@ namespace heel {
 namespace {
 
 struct FollowExperimentOptions {
-  std::filesystem::path out = "out/follow_experiment";
+  std::filesystem::path out;
   FollowExperimentParams params;
 };
 
@@ -52,6 +52,7 @@ void run(FollowExperimentOptions& options) {
                        std::to_string(options.params.first_seed);
   if (!options.params.table1) experiment.command += " --no-table1";
   if (!options.params.rough.empty()) experiment.command += " --rough " + options.params.rough;
+  experiment.command += " --out again";
   const EpisodeCounts all = countEpisodes(experiment.episodes, experiment.plans.back());
   std::printf(
       "%d random episodes: %d reached, %d with a contact by the robot, wrong person %.2f %% of the "
@@ -88,7 +89,7 @@ void addFollowExperiment(CLI::App& experiment) {
   addRough(*verb, options->params.rough);
   verb->add_option("--jobs", options->params.jobs, "runs side by side; 0: one for each thread")
       ->capture_default_str();
-  verb->add_option("--out", options->out, "folder for the results")->capture_default_str();
+  verb->add_option("--out", options->out, "folder for the results")->required();
   verb->callback([options] { run(*options); });
 }
 

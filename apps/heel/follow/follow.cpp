@@ -40,7 +40,7 @@ double residentMemory_MiB() {
 struct FollowOptions {
   std::string scene = "home";
   std::string plan = "search";
-  std::filesystem::path out = "out/follow";
+  std::filesystem::path out;
   std::filesystem::path bag;
   ClosedLoopParams loop;
   std::string image_size;  // empty: the scene's
@@ -80,7 +80,7 @@ std::string commandOf(const FollowOptions& options) {
   if (!options.map.map.empty()) {
     command << "heel follow " << options.scene << " --map " << options.map.map;
     if (!options.model.empty()) command << " --model " << options.model.string();
-    command << " --plan " << options.plan;
+    command << " --plan " << options.plan << " --out again";
     return command.str();
   }
   command << "heel follow " << (options.random ? "--random" : options.scene);
@@ -96,6 +96,7 @@ std::string commandOf(const FollowOptions& options) {
   if (options.loop.limit_s != shortest.loop.limit_s) {
     command << " --limit " << options.loop.limit_s;
   }
+  command << " --out again";
   return command.str();
 }
 
@@ -238,7 +239,7 @@ void addFollow(CLI::App& app) {
   verb->add_option("--plan", options->plan,
                    "what to do when the person is lost: 'paper', 'search', or a PNML file")
       ->capture_default_str();
-  verb->add_option("--out", options->out, "folder for the results")->capture_default_str();
+  verb->add_option("--out", options->out, "folder for the results")->required();
   verb->add_option("--seed", options->loop.seed, "of all noise; with --random, of the home too")
       ->capture_default_str();
   CLI::Option* limit = verb->add_option("--limit", options->loop.limit_s,

@@ -34,7 +34,7 @@ namespace fs = std::filesystem;
 
 struct InspectOptions {
   fs::path what;
-  fs::path out = "inspect.png";
+  fs::path out;
   RecordingParams opening;
 };
 
@@ -172,7 +172,10 @@ void run(const InspectOptions& options) {
     throw std::runtime_error(options.what.string() + ": there is no such file or folder");
   }
   const cv::Mat picture = inspect(options);
-  if (picture.empty()) return;
+  if (options.out.empty()) return;
+  if (picture.empty()) {
+    throw NothingFound(options.what.string() + ": there is nothing to draw of it");
+  }
   Output output({"inspect", OutputKind::kFile, options.out, {options.what}});
   writePicture(output.file(), picture);
   output.commit();
@@ -199,7 +202,7 @@ void addInspect(CLI::App& app) {
                    "model or map_server map (.yaml), wall map (.bt), plan (.pnml), recording "
                    "(folder), bag, or PCD and PLY files (one, or a pattern in quotes)")
       ->required();
-  verb->add_option("--out", options->out, "where to write the picture")->capture_default_str();
+  verb->add_option("--out", options->out, "also draw it to this picture (.png)");
   addTimeSpan(*verb, options->opening.span);
   addCameraTopics(*verb, options->opening.topics);
   verb->callback([options] { run(*options); });

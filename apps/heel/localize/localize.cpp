@@ -121,16 +121,16 @@ void addLocalize(CLI::App& app) {
       ->capture_default_str();
   CLI::Option* global =
       verb->add_flag("--global", options->params.global, "the robot may be anywhere at first");
-  verb->add_option("--start", options->start, "where it is at first: X,Y,YAW [m, m, rad]")
+  verb->add_option("--start", options->start, "where it is at first [m, m, rad]")
       ->delimiter(',')
       ->expected(3)
+      ->option_text("X,Y,YAW")
       ->excludes(global);
-  verb->add_option(
-          "--scanner", options->scanner,
-          "its place on the robot: X,Y,YAW [m, m, rad]; else the bag's (tf), the scene's, or "
-          "0,0,0")
+  verb->add_option("--scanner", options->scanner,
+                   "its place on the robot [m, m, rad]; else the bag's (tf), the scene's, or 0,0,0")
       ->delimiter(',')
-      ->expected(3);
+      ->expected(3)
+      ->option_text("X,Y,YAW");
   verb->add_option("--seed", options->params.localization.seed, "of the particles")
       ->capture_default_str();
   addLaserTopics(*verb, options->params.topics);

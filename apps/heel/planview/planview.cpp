@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 struct PlanViewOptions {
   fs::path model;
-  fs::path out = "out";
+  fs::path out;
   CloudBatch batch;
   std::string up = "-y";
   std::optional<double> height_m;
@@ -164,7 +164,7 @@ void addPlanView(CLI::App& app) {
   addCloudBatch(*verb, options->batch, "PCD or PLY files, folders of them, and patterns in quotes");
   verb->add_option("--model", options->model,
                    "the person, as 'heel learn' wrote it; without one, all points count");
-  verb->add_option("--out", options->out, "folder for the results")->capture_default_str();
+  verb->add_option("--out", options->out, "folder for the results")->required();
   verb->add_option("--up", options->up, "the clouds' axis that points up: x, y, z, -x, -y or -z")
       ->capture_default_str();
   verb->add_option("--height", options->height_m, "of the clouds' origin over the floor [m]")
@@ -173,9 +173,10 @@ void addPlanView(CLI::App& app) {
       ->needs("--height")
       ->capture_default_str();
   verb->add_option("--heights", options->heights_m,
-                   "of points that count without a model [m] (default 0.3 2.3)")
+                   "of points that count without a model [m] (default 0.3,2.3)")
+      ->delimiter(',')
       ->expected(2)
-      ->option_text("LOW HIGH");
+      ->option_text("LOW,HIGH");
   verb->add_option("--range", options->params.plan_view.max_range_m, "how far the plan reaches [m]")
       ->check(CLI::Range(0.1, 1000.0))
       ->capture_default_str();

@@ -6,7 +6,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <cstdio>
 #include <set>
 #include <stdexcept>
 
@@ -37,9 +36,7 @@ std::vector<std::string> resultNames(const std::vector<fs::path>& clouds,
 }
 
 void tellFailures(const CloudFailures& failures, std::size_t clouds, std::size_t stopped) {
-  for (const std::string& why : failures.reasons) {
-    std::fprintf(stderr, "heel: %s\n", sentenceForTerminal(why).c_str());
-  }
+  for (const std::string& why : failures.reasons) tell(why);
   const std::string of = " of " + std::to_string(clouds) + " clouds ";
   if (stopped > 0) throw Stopped("stopped: " + std::to_string(stopped) + of + "are not done");
   if (failures.reasons.empty()) return;

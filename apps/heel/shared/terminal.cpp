@@ -13,6 +13,16 @@
 namespace heel {
 namespace {
 
+std::FILE* unended = nullptr;  // where the line of a progress bar is still open
+
+/// Lets what is written next begin on a line of its own, and not behind a progress bar.
+void endBarLine() {
+  if (unended == nullptr) return;
+  std::fputc('\n', unended);
+  std::fflush(unended);
+  unended = nullptr;
+}
+
 /// A byte that commands the terminal; `before` is the one before it.
 bool isControl(unsigned char byte, unsigned char before) {
   if (byte < 0x20) return byte != '\n' && byte != '\t';
@@ -23,6 +33,7 @@ bool isControl(unsigned char byte, unsigned char before) {
 
 /// Writes all of it, as stdio wants it: 0 if that fails.
 ssize_t writeFiltered(void* filter, const char* bytes, std::size_t size) {
+  endBarLine();
   const std::string text = (*static_cast<TerminalText*>(filter))({bytes, size});
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t now = write(STDOUT_FILENO, text.data() + done, text.size() - done);
@@ -50,6 +61,11 @@ std::string sentenceForTerminal(std::string_view text) {
   return clean;
 }
 
+void tell(const std::string& sentence) {
+  endBarLine();
+  std::fprintf(stderr, "heel: %s\n", sentenceForTerminal(sentence).c_str());
+}
+
 TerminalOutput::TerminalOutput() : stdout_(stdout) {
   std::FILE* filtered = fopencookie(&text_, "w", {nullptr, writeFiltered, nullptr, nullptr});
   if (filtered == nullptr) return;  // no memory; the run will say so
@@ -69,7 +85,7 @@ ProgressBar::ProgressBar(std::string title, std::size_t total, std::FILE* out)
 }
 
 ProgressBar::~ProgressBar() {
-  if (on_terminal_ && shown_percent_ >= 0) std::fputc('\n', out_);
+  if (unended == out_) endBarLine();
 }
 
 void ProgressBar::show(std::size_t done) {
@@ -89,6 +105,7 @@ void ProgressBar::draw(std::size_t done, int percent) const {
     const std::string bar = std::string(full, '#') + std::string(kWidth - full, '.');
     std::fprintf(out_, "\r%s [%s] %3d %% (%zu of %zu)", title_.c_str(), bar.c_str(), percent, done,
                  total_);
+    unended = out_;
   } else {
     std::fprintf(out_, "%s: %d %% (%zu of %zu)\n", title_.c_str(), percent, done, total_);
   }

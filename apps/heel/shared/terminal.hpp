@@ -25,6 +25,9 @@ class TerminalText {
 /// A sentence that stays on its line.
 std::string sentenceForTerminal(std::string_view text);
 
+/// Writes "heel: SENTENCE" on stderr, on a line of its own.
+void tell(const std::string& sentence);
+
 /// Lets nothing but such texts through to stdout, as long as it lives.
 class TerminalOutput {
  public:
@@ -44,7 +47,7 @@ class ProgressBar {
  public:
   /// @param total  How many steps there will be; with 0 nothing is shown.
   explicit ProgressBar(std::string title, std::size_t total, std::FILE* out = stderr);
-  ~ProgressBar();  ///< Ends the terminal's line.
+  ~ProgressBar();  ///< Ends the terminal's line, if nothing that was written meanwhile did.
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 

@@ -26,7 +26,7 @@ namespace {
 struct TrackOptions {
   std::filesystem::path recording;
   std::filesystem::path model;
-  std::filesystem::path out = "out";
+  std::filesystem::path out;
   std::filesystem::path bag;
   RecordingParams opening;
   LogMapOptions map;
@@ -172,7 +172,8 @@ void run(const TrackOptions& options) {
   }
   if (output.framesWithTarget() == 0) {
     throw NothingFound(options.recording.string() + ": the person is in no frame" +
-                       leftOutNote(end.skipped));
+                       leftOutNote(end.skipped) + "; mostly, " + output.commonestReason() +
+                       "; a person in other clothes or in another light has to be learned anew");
   }
 }
 
@@ -193,7 +194,7 @@ void addTrack(CLI::App& app) {
       "by tf's frame 'map', and nobody is seen through its walls.");
   verb->add_option("RECORDING", options->recording, "folder of a recording, or a bag")->required();
   verb->add_option("--model", options->model, "the person, as 'heel learn' wrote it")->required();
-  verb->add_option("--out", options->out, "folder for the results")->capture_default_str();
+  verb->add_option("--out", options->out, "folder for the results")->required();
   verb->add_option("--start", options->start_m,
                    "where the person stands in the first frame [m] (default: found by their looks)")
       ->delimiter(',')

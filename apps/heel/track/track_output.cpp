@@ -83,6 +83,13 @@ TrackOutput::TrackOutput(const std::filesystem::path& folder, const RecordingInf
   bag_.emplace(BagPlan{params.bag, params.inputs, "track"}, moves() ? params.frame : "map");
 }
 
+std::string TrackOutput::commonestReason() const {
+  const auto most =
+      std::max_element(reasons_.begin(), reasons_.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == reasons_.end() ? std::string() : most->first;
+}
+
 void TrackOutput::add(const Frame& frame, const FloorPose& robot, const Perception& perception,
                       const PerceptionStep& step, const StageTimes& times_ms) {
   ++frames_;

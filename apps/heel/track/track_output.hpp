@@ -77,6 +77,8 @@ class TrackOutput {
   std::size_t frames() const { return frames_; }
   std::size_t framesWithTarget() const { return frames_with_target_; }
   const std::map<std::string, std::size_t>& framesByState() const { return states_; }
+  /// Why there was no target in most of the frames without one; empty if none was without.
+  std::string commonestReason() const;
 
  private:
   bool moves() const { return !params_.frame.empty(); }

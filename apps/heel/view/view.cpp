@@ -180,7 +180,7 @@ void writePictures(const ViewOptions& options, Scenes& scenes, std::size_t frame
   if (isStopRequested()) throw Stopped("stopped: there are pictures of the frames until then");
 }
 
-void run(ViewOptions& options) {
+void run(const ViewOptions& options) {
   std::optional<AppearanceModel> model;
   if (!options.model.empty()) model = loadAppearance(options.model);
   const CameraSetup setup = findCameraSetup(*openRecording(options.recording, options.opening));
@@ -197,8 +197,7 @@ void run(ViewOptions& options) {
   if (options.out.empty()) {
     std::string why;
     if (const auto window = openSceneWindow(why)) return showInWindow(options, scenes, *window);
-    options.out = "view";
-    std::printf("%s: pictures of the same go to %s\n", why.c_str(), options.out.c_str());
+    throw std::invalid_argument(why + "; name a folder for pictures of the same with --out");
   }
   writePictures(options, scenes,
                 openRecording(options.recording, options.opening)->info().frame_count);
@@ -216,8 +215,9 @@ void addView(CLI::App& app) {
       "  heel view recordings/kitchen --model person.yaml --out pictures\n"
       "Shows the cloud of each frame; with a model, also the points of the person's colours, the\n"
       "blobs on the floor, and the tracks as poles (the target's is orange). If the robot moves,\n"
-      "all of it is in the frame of its odometry; with a map, in the map's. Opens a window; with\n"
-      "no display, or with --out, it writes pictures of the same.");
+      "all of it is in the frame of its odometry; with a map, in the map's. Opens a window, or "
+      "with\n"
+      "--out writes pictures of the same.");
   verb->add_option("RECORDING", options->recording, "folder of a recording, a bag, or a PCD file")
       ->required();
   verb->add_option("--model", options->model, "the person, as 'heel learn' wrote it");
@@ -225,7 +225,8 @@ void addView(CLI::App& app) {
                    "walls to show, on which the robot is found by its laser and odometry, or by "
                    "tf's frame 'map': whatever 'heel map' takes or wrote");
   addLogMap(*verb, options->map, options->opening.topics);
-  verb->add_option("--out", options->out, "write pictures to this folder, and open no window");
+  verb->add_option("--out", options->out,
+                   "write pictures to this folder, and open no window; needs no display");
   verb->add_option("--pictures", options->pictures, "how many at the most; 0: one of each frame")
       ->capture_default_str();
   addTimeSpan(*verb, options->opening.span);

@@ -105,24 +105,25 @@ std::optional<BagCamera> findRgbd(const BagSurvey& survey) {
   return found;
 }
 
-/// The topics of a maker's cameras, by how their names end.
+/// The topics of cameras that are known, by how their names end.
 struct KnownCamera {
-  const char* maker;
   SensorKind sensor;
   const char* first;   ///< Left or colour.
   const char* second;  ///< Right or depth.
 };
 constexpr KnownCamera kKnownCameras[] = {
-    {"ZED", SensorKind::kStereo, "/left/image_rect_color", "/right/image_rect_color"},
-    {"ZED", SensorKind::kRgbd, "/rgb/image_rect_color", "/depth/depth_registered"},
-    {"RealSense", SensorKind::kRgbd, "/color/image_raw", "/aligned_depth_to_color/image_raw"},
-    {"RealSense", SensorKind::kRgbd, "/color/image_raw", "/depth/image_rect_raw"},
-    {"RealSense viewer", SensorKind::kRgbd, "/sensor_1/Color_0/image/data",
-     "/sensor_0/Depth_0/image/data"},
-    {"Kinect Azure", SensorKind::kRgbd, "/rgb/image_raw", "/depth_to_rgb/image_raw"},
-    {"OAK", SensorKind::kRgbd, "/rgb/image_raw", "/stereo/image_raw"},
-    {"Kinect Azure", SensorKind::kRgbd, "/rgb/image_raw", "/depth/image_raw"},
-    {"Orbbec", SensorKind::kRgbd, "/color/image_raw", "/depth/image_raw"},
+    // ZED
+    {SensorKind::kStereo, "/left/image_rect_color", "/right/image_rect_color"},
+    {SensorKind::kRgbd, "/rgb/image_rect_color", "/depth/depth_registered"},
+    // RealSense; its viewer
+    {SensorKind::kRgbd, "/color/image_raw", "/aligned_depth_to_color/image_raw"},
+    {SensorKind::kRgbd, "/color/image_raw", "/depth/image_rect_raw"},
+    {SensorKind::kRgbd, "/sensor_1/Color_0/image/data", "/sensor_0/Depth_0/image/data"},
+    // Kinect Azure, registered; OAK; Kinect Azure, not registered; Orbbec
+    {SensorKind::kRgbd, "/rgb/image_raw", "/depth_to_rgb/image_raw"},
+    {SensorKind::kRgbd, "/rgb/image_raw", "/stereo/image_raw"},
+    {SensorKind::kRgbd, "/rgb/image_raw", "/depth/image_raw"},
+    {SensorKind::kRgbd, "/color/image_raw", "/depth/image_raw"},
 };
 
 /// What a topic is called before `end`, if it ends so; raw or compressed.

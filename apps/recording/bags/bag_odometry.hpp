@@ -17,6 +17,7 @@
 
 namespace heel {
 
+/// Where the robot was at a moment.
 struct StampedPose {
   double stamp_s = 0.0;
   FloorPose pose;

@@ -51,10 +51,6 @@ PinholeCamera pinholeOf(const CameraInfoMsg& info, bool is_rectified) {
   return {width, height, info.K[0], info.K[4], info.K[2], info.K[5]};
 }
 
-bool isUsable(const PinholeCamera& camera) {
-  return camera.fx > 0.0 && camera.fy > 0.0 && camera.width > 0 && camera.height > 0;
-}
-
 /// The maps that take the distortion out of raw images.
 void makeMaps(const std::string& origin, const CameraInfoMsg& info, cv::Mat& x, cv::Mat& y) {
   checkCameraMemory(origin, info.width, info.height);
@@ -161,7 +157,7 @@ void BagRecording::setUpRgbd(const BagSurvey& survey, const BagCamera& camera) {
   const CameraInfoMsg& info = cameraInfoOf(survey, *camera.first);
   const bool is_rectified = isRectified(*camera.first) && info.P[0] > 0.0;
   info_.camera.left = depth_camera_ = pinholeOf(info, is_rectified);
-  if (!isUsable(info_.camera.left)) {
+  if (!isCalibrated(info_.camera.left)) {
     throw std::runtime_error(path_ + ": the camera_info of " + first_.topic +
                              " is empty: the camera was not calibrated");
   }
@@ -177,7 +173,7 @@ void BagRecording::setUpDepth(const BagSurvey& survey, const BagCamera& camera) 
   const CameraInfoMsg* info = findCameraInfo(survey, depth);
   const bool is_rectified = info != nullptr && isRectified(depth) && info->P[0] > 0.0;
   const PinholeCamera own = info != nullptr ? pinholeOf(*info, is_rectified) : PinholeCamera();
-  const bool knows_own = isUsable(own);
+  const bool knows_own = isCalibrated(own);
   const bool fits_image = knows_own ? seesTheSame(own, info_.camera.left)
                                     : depth.width == color.width && depth.height == color.height;
   const bool same_frame = depth.frame_id == color.frame_id;

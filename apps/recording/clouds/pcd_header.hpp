@@ -12,6 +12,7 @@
 
 namespace heel {
 
+/// All of a PCD file but its points.
 struct PcdHeader {
   pcl::PCLPointCloud2 layout;  ///< Fields and sizes; no points.
   Eigen::Vector4f origin = Eigen::Vector4f::Zero();

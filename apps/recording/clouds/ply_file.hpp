@@ -20,6 +20,7 @@
 
 namespace heel {
 
+/// A column of such a table.
 struct PlyProperty {
   std::string name;
   std::uint8_t type = 0;        ///< As of pcl::PCLPointField.
@@ -27,12 +28,14 @@ struct PlyProperty {
   bool isList() const { return count_type != 0; }
 };
 
+/// A table of a PLY file, such as its vertices.
 struct PlyElement {
   std::string name;
   std::size_t count = 0;
   std::vector<PlyProperty> properties;
 };
 
+/// All of a PLY file but its data.
 struct PlyHeader {
   bool is_binary = false;
   bool is_big_endian = false;

@@ -9,6 +9,8 @@
 #include <unistd.h>
 
 #include <array>
+#include <optional>
+#include <string>
 
 namespace {
 
@@ -38,28 +40,51 @@ TEST(ProgressBar, IsSilentWithoutATotal) {
   EXPECT_EQ(readText(folder / "log"), "");
 }
 
-TEST(ProgressBar, IsDrawnOverItselfOnATerminal) {
+/// What `draw(out)` shows on a terminal; absent if this machine gives none.
+template <typename Draw>
+std::optional<std::string> shownOnTerminal(const Draw& draw) {
   int screen = -1, terminal = -1;
-  if (openpty(&screen, &terminal, nullptr, nullptr, nullptr) != 0) {
-    GTEST_SKIP() << "this machine gives no terminals (is /dev/pts mounted?)";
-  }
+  if (openpty(&screen, &terminal, nullptr, nullptr, nullptr) != 0) return std::nullopt;
   std::FILE* out = fdopen(terminal, "w");
-  {
-    heel::ProgressBar bar("track", 2, out);
-    bar.show(1);
-  }
-  const std::string expected =
-      "\rtrack [..............................]   0 % (0 of 2)"
-      "\rtrack [###############...............]  50 % (1 of 2)\r\n";
+  draw(out);
+  std::fputs("end", out);
+  std::fflush(out);
   std::string seen;  // it comes in one piece, or in more
   std::array<char, 1000> piece{};
-  for (ssize_t got = 1; got > 0 && seen.size() < expected.size();) {
+  for (ssize_t got = 1; got > 0 && seen.find("end") == std::string::npos;) {
     got = read(screen, piece.data(), piece.size());
     if (got > 0) seen.append(piece.data(), static_cast<std::size_t>(got));
   }
-  EXPECT_EQ(seen, expected);
   std::fclose(out);
   close(screen);
+  return seen;
+}
+
+constexpr const char* kNoTerminal = "this machine gives no terminals (is /dev/pts mounted?)";
+const std::string kBars =
+    "\rtrack [..............................]   0 % (0 of 2)"
+    "\rtrack [###############...............]  50 % (1 of 2)\r\n";
+
+TEST(ProgressBar, IsDrawnOverItselfOnATerminal) {
+  const auto seen =
+      shownOnTerminal([](std::FILE* out) { heel::ProgressBar("track", 2, out).show(1); });
+  if (!seen) GTEST_SKIP() << kNoTerminal;
+  EXPECT_EQ(*seen, kBars + "end");
+}
+
+TEST(ProgressBar, EndsItsLineBeforeTheResults) {
+  const auto seen = shownOnTerminal([](std::FILE* out) {
+    heel::ProgressBar bar("track", 2, out);
+    bar.show(1);
+    testing::internal::CaptureStdout();
+    {
+      const heel::TerminalOutput output;
+      std::printf("3 frames\n");
+    }
+    std::fputs(testing::internal::GetCapturedStdout().c_str(), out);
+  });
+  if (!seen) GTEST_SKIP() << kNoTerminal;
+  EXPECT_EQ(*seen, kBars + "3 frames\r\nend") << "and no empty line after them";
 }
 
 }  // namespace
