@@ -15,19 +15,19 @@ using Eigen::Vector2d;
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 constexpr double kStep_s = 0.02;
-constexpr int kShares = 8;           // Shares of a velocity that are tried.
-constexpr double kCell_m = 0.05;     // Of the camera's points,
-constexpr int kCells = 48;           // so many on each side of a square about the robot.
-constexpr double kSame_m = 0.1;      // So far apart two pictures may see one thing.
-constexpr double kSurface_m = 0.05;  // So far behind a beam's end is the thing that it hit.
+constexpr int kShares = 8;            // Shares of a velocity that are tried.
+constexpr double kCell_m = 0.05;      // Of the camera's points,
+constexpr int kCells = 48;            // so many on each side of a square about the robot.
+constexpr double kSame_m = 0.1;       // So far apart two pictures may see one thing.
+constexpr double kSurface_m = 0.05;   // So far behind a beam's end is the thing that it hit.
+constexpr double kGrazed_m = 0.001;   // So far from where it stood, it stood there too.
+constexpr double kThinnest_m = 0.02;  // The radius of the thinnest thing: a chair's leg.
+constexpr double kGap_m = 0.01;       // Between places on the rim, at least.
 constexpr double kRounding_m = 1e-9;
 constexpr double kSoon_s = 1e-9;
 constexpr double kOldest_s = 1.0;  // Of a motion from which to reckon.
 constexpr std::size_t kThings = 4096;
 constexpr std::size_t kPieces = 1024;
-const std::array<Eigen::Rotation2Dd, 5> kAside{
-    {Eigen::Rotation2Dd(0.0), Eigen::Rotation2Dd(0.5), Eigen::Rotation2Dd(-0.5),
-     Eigen::Rotation2Dd(1.0), Eigen::Rotation2Dd(-1.0)}};  // The front of the body.
 
 bool isNumber(const VelocityCommand& v) {
   return std::isfinite(v.forward_mps) && std::isfinite(v.turn_radps);
@@ -103,26 +103,43 @@ LastGate::LastGate(const LastGateParams& params)
   sent_.fill({kNever, {}});
 }
 
-// Whether the look's beams go through a place, or end at it.
-bool LastGate::sees(const Look& look, const Vector2d& place) {
-  const LaserScan& scan = look.scan;
-  const Vector2d at = look.scanner.inverse() * place;
+// How many beams after the first a place is; the greatest is one before the first.
+double LastGate::beamTo(const Look& look, const Vector2d& at) {
   constexpr double kTurn_rad = 2.0 * M_PI;
-  const double sign = scan.step_rad < 0.0 ? -1.0 : 1.0;
-  double angle = sign * (std::atan2(at.y(), at.x()) - scan.first_rad);
-  angle -= kTurn_rad * std::floor(angle / kTurn_rad);  // from the first beam on, in [0, 2 pi)
-  const double step = sign * scan.step_rad;
-  const double beam = std::fmod(std::round(angle / step), std::round(kTurn_rad / step));
-  if (!(beam < static_cast<double>(scan.ranges_m.size()))) return false;
-  const auto range_m = static_cast<double>(scan.ranges_m[static_cast<std::size_t>(beam)]);
-  return range_m > 0.0 && at.norm() < range_m + kSurface_m;  // Not where it is not a number.
+  const double sign = look.scan.step_rad < 0.0 ? -1.0 : 1.0;
+  double angle = sign * (std::atan2(at.y(), at.x()) - look.scan.first_rad);
+  angle -= kTurn_rad * std::floor(angle / kTurn_rad);
+  return angle / (sign * look.scan.step_rad);
 }
 
-bool LastGate::isSeen(const Vector2d& place, double now_s) const {
+// Whether a beam ends beyond a distance.
+bool LastGate::endsBeyond(const Look& look, double beam, double away_m) {
+  const double turn = std::round(2.0 * M_PI / std::abs(look.scan.step_rad));
+  if (beam >= turn) beam -= turn;
+  if (!(beam < static_cast<double>(look.scan.ranges_m.size()))) return false;
+  const auto range_m = static_cast<double>(look.scan.ranges_m[static_cast<std::size_t>(beam)]);
+  return range_m > 0.0 && range_m > away_m;  // Not where it is not a number.
+}
+
+// Whether the beam next to a thing goes through it, or ends at it.
+bool LastGate::sees(const Look& look, const Vector2d& thing) {
+  const Vector2d at = look.turn * (thing - look.scanner);
+  return endsBeyond(look, std::round(beamTo(look, at)), at.norm() - kSurface_m);
+}
+
+// Whether a look has seen that a place is free: both beams beside it end no nearer than `short_m`
+// before it. Of a ring of looks, the one that saw the last place is asked first.
+bool LastGate::isSeen(const Vector2d& place, double short_m, double now_s) {
+  const auto sawIt = [&](const Look& look) {
+    if (now_s - look.stamp_s > params_.remembers_s) return false;
+    const Vector2d at = look.turn * (place - look.scanner);
+    const double beam = std::floor(beamTo(look, at)), away_m = at.norm() - short_m;
+    return endsBeyond(look, beam, away_m) && endsBeyond(look, beam + 1.0, away_m);
+  };
+  if (sawIt(looks_[saw_])) return true;
   for (std::size_t i = 0; i < looks_.size(); ++i) {
-    const Look& look = looks_[(newest_ + looks_.size() - i) % looks_.size()];
-    if (now_s - look.stamp_s > params_.remembers_s) return false;  // The others are older.
-    if (sees(look, place)) return true;
+    saw_ = (newest_ + looks_.size() - i) % looks_.size();
+    if (sawIt(looks_[saw_])) return true;
   }
   return false;
 }
@@ -134,7 +151,9 @@ void LastGate::addScan(const LaserScan& scan, const FloorPose& base, double stam
   const Look& before = looks_[(newest_ + looks_.size() - 1) % looks_.size()];
   if (looks_[newest_].stamp_s - before.stamp_s >= apart_s) newest_ = (newest_ + 1) % looks_.size();
   Look& look = looks_[newest_];
-  look.scanner = base * params_.T_base_scanner;
+  const FloorPose scanner = base * params_.T_base_scanner;
+  look.scanner = scanner.position;
+  look.turn = Eigen::Rotation2Dd(-scanner.yaw_rad).toRotationMatrix();
   look.stamp_s = stamp_s;
   look.scan.first_rad = scan.first_rad;
   look.scan.step_rad = scan.step_rad;
@@ -149,8 +168,7 @@ void LastGate::addScan(const LaserScan& scan, const FloorPose& base, double stam
     const auto range_m = static_cast<double>(scan.ranges_m[i]);
     if (!(range_m > 0.0 && range_m < 2.0 * reach_m_)) continue;
     const double angle = scan.angle(i);
-    const Vector2d place =
-        look.scanner * Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
+    const Vector2d place = scanner * Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
     keep({place, stamp_s, true, true});
   }
 }
@@ -256,21 +274,51 @@ bool LastGate::isFree() const {
   });
 }
 
-// The front of the body, in the direction in which it goes; the sides were the front before.
-bool LastGate::isSeenAhead(const Vector2d& start, double now_s) const {
+// Whether the half of the body's rim that is in front has been seen free, or is where the body
+// stood at `start`. Things are `allow_m_` or more off the body's middle: so the rim is drawn half
+// of what they leave outside of the body, and a beam may end half of it before the rim.
+bool LastGate::isRimSeen(const Vector2d& start, const Vector2d& middle, const Vector2d& front,
+                         double body_m, double now_s) {
+  const double stood_m = params_.limits.radius_m + kGrazed_m;
+  const double spare_m = 0.5 * (allow_m_ - params_.limits.radius_m);
+  const double step_rad = M_PI / std::ceil(M_PI * body_m / rimStep());
+  const Eigen::Matrix2d step = Eigen::Rotation2Dd(step_rad).toRotationMatrix();
+  Vector2d ray(front.y(), -front.x());  // from the right to the left
+  for (double turned = 0.0; turned < M_PI + 0.5 * step_rad; turned += step_rad) {
+    const bool stood_there = (middle + body_m * ray - start).squaredNorm() <= stood_m * stood_m;
+    if (!stood_there && !isSeen(middle + (body_m + spare_m) * ray, spare_m, now_s)) return false;
+    ray = step * ray;
+  }
+  return true;
+}
+
+// A thing that touches the body covers so much of that rim, or, where nothing is spared, is less
+// than 1 mm into the body.
+double LastGate::rimStep() const {
   const double body_m = params_.limits.radius_m;
-  double looked_m = kNever;
-  for (const Piece& piece : pieces_) {
-    const bool is_last = &piece == &pieces_.back();
-    if (!piece.moves || (!is_last && piece.driven_m - looked_m < kSurface_m)) continue;
-    looked_m = piece.driven_m;
-    for (const double sign : {1.0, -1.0}) {
-      if (!(sign > 0.0 ? piece.advances : piece.backs)) continue;
-      const Vector2d way = sign * piece.way;
-      const Vector2d end = piece.from + (sign > 0.0 ? piece.last_m : piece.first_m) * piece.way;
-      for (const Eigen::Rotation2Dd& aside : kAside) {
-        const Vector2d rim = end + body_m * (aside * way);
-        if ((rim - start).squaredNorm() > body_m * body_m && !isSeen(rim, now_s)) return false;
+  const double spare_m = 0.5 * (allow_m_ - body_m);
+  const double bend_m = kThinnest_m * body_m / (kThinnest_m + body_m);
+  return std::max(2.0 * std::sqrt(2.0 * spare_m * bend_m), kGap_m);
+}
+
+// What the body newly covers while it goes one way is what the front half of its rim sweeps. That
+// is looked at in rows across the way; each end is taken further by the margin, or the robot could
+// creep on where nothing is seen.
+bool LastGate::isSeenAhead(const Vector2d& start, double now_s) {
+  const double apart_m = rimStep();
+  for (const double sign : {1.0, -1.0}) {
+    const auto goes = [&](const Piece& p) { return sign > 0.0 ? p.advances : p.backs; };
+    double looked_m = kNever;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      const Piece& piece = pieces_[i];
+      const bool ends = i + 1 == pieces_.size() || !goes(pieces_[i + 1]);
+      if (!goes(piece) || (!ends && piece.driven_m - looked_m < apart_m)) continue;
+      looked_m = piece.driven_m;
+      const double along_m =
+          (sign > 0.0 ? piece.last_m : piece.first_m) + (ends ? sign * params_.margin_m : 0.0);
+      if (!isRimSeen(start, piece.from + along_m * piece.way, sign * piece.way,
+                     params_.limits.radius_m + piece.aside_m, now_s)) {
+        return false;
       }
     }
   }

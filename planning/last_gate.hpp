@@ -53,8 +53,8 @@ struct GatedVelocity {
 /// - comes no nearer than `margin_m` to what was seen, or, where the nearest that it does not touch
 ///   was nearer at the last odometry, no nearer than that;
 /// - does not drive towards what it touched then, not even as far as it has moved off since;
-/// - goes only where a scan of the last `remembers_s` has seen, as far as five places on the front
-///   of the body tell, asked every 5 cm and where it stands at last.
+/// - goes only where scans of the last `remembers_s` have seen: all that the body newly covers is
+///   looked at, and `margin_m` beyond, for things of 4 cm across or more.
 /// Else it scales forward speed and turn alike; else it lets only the turn through; else nothing.
 ///
 /// The first two hold for every way that the robot can take, not for some of them: each command
@@ -66,10 +66,10 @@ struct GatedVelocity {
 /// That needs: the stamps and the odometry's places are right; the wheels change their speed as
 /// `limits` say, by no less and no more, and do not slip; a velocity is asked for each control
 /// period or more often, and none beyond `limits`; the things are fewer than there is room for
-/// (4096 points); and between two beams that end on a thing it does not stand out. It is the points
-/// that count: with a scanner that does not look all around, the far flank of a thing may never
-/// have been seen, and the five places do not find all of it. No component is ever larger than that
-/// which was asked for, nor of the other sign.
+/// (4096 points); and between two beams that end on a thing it does not stand out. A place counts
+/// as seen if both beams beside it ended beyond it, and what the body already covers, and 1 mm
+/// around it, as free. No component is ever larger than that which was asked for, nor of the other
+/// sign.
 ///
 /// All poses are of the base in one frame that does not jump, the odometry's. Nothing is allocated
 /// once as many things have been seen as ever will be.
@@ -121,7 +121,8 @@ class LastGate {
     VelocityCommand least, most;
   };
   struct Look {
-    FloorPose scanner;
+    Eigen::Vector2d scanner = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d turn = Eigen::Matrix2d::Identity();  // from the odometry's axes to its own
     double stamp_s = 0.0;
     LaserScan scan;
   };
@@ -135,13 +136,18 @@ class LastGate {
     Eigen::Vector2f nearest = Eigen::Vector2f::Zero();
   };
 
-  static bool sees(const Look& look, const Eigen::Vector2d& place);
-  bool isSeen(const Eigen::Vector2d& place, double now_s) const;
+  static double beamTo(const Look& look, const Eigen::Vector2d& at);
+  static bool endsBeyond(const Look& look, double beam, double away_m);
+  static bool sees(const Look& look, const Eigen::Vector2d& thing);
+  bool isSeen(const Eigen::Vector2d& place, double short_m, double now_s);
   void keep(const Thing& thing);
   void approach(const Eigen::Vector2d& robot, double reach_m, double now_s);
   static bool recedes(const Piece& piece, double along_m, double aside_m);
   bool isFree() const;
-  bool isSeenAhead(const Eigen::Vector2d& start, double now_s) const;
+  bool isRimSeen(const Eigen::Vector2d& start, const Eigen::Vector2d& middle,
+                 const Eigen::Vector2d& front, double body_m, double now_s);
+  double rimStep() const;
+  bool isSeenAhead(const Eigen::Vector2d& start, double now_s);
   Obeyed obeyed(double time_s, const Sent* planned) const;
   double fastestSent(double then_s) const;
   void believe(const VelocityCommand& measured, double at_s);
@@ -157,6 +163,7 @@ class LastGate {
   std::vector<Piece> pieces_;
   std::array<Look, 20> looks_;  // a ring; looks_[newest_] is the last
   std::size_t newest_ = 0;
+  std::size_t saw_ = 0;        // the look that saw the last place that was asked for
   std::array<Sent, 32> sent_;  // a ring
   std::size_t sent_newest_ = 0;
   std::vector<Cell> cells_;
