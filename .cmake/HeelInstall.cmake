@@ -32,10 +32,11 @@ function(heel_install_module name)
     DESTINATION "${HEEL_CONFIG_DIR}" COMPONENT development)
 endfunction()
 
-# Installs the heel command and what it reads: scenes and plans.
+# Installs the heel command and what it reads: scenes, plans and robots.
 function(heel_install_command)
   install(TARGETS heel_command RUNTIME COMPONENT runtime)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/apps/scenes" "${PROJECT_SOURCE_DIR}/apps/plans"
+    "${PROJECT_SOURCE_DIR}/apps/robots"
     DESTINATION "${HEEL_DATA_DIR}" COMPONENT runtime)
 endfunction()
 

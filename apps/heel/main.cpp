@@ -135,6 +135,7 @@ int main(int argc, char** argv) {
   heel::addView(app);
   heel::addEvaluate(app);
   heel::addExperiment(app);
+  heel::addConfig(app);
   heel::completeVerbs(app);
   try {
     app.parse(argc, argv);
