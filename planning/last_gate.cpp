@@ -23,6 +23,7 @@ constexpr double kSurface_m = 0.05;   // So far behind a beam's end is the thing
 constexpr double kGrazed_m = 0.001;   // So far from where it stood, it stood there too.
 constexpr double kThinnest_m = 0.02;  // The radius of the thinnest thing: a chair's leg.
 constexpr double kGap_m = 0.01;       // Between places on the rim, at least.
+constexpr double kWalks_mps = 1.2;    // Nobody walks faster.
 constexpr double kRounding_m = 1e-9;
 constexpr double kSoon_s = 1e-9;
 constexpr double kOldest_s = 1.0;  // Of a motion from which to reckon.
@@ -97,7 +98,7 @@ LastGate::LastGate(const LastGateParams& params)
              stoppingDistance(params.limits, params.limits.max_speed_mps,
                               2.0 * params.wheels_latency_s + 0.5);
   things_.reserve(kThings);
-  near_.reserve(kThings);
+  near_.reserve(2 * kThings);
   pieces_.reserve(kPieces);
   for (Look& look : looks_) look.stamp_s = kNever;
   sent_.fill({kNever, {}});
@@ -128,13 +129,17 @@ bool LastGate::sees(const Look& look, const Vector2d& thing) {
 }
 
 // Whether a look has seen that a place is free: both beams beside it end no nearer than `short_m`
-// before it. Of a ring of looks, the one that saw the last place is asked first.
+// before it.
+bool LastGate::sawFree(const Look& look, const Vector2d& place, double short_m) {
+  const Vector2d at = look.turn * (place - look.scanner);
+  const double beam = std::floor(beamTo(look, at)), away_m = at.norm() - short_m;
+  return endsBeyond(look, beam, away_m) && endsBeyond(look, beam + 1.0, away_m);
+}
+
+// Of the ring of looks, the one that saw the last place is asked first.
 bool LastGate::isSeen(const Vector2d& place, double short_m, double now_s) {
   const auto sawIt = [&](const Look& look) {
-    if (now_s - look.stamp_s > params_.remembers_s) return false;
-    const Vector2d at = look.turn * (place - look.scanner);
-    const double beam = std::floor(beamTo(look, at)), away_m = at.norm() - short_m;
-    return endsBeyond(look, beam, away_m) && endsBeyond(look, beam + 1.0, away_m);
+    return now_s - look.stamp_s <= params_.remembers_s && sawFree(look, place, short_m);
   };
   if (sawIt(looks_[saw_])) return true;
   for (std::size_t i = 0; i < looks_.size(); ++i) {
@@ -142,6 +147,26 @@ bool LastGate::isSeen(const Vector2d& place, double short_m, double now_s) {
     if (sawIt(looks_[saw_])) return true;
   }
   return false;
+}
+
+// How what is seen at a place has come there. Where the look before saw nothing, something came,
+// from the nearest that it saw; else it stands.
+Vector2d LastGate::velocityOf(const Vector2d& place, const Look& before, double dt_s) {
+  if (!(dt_s <= kOldest_s) || !sawFree(before, place, -kSurface_m)) return Vector2d::Zero();
+  const Vector2d at = before.turn * (place - before.scanner);
+  const double reach_m = kWalks_mps * dt_s;
+  Vector2d came = Vector2d::Zero();
+  double least2 = reach_m * reach_m;
+  for (std::size_t i = 0; i < before.scan.ranges_m.size(); ++i) {
+    const auto range_m = static_cast<double>(before.scan.ranges_m[i]);
+    if (!(std::abs(range_m - at.norm()) < reach_m)) continue;
+    const double angle = before.scan.angle(i);
+    const Vector2d by = at - range_m * Vector2d(std::cos(angle), std::sin(angle));
+    if (by.squaredNorm() >= least2) continue;
+    least2 = by.squaredNorm();
+    came = by;
+  }
+  return before.turn.transpose() * came / dt_s;
 }
 
 void LastGate::addScan(const LaserScan& scan, const FloorPose& base, double stamp_s) {
@@ -164,12 +189,13 @@ void LastGate::addScan(const LaserScan& scan, const FloorPose& base, double stam
                                         (thing.by_laser && sees(look, thing.place));
                                }),
                 things_.end());
+  const Look& earlier = looks_[(newest_ + looks_.size() - 1) % looks_.size()];
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range_m = static_cast<double>(scan.ranges_m[i]);
     if (!(range_m > 0.0 && range_m < 2.0 * reach_m_)) continue;
     const double angle = scan.angle(i);
     const Vector2d place = scanner * Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
-    keep({place, stamp_s, true, true});
+    keep({place, stamp_s, true, true, velocityOf(place, earlier, stamp_s - earlier.stamp_s)});
   }
 }
 
@@ -208,7 +234,7 @@ void LastGate::addPoints(const std::vector<Eigen::Vector3f>& points, const Floor
                 things_.end());
   for (const Cell& cell : cells_) {
     if (cell.points < params_.min_points) continue;
-    keep({placeOf(cell), stamp_s, false, cell.is_sure});
+    keep({placeOf(cell), stamp_s, false, cell.is_sure, Vector2d::Zero()});
   }
 }
 
@@ -224,18 +250,22 @@ double LastGate::clearance(const Vector2d& place) const {
   return std::sqrt(least2);
 }
 
-// What can be touched, and how near it may come.
-void LastGate::approach(const Vector2d& robot, double reach_m, double now_s) {
+// What can be touched, and how near it may come. What walks may also stop: it is there twice.
+void LastGate::approach(const Vector2d& robot, double reach_m, double then_s, double now_s) {
   near_.clear();
   const double body_m = params_.limits.radius_m;
   double nearest_m = body_m + params_.margin_m;
   for (const Thing& thing : things_) {
     if (now_s - thing.seen_s > params_.remembers_s) continue;
+    if (!thing.velocity.isZero()) {
+      const Vector2d then = thing.place + (then_s - thing.seen_s) * thing.velocity;
+      near_.push_back({then, (then - robot).norm(), thing.velocity});
+    }
     const double away2 = (thing.place - robot).squaredNorm();
     if (away2 > reach_m * reach_m) continue;
     const double away_m = std::sqrt(away2);
     if (away_m >= body_m) nearest_m = std::min(nearest_m, away_m);
-    near_.push_back({thing.place, away_m});
+    near_.push_back({thing.place, away_m, Vector2d::Zero()});
   }
   allow_m_ = nearest_m;
 }
@@ -257,15 +287,17 @@ bool LastGate::isFree() const {
   return std::all_of(near_.begin(), near_.end(), [&](const Near& thing) {
     const bool touches = thing.away_m < body_m;
     double safe_m = touches ? kNever : thing.away_m - allow_m_;  // so far it can drive anyhow
+    const double walks_mps = thing.velocity.norm();
     for (const Piece& piece : pieces_) {
-      if (piece.driven_m <= safe_m) continue;
-      const Vector2d to = thing.place - piece.from;
+      const double nearer_m = piece.driven_m + walks_mps * piece.time_s;  // or less
+      if (nearer_m <= safe_m) continue;
+      const Vector2d to = thing.place + piece.time_s * thing.velocity - piece.from;
       const double along_m = to.dot(piece.way);
       const double aside_m = piece.way.x() * to.y() - piece.way.y() * to.x();
       const double off_m = std::max({0.0, piece.first_m - along_m, along_m - piece.last_m});
       const double away_m = std::sqrt(off_m * off_m + aside_m * aside_m) - piece.aside_m;
       if (!touches && away_m >= allow_m_ - kRounding_m) {
-        safe_m = piece.driven_m + away_m - allow_m_;
+        safe_m = nearer_m + away_m - allow_m_;
       } else if (!recedes(piece, along_m, aside_m)) {
         return false;
       }
@@ -435,6 +467,7 @@ void LastGate::layOut(const VelocityCommand& velocity, const FloorPose& from, do
     piece.from = pose.position;
     piece.way = {std::cos(half_rad), std::sin(half_rad)};
     piece.driven_m = driven_m;
+    piece.time_s = time_s + dt_s - then_s;
     piece.turned_rad = turn_rad + off_rad;
     piece.advances = fast.forward_mps > 0.0 || next_fast.forward_mps > 0.0;
     piece.backs = slow.forward_mps < 0.0 || next_slow.forward_mps < 0.0;
@@ -478,7 +511,7 @@ GatedVelocity LastGate::pass(const VelocityCommand& wanted, const DriveState& no
     approach(now.pose.position,
              params_.limits.radius_m + params_.margin_m +
                  stoppingDistance(params_.limits, top_mps, until_brakes_s),
-             now_s);
+             then_s, now_s);
     const auto passes = [&](const VelocityCommand& velocity) {
       const GateReason reason = judge(velocity, now.pose, then_s, now_s);
       if (reason == GateReason::kFree) gated.velocity = velocity;

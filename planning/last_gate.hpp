@@ -52,6 +52,7 @@ struct GatedVelocity {
 /// It lets a velocity through if the robot, with it for a control period and then braking,
 /// - comes no nearer than `margin_m` to what was seen, or, where the nearest that it does not touch
 ///   was nearer at the last odometry, no nearer than that;
+/// - does the same with what comes to where a look has lately seen nothing, as if that walked on;
 /// - does not drive towards what it touched then, not even as far as it has moved off since;
 /// - goes only where scans of the last `remembers_s` have seen: all that the body newly covers is
 ///   looked at, and `margin_m` beyond, for things of 4 cm across or more.
@@ -62,7 +63,8 @@ struct GatedVelocity {
 /// speed was anything between the measured one and those that the commands can have brought about.
 /// A box around all of these ways is followed; it is never too small, and may be too large.
 ///
-/// So what stands still, and was seen before the robot had to brake for it, is not driven into.
+/// So what stands still, and was seen before the robot had to brake for it, is not driven into; who
+/// walks straight into the robot is met by one that stands, or goes away from them.
 /// That needs: the stamps and the odometry's places are right; the wheels change their speed as
 /// `limits` say, by no less and no more, and do not slip; a velocity is asked for each control
 /// period or more often, and none beyond `limits`; the things are fewer than there is room for
@@ -103,10 +105,12 @@ class LastGate {
     double seen_s;
     bool by_laser;
     bool is_sure;  // by the laser, or in two pictures one after the other
+    Eigen::Vector2d velocity;
   };
   struct Near {
     Eigen::Vector2d place;
     double away_m;  // from the robot's middle
+    Eigen::Vector2d velocity;
   };
   /// A box that the robot's middle does not leave for a while: along a way from a place, and aside.
   struct Piece {
@@ -114,6 +118,7 @@ class LastGate {
     double first_m, last_m, aside_m;
     double turned_rad;            // the heading is off the way by no more than this
     double driven_m;              // no more, since the last odometry
+    double time_s;                // at its end, since then
     bool moves, advances, backs;  // maybe
   };
   struct Obeyed {
@@ -140,8 +145,10 @@ class LastGate {
   static bool endsBeyond(const Look& look, double beam, double away_m);
   static bool sees(const Look& look, const Eigen::Vector2d& thing);
   bool isSeen(const Eigen::Vector2d& place, double short_m, double now_s);
+  static bool sawFree(const Look& look, const Eigen::Vector2d& place, double short_m);
+  static Eigen::Vector2d velocityOf(const Eigen::Vector2d& place, const Look& before, double dt_s);
   void keep(const Thing& thing);
-  void approach(const Eigen::Vector2d& robot, double reach_m, double now_s);
+  void approach(const Eigen::Vector2d& robot, double reach_m, double then_s, double now_s);
   static bool recedes(const Piece& piece, double along_m, double aside_m);
   bool isFree() const;
   bool isRimSeen(const Eigen::Vector2d& start, const Eigen::Vector2d& middle,
