@@ -56,10 +56,10 @@ YamlMap YamlMap::fromFile(const std::string& file, const std::string& what) {
   if (!std::filesystem::is_regular_file(file)) throw std::runtime_error(file + ": no such file");
   try {
     return {YAML::LoadFile(file), file, what};
-  } catch (const YAML::ParserException& error) {
-    failAt(file, error.mark, "not YAML: " + error.msg);
   } catch (const YAML::BadFile&) {
     throw std::runtime_error(file + ": can't be read");
+  } catch (const YAML::Exception& error) {
+    failAt(file, error.mark, "not YAML: " + error.msg);
   }
 }
 
