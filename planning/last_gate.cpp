@@ -183,6 +183,7 @@ void LastGate::addScan(const LaserScan& scan, const FloorPose& base, double stam
   look.scan.first_rad = scan.first_rad;
   look.scan.step_rad = scan.step_rad;
   look.scan.ranges_m.assign(scan.ranges_m.begin(), scan.ranges_m.end());
+  beside_m_ = besideView(scan);
   things_.erase(std::remove_if(things_.begin(), things_.end(),
                                [&](const Thing& thing) {
                                  return stamp_s - thing.seen_s > params_.remembers_s ||
@@ -306,12 +307,26 @@ bool LastGate::isFree() const {
   });
 }
 
+// What a robot that stands can not see of its way straight on: the strips along both sides of the
+// body, so wide, as far ahead as its scanner's first and last beam leave them.
+double LastGate::besideView(const LaserScan& scan) const {
+  const double body_m = params_.limits.radius_m;
+  const double yaw_rad = params_.T_base_scanner.yaw_rad;
+  const double first_rad = yaw_rad + scan.first_rad;
+  const double last_rad = yaw_rad + scan.angle(scan.ranges_m.size()) - scan.step_rad;
+  const double half_rad = std::min(std::abs(first_rad), std::abs(last_rad));
+  if (half_rad + 2.0 * std::abs(scan.step_rad) >= M_PI) return 0.0;
+  const double ahead_m =
+      params_.T_base_scanner.position.x() + body_m / std::tan(std::max(half_rad, kRounding_m));
+  const double within_m = std::clamp(ahead_m, 0.0, body_m);
+  return body_m - std::sqrt(body_m * body_m - within_m * within_m);
+}
+
 // Whether the half of the body's rim that is in front has been seen free, or is where the body
 // stood at `start`. Things are `allow_m_` or more off the body's middle: so the rim is drawn half
 // of what they leave outside of the body, and a beam may end half of it before the rim.
 bool LastGate::isRimSeen(const Vector2d& start, const Vector2d& middle, const Vector2d& front,
-                         double body_m, double now_s) {
-  const double stood_m = params_.limits.radius_m + kGrazed_m;
+                         double body_m, double stood_m, double now_s) {
   const double spare_m = 0.5 * (allow_m_ - params_.limits.radius_m);
   const double step_rad = M_PI / std::ceil(M_PI * body_m / rimStep());
   const Eigen::Matrix2d step = Eigen::Rotation2Dd(step_rad).toRotationMatrix();
@@ -340,6 +355,9 @@ bool LastGate::isSeenAhead(const Vector2d& start, double now_s) {
   const double apart_m = rimStep();
   for (const double sign : {1.0, -1.0}) {
     const auto goes = [&](const Piece& p) { return sign > 0.0 ? p.advances : p.backs; };
+    // Forwards it never creeps on blindly: the scanner looks there.
+    const double stood_m =
+        params_.limits.radius_m + (sign > 0.0 ? std::max(kGrazed_m, beside_m_) : kGrazed_m);
     double looked_m = kNever;
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       const Piece& piece = pieces_[i];
@@ -349,7 +367,7 @@ bool LastGate::isSeenAhead(const Vector2d& start, double now_s) {
       const double along_m =
           (sign > 0.0 ? piece.last_m : piece.first_m) + (ends ? sign * params_.margin_m : 0.0);
       if (!isRimSeen(start, piece.from + along_m * piece.way, sign * piece.way,
-                     params_.limits.radius_m + piece.aside_m, now_s)) {
+                     params_.limits.radius_m + piece.aside_m, stood_m, now_s)) {
         return false;
       }
     }

@@ -70,7 +70,10 @@ struct GatedVelocity {
 /// period or more often, and none beyond `limits`; the things are fewer than there is room for
 /// (4096 points); and between two beams that end on a thing it does not stand out. A place counts
 /// as seen if both beams beside it ended beyond it, and what the body already covers, and 1 mm
-/// around it, as free. No component is ever larger than that which was asked for, nor of the other
+/// around it, as free. Of a scanner that looks ahead, the strips beside the body that it can not
+/// see of the way straight on are taken on trust, forwards, or the robot could never drive off: 28
+/// mm for 180 degrees, 0.12 m ahead of the middle of a body of 0.26 m; none for 220 degrees 0.09 m
+/// ahead. No component is ever larger than that which was asked for, nor of the other
 /// sign.
 ///
 /// All poses are of the base in one frame that does not jump, the odometry's. Nothing is allocated
@@ -152,7 +155,8 @@ class LastGate {
   static bool recedes(const Piece& piece, double along_m, double aside_m);
   bool isFree() const;
   bool isRimSeen(const Eigen::Vector2d& start, const Eigen::Vector2d& middle,
-                 const Eigen::Vector2d& front, double body_m, double now_s);
+                 const Eigen::Vector2d& front, double body_m, double stood_m, double now_s);
+  double besideView(const LaserScan& scan) const;
   double rimStep() const;
   bool isSeenAhead(const Eigen::Vector2d& start, double now_s);
   Obeyed obeyed(double time_s, const Sent* planned) const;
@@ -170,6 +174,7 @@ class LastGate {
   std::vector<Piece> pieces_;
   std::array<Look, 20> looks_;  // a ring; looks_[newest_] is the last
   std::size_t newest_ = 0;
+  double beside_m_ = 0.0;      // see besideView()
   std::size_t saw_ = 0;        // the look that saw the last place that was asked for
   std::array<Sent, 32> sent_;  // a ring
   std::size_t sent_newest_ = 0;
