@@ -16,78 +16,29 @@ from read_parameters import MODULES, ROOT, changed_defaults, read_structs
 
 PAGE = ROOT / "docs" / "parameters.md"
 
-# What one changes in practice, and why: (heading, what it is about, rows of parameter and when).
-# A parameter is named from a struct that one fills, through its members. Defaults are looked up; a
-# name that is gone is an error. They are marked nowhere else.
-FIRST = [
-    ("Your robot", "`Follower` is told of the robot by a `RobotDescription`, and sets the radii, "
-     "heights and limits of its parts by it. The other parameters here are set by hand.", [
-        ("RobotDescription.drive.radius_m", "Your robot is wider or narrower than a Pioneer 3-DX."),
-        ("RobotDescription.drive.max_speed_mps", "Your robot may drive faster, or must be slower. "
-         "Everything in [results](results.md) was measured at 0.3."),
-        ("RobotDescription.height_m", "Your robot is taller or lower: what hangs lower than this "
-         "is an obstacle."),
-        ("RobotDescription.scanner_height_m", "Your laser is mounted higher or lower."),
-        ("FollowerParams.search.map.robot_speed_mps", "You changed the robot's speed: the search "
-         "plans its time with this one."),
-        ("FollowerParams.search.map.robot_turn_radps", "You changed how fast the robot turns."),
-        ("FollowerParams.search.map.robot_clearance_m", "You changed the radius: this is the "
-         "radius and 0.09 m."),
-        ("FollowerParams.localization.motion.distance_noise", "The wheels slip, and the robot "
-         "loses its place: raise it. More noise needs more particles."),
-        ("FollowerParams.localization.motion.turn_noise", "The wheels slip in turns: raise it."),
-    ]),
-    ("Your camera", "[How far a camera measures](camera.md#how-far-it-measures) depends on its "
-     "baseline and focal length.", [
-        ("FollowerParams.perception.stereo.disparities", "Near things have no depth, as with a "
-         "long baseline or many pixels. The nearest depth is focal length times baseline over "
-         "this; more takes more time. Set it in `learn.stereo` and in `CameraSetupParams::stereo` "
-         "as well."),
-        ("CameraSetupParams.ground.max_tilt_rad", "The camera looks down steeply, and the floor "
-         "is not found: raise it."),
-        ("FollowerParams.perception.tracker.confirm_frames", "Frames come at less than 4 Hz: "
-         "lower it, and `confirm_hits` with it."),
-        ("FollowerParams.perception.tracker.max_coast_s", "Tracks end too soon while somebody is "
-         "hidden, or too late."),
-        ("FollowerParams.perception.tracker.max_gap_s", "Frames come with longer gaps than this: "
-         "raise it."),
-    ]),
-    ("Your building", "", [
-        ("FollowerParams.perception.plan_view.max_range_m", "You follow in a large hall, with a "
-         "camera that measures so far."),
-        ("CameraSetupParams.ground.max_range_m", "The floor near the camera is hidden, and the "
-         "camera measures further."),
-        ("FollowerParams.learn.acquisition.detector.height.max_m", "Your ceiling is lower than "
-         "this."),
-        ("FollowerParams.paths.unknown_is_free", "Your map has gaps through which the robot must "
-         "go."),
-        ("FollowerParams.obstacles.max_memory_s", "Many people walk about, and the robot avoids "
-         "places that they have left: lower it."),
-        ("FollowerParams.localization.max_particles", "The robot is not found in a large "
-         "building: raise it."),
-        ("FollowerParams.localization.lost_fit", "The robot says that it is lost where furniture "
-         "hides the walls: lower it."),
-    ]),
-    ("Your people, and your taste", "", [
-        ("FollowerParams.learn.acquisition.background_s", "The room can't be empty for so long "
-         "(`heel learn --background`)."),
-        ("FollowerParams.learn.acquisition.person_s", "The person can't stay for so long (`heel "
-         "learn --person`)."),
-        ("FollowerParams.learn.acquisition.detector.person.min_height_m", "You learn children, or "
-         "people who sit: lower it. Furniture then begins to count, too."),
-        ("FollowerParams.perception.candidates.min_height_m", "You follow children, or people who "
-         "sit: lower it."),
-        ("FollowerParams.perception.target.take_above", "Wrong people are followed: raise it. The "
-         "right one is then found later. `keep_above` stays below it."),
-        ("FollowerParams.goal.standoff_m", "The robot comes too close, or stays too far away. "
-         "`near_m` and `far_m` go with it."),
-        ("FollowerParams.near_m", "The robot should stop nearer to the person, or further away."),
-        ("FollowerParams.far_m", "The robot should drive on sooner, or later. It is more than "
-         "`near_m`."),
-        ("FollowerParams.search.budget_s", "The robot should search longer for a lost person, or "
-         "give up sooner."),
-    ]),
-]
+# What one changes in practice: the same list is printed by `heel config`. Defaults are looked up; a
+# name that is gone is an error.
+SETTINGS = ROOT / "apps" / "experiment" / "robot_config.cpp"
+SETTING = re.compile(r"(FOLLOW|CAMERA)\((?P<path>[\w.]+),\s*(?P<when>(?:\"(?:[^\"\\]|\\.)*\"\s*)+),")
+OF = {"FOLLOW": "FollowerParams", "CAMERA": "CameraSetupParams"}
+ABOUT = {"Your wheels": "What the robot is stands under `robot` in the file: [RobotParams](#robotparams), with "
+                        "angles in degrees. Whatever a part needs of sizes, speeds, places and views comes "
+                        "from there; see `fittedTo()`.",
+         "Your camera": "[How far a camera measures](camera.md#how-far-it-measures) depends on its "
+                        "baseline and focal length."}
+
+
+def read_settings():
+    """(heading, rows of parameter and when one changes it), as the list of settings has them."""
+    text = SETTINGS.read_text(encoding="utf-8")
+    text = text[text.index("settingsOf(RobotConfig& c) {"):text.index("#undef FOLLOW")]
+    out = []
+    for part in re.split(r"^ *// (?=Your )", text, flags=re.M)[1:]:
+        heading, _, rest = part.partition("\n")
+        rows = [(OF[row[1]] + "." + row["path"], "".join(re.findall(r'"((?:[^"\\]|\\.)*)"', row["when"])))
+                for row in SETTING.finditer(rest)]
+        out.append((heading.strip(), rows))
+    return out
 
 
 def code(text):
@@ -158,7 +109,8 @@ def changes_of(root, structs):
 
 def first_section(structs):
     out = []
-    for title, about, rows in FIRST:
+    for title, rows in read_settings():
+        about = ABOUT.get(title)
         out += [f"### {title}", ""] + ([about, ""] if about else [])
         out += ["| parameter | unit | default | change it when |", "| --- | --- | --- | --- |"]
         for path, when in rows:
@@ -187,7 +139,7 @@ def make_page():
 
     count = sum(1 for struct in structs.values() for field in struct.fields()
                 if field.type not in structs)
-    first = sum(len(rows) for _, _, rows in FIRST)
+    first = sum(len(rows) for _, rows in read_settings())
     out = [
         "<!-- Made by docs/parameters.py of the headers: change their comments, and run it. -->",
         "", "# Parameters", "",
@@ -203,7 +155,9 @@ def make_page():
         "`heel::FollowerParams params; params.near_m = 0.8; heel::Follower follower(robot, walls, "
         "plan, start, params);`. A value",
         "out of its range throws `std::invalid_argument`. The `heel` command uses the defaults, "
-        "except where it has an option.",
+        "except where it has an option, and in `heel follow` where `--config` names a file: `heel config "
+        "> robot.yaml` prints one,",
+        f"with the robot and the first {first}.",
         "A *share* is a part of a whole, from 0 to 1; a parameter without a unit is a plain "
         "number.",
         "",

@@ -15,19 +15,20 @@ using Eigen::Vector2d;
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 constexpr double kStep_s = 0.02;
-constexpr int kShares = 8;           // Shares of a velocity that are tried.
-constexpr double kCell_m = 0.05;     // Of the camera's points,
-constexpr int kCells = 48;           // so many on each side of a square about the robot.
-constexpr double kSame_m = 0.1;      // So far apart two pictures may see one thing.
-constexpr double kSurface_m = 0.05;  // So far behind a beam's end is the thing that it hit.
+constexpr int kShares = 8;            // Shares of a velocity that are tried.
+constexpr double kCell_m = 0.05;      // Of the camera's points,
+constexpr int kCells = 48;            // so many on each side of a square about the robot.
+constexpr double kSame_m = 0.1;       // So far apart two pictures may see one thing.
+constexpr double kSurface_m = 0.05;   // So far behind a beam's end is the thing that it hit.
+constexpr double kGrazed_m = 0.001;   // So far from where it stood, it stood there too.
+constexpr double kThinnest_m = 0.02;  // The radius of the thinnest thing: a chair's leg.
+constexpr double kGap_m = 0.01;       // Between places on the rim, at least.
+constexpr double kWalks_mps = 1.2;    // Nobody walks faster.
 constexpr double kRounding_m = 1e-9;
 constexpr double kSoon_s = 1e-9;
 constexpr double kOldest_s = 1.0;  // Of a motion from which to reckon.
 constexpr std::size_t kThings = 4096;
 constexpr std::size_t kPieces = 1024;
-const std::array<Eigen::Rotation2Dd, 5> kAside{
-    {Eigen::Rotation2Dd(0.0), Eigen::Rotation2Dd(0.5), Eigen::Rotation2Dd(-0.5),
-     Eigen::Rotation2Dd(1.0), Eigen::Rotation2Dd(-1.0)}};  // The front of the body.
 
 bool isNumber(const VelocityCommand& v) {
   return std::isfinite(v.forward_mps) && std::isfinite(v.turn_radps);
@@ -97,34 +98,75 @@ LastGate::LastGate(const LastGateParams& params)
              stoppingDistance(params.limits, params.limits.max_speed_mps,
                               2.0 * params.wheels_latency_s + 0.5);
   things_.reserve(kThings);
-  near_.reserve(kThings);
+  near_.reserve(2 * kThings);
   pieces_.reserve(kPieces);
   for (Look& look : looks_) look.stamp_s = kNever;
   sent_.fill({kNever, {}});
 }
 
-// Whether the look's beams go through a place, or end at it.
-bool LastGate::sees(const Look& look, const Vector2d& place) {
-  const LaserScan& scan = look.scan;
-  const Vector2d at = look.scanner.inverse() * place;
+// How many beams after the first a place is; the greatest is one before the first.
+double LastGate::beamTo(const Look& look, const Vector2d& at) {
   constexpr double kTurn_rad = 2.0 * M_PI;
-  const double sign = scan.step_rad < 0.0 ? -1.0 : 1.0;
-  double angle = sign * (std::atan2(at.y(), at.x()) - scan.first_rad);
-  angle -= kTurn_rad * std::floor(angle / kTurn_rad);  // from the first beam on, in [0, 2 pi)
-  const double step = sign * scan.step_rad;
-  const double beam = std::fmod(std::round(angle / step), std::round(kTurn_rad / step));
-  if (!(beam < static_cast<double>(scan.ranges_m.size()))) return false;
-  const auto range_m = static_cast<double>(scan.ranges_m[static_cast<std::size_t>(beam)]);
-  return range_m > 0.0 && at.norm() < range_m + kSurface_m;  // Not where it is not a number.
+  const double sign = look.scan.step_rad < 0.0 ? -1.0 : 1.0;
+  double angle = sign * (std::atan2(at.y(), at.x()) - look.scan.first_rad);
+  angle -= kTurn_rad * std::floor(angle / kTurn_rad);
+  return angle / (sign * look.scan.step_rad);
 }
 
-bool LastGate::isSeen(const Vector2d& place, double now_s) const {
+// Whether a beam ends beyond a distance.
+bool LastGate::endsBeyond(const Look& look, double beam, double away_m) {
+  const double turn = std::round(2.0 * M_PI / std::abs(look.scan.step_rad));
+  if (beam >= turn) beam -= turn;
+  if (!(beam < static_cast<double>(look.scan.ranges_m.size()))) return false;
+  const auto range_m = static_cast<double>(look.scan.ranges_m[static_cast<std::size_t>(beam)]);
+  return range_m > 0.0 && range_m > away_m;  // Not where it is not a number.
+}
+
+// Whether the beam next to a thing goes through it, or ends at it.
+bool LastGate::sees(const Look& look, const Vector2d& thing) {
+  const Vector2d at = look.turn * (thing - look.scanner);
+  return endsBeyond(look, std::round(beamTo(look, at)), at.norm() - kSurface_m);
+}
+
+// Whether a look has seen that a place is free: both beams beside it end no nearer than `short_m`
+// before it.
+bool LastGate::sawFree(const Look& look, const Vector2d& place, double short_m) {
+  const Vector2d at = look.turn * (place - look.scanner);
+  const double beam = std::floor(beamTo(look, at)), away_m = at.norm() - short_m;
+  return endsBeyond(look, beam, away_m) && endsBeyond(look, beam + 1.0, away_m);
+}
+
+// Of the ring of looks, the one that saw the last place is asked first.
+bool LastGate::isSeen(const Vector2d& place, double short_m, double now_s) {
+  const auto sawIt = [&](const Look& look) {
+    return now_s - look.stamp_s <= params_.remembers_s && sawFree(look, place, short_m);
+  };
+  if (sawIt(looks_[saw_])) return true;
   for (std::size_t i = 0; i < looks_.size(); ++i) {
-    const Look& look = looks_[(newest_ + looks_.size() - i) % looks_.size()];
-    if (now_s - look.stamp_s > params_.remembers_s) return false;  // The others are older.
-    if (sees(look, place)) return true;
+    saw_ = (newest_ + looks_.size() - i) % looks_.size();
+    if (sawIt(looks_[saw_])) return true;
   }
   return false;
+}
+
+// How what is seen at a place has come there. Where the look before saw nothing, something came,
+// from the nearest that it saw; else it stands.
+Vector2d LastGate::velocityOf(const Vector2d& place, const Look& before, double dt_s) {
+  if (!(dt_s <= kOldest_s) || !sawFree(before, place, -kSurface_m)) return Vector2d::Zero();
+  const Vector2d at = before.turn * (place - before.scanner);
+  const double reach_m = kWalks_mps * dt_s;
+  Vector2d came = Vector2d::Zero();
+  double least2 = reach_m * reach_m;
+  for (std::size_t i = 0; i < before.scan.ranges_m.size(); ++i) {
+    const auto range_m = static_cast<double>(before.scan.ranges_m[i]);
+    if (!(std::abs(range_m - at.norm()) < reach_m)) continue;
+    const double angle = before.scan.angle(i);
+    const Vector2d by = at - range_m * Vector2d(std::cos(angle), std::sin(angle));
+    if (by.squaredNorm() >= least2) continue;
+    least2 = by.squaredNorm();
+    came = by;
+  }
+  return before.turn.transpose() * came / dt_s;
 }
 
 void LastGate::addScan(const LaserScan& scan, const FloorPose& base, double stamp_s) {
@@ -134,24 +176,27 @@ void LastGate::addScan(const LaserScan& scan, const FloorPose& base, double stam
   const Look& before = looks_[(newest_ + looks_.size() - 1) % looks_.size()];
   if (looks_[newest_].stamp_s - before.stamp_s >= apart_s) newest_ = (newest_ + 1) % looks_.size();
   Look& look = looks_[newest_];
-  look.scanner = base * params_.T_base_scanner;
+  const FloorPose scanner = base * params_.T_base_scanner;
+  look.scanner = scanner.position;
+  look.turn = Eigen::Rotation2Dd(-scanner.yaw_rad).toRotationMatrix();
   look.stamp_s = stamp_s;
   look.scan.first_rad = scan.first_rad;
   look.scan.step_rad = scan.step_rad;
   look.scan.ranges_m.assign(scan.ranges_m.begin(), scan.ranges_m.end());
+  beside_m_ = besideView(scan);
   things_.erase(std::remove_if(things_.begin(), things_.end(),
                                [&](const Thing& thing) {
                                  return stamp_s - thing.seen_s > params_.remembers_s ||
                                         (thing.by_laser && sees(look, thing.place));
                                }),
                 things_.end());
+  const Look& earlier = looks_[(newest_ + looks_.size() - 1) % looks_.size()];
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range_m = static_cast<double>(scan.ranges_m[i]);
     if (!(range_m > 0.0 && range_m < 2.0 * reach_m_)) continue;
     const double angle = scan.angle(i);
-    const Vector2d place =
-        look.scanner * Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
-    keep({place, stamp_s, true, true});
+    const Vector2d place = scanner * Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
+    keep({place, stamp_s, true, true, velocityOf(place, earlier, stamp_s - earlier.stamp_s)});
   }
 }
 
@@ -190,7 +235,7 @@ void LastGate::addPoints(const std::vector<Eigen::Vector3f>& points, const Floor
                 things_.end());
   for (const Cell& cell : cells_) {
     if (cell.points < params_.min_points) continue;
-    keep({placeOf(cell), stamp_s, false, cell.is_sure});
+    keep({placeOf(cell), stamp_s, false, cell.is_sure, Vector2d::Zero()});
   }
 }
 
@@ -206,18 +251,22 @@ double LastGate::clearance(const Vector2d& place) const {
   return std::sqrt(least2);
 }
 
-// What can be touched, and how near it may come.
-void LastGate::approach(const Vector2d& robot, double reach_m, double now_s) {
+// What can be touched, and how near it may come. What walks may also stop: it is there twice.
+void LastGate::approach(const Vector2d& robot, double reach_m, double then_s, double now_s) {
   near_.clear();
   const double body_m = params_.limits.radius_m;
   double nearest_m = body_m + params_.margin_m;
   for (const Thing& thing : things_) {
     if (now_s - thing.seen_s > params_.remembers_s) continue;
+    if (!thing.velocity.isZero()) {
+      const Vector2d then = thing.place + (then_s - thing.seen_s) * thing.velocity;
+      near_.push_back({then, (then - robot).norm(), thing.velocity});
+    }
     const double away2 = (thing.place - robot).squaredNorm();
     if (away2 > reach_m * reach_m) continue;
     const double away_m = std::sqrt(away2);
     if (away_m >= body_m) nearest_m = std::min(nearest_m, away_m);
-    near_.push_back({thing.place, away_m});
+    near_.push_back({thing.place, away_m, Vector2d::Zero()});
   }
   allow_m_ = nearest_m;
 }
@@ -239,15 +288,17 @@ bool LastGate::isFree() const {
   return std::all_of(near_.begin(), near_.end(), [&](const Near& thing) {
     const bool touches = thing.away_m < body_m;
     double safe_m = touches ? kNever : thing.away_m - allow_m_;  // so far it can drive anyhow
+    const double walks_mps = thing.velocity.norm();
     for (const Piece& piece : pieces_) {
-      if (piece.driven_m <= safe_m) continue;
-      const Vector2d to = thing.place - piece.from;
+      const double nearer_m = piece.driven_m + walks_mps * piece.time_s;  // or less
+      if (nearer_m <= safe_m) continue;
+      const Vector2d to = thing.place + piece.time_s * thing.velocity - piece.from;
       const double along_m = to.dot(piece.way);
       const double aside_m = piece.way.x() * to.y() - piece.way.y() * to.x();
       const double off_m = std::max({0.0, piece.first_m - along_m, along_m - piece.last_m});
       const double away_m = std::sqrt(off_m * off_m + aside_m * aside_m) - piece.aside_m;
       if (!touches && away_m >= allow_m_ - kRounding_m) {
-        safe_m = piece.driven_m + away_m - allow_m_;
+        safe_m = nearer_m + away_m - allow_m_;
       } else if (!recedes(piece, along_m, aside_m)) {
         return false;
       }
@@ -256,21 +307,68 @@ bool LastGate::isFree() const {
   });
 }
 
-// The front of the body, in the direction in which it goes; the sides were the front before.
-bool LastGate::isSeenAhead(const Vector2d& start, double now_s) const {
+// What a robot that stands can not see of its way straight on: the strips along both sides of the
+// body, so wide, as far ahead as its scanner's first and last beam leave them.
+double LastGate::besideView(const LaserScan& scan) const {
   const double body_m = params_.limits.radius_m;
-  double looked_m = kNever;
-  for (const Piece& piece : pieces_) {
-    const bool is_last = &piece == &pieces_.back();
-    if (!piece.moves || (!is_last && piece.driven_m - looked_m < kSurface_m)) continue;
-    looked_m = piece.driven_m;
-    for (const double sign : {1.0, -1.0}) {
-      if (!(sign > 0.0 ? piece.advances : piece.backs)) continue;
-      const Vector2d way = sign * piece.way;
-      const Vector2d end = piece.from + (sign > 0.0 ? piece.last_m : piece.first_m) * piece.way;
-      for (const Eigen::Rotation2Dd& aside : kAside) {
-        const Vector2d rim = end + body_m * (aside * way);
-        if ((rim - start).squaredNorm() > body_m * body_m && !isSeen(rim, now_s)) return false;
+  const double yaw_rad = params_.T_base_scanner.yaw_rad;
+  const double first_rad = yaw_rad + scan.first_rad;
+  const double last_rad = yaw_rad + scan.angle(scan.ranges_m.size()) - scan.step_rad;
+  const double half_rad = std::min(std::abs(first_rad), std::abs(last_rad));
+  if (half_rad + 2.0 * std::abs(scan.step_rad) >= M_PI) return 0.0;
+  const double ahead_m =
+      params_.T_base_scanner.position.x() + body_m / std::tan(std::max(half_rad, kRounding_m));
+  const double within_m = std::clamp(ahead_m, 0.0, body_m);
+  return body_m - std::sqrt(body_m * body_m - within_m * within_m);
+}
+
+// Whether the half of the body's rim that is in front has been seen free, or is where the body
+// stood at `start`. Things are `allow_m_` or more off the body's middle: so the rim is drawn half
+// of what they leave outside of the body, and a beam may end half of it before the rim.
+bool LastGate::isRimSeen(const Vector2d& start, const Vector2d& middle, const Vector2d& front,
+                         double body_m, double stood_m, double now_s) {
+  const double spare_m = 0.5 * (allow_m_ - params_.limits.radius_m);
+  const double step_rad = M_PI / std::ceil(M_PI * body_m / rimStep());
+  const Eigen::Matrix2d step = Eigen::Rotation2Dd(step_rad).toRotationMatrix();
+  Vector2d ray(front.y(), -front.x());  // from the right to the left
+  for (double turned = 0.0; turned < M_PI + 0.5 * step_rad; turned += step_rad) {
+    const bool stood_there = (middle + body_m * ray - start).squaredNorm() <= stood_m * stood_m;
+    if (!stood_there && !isSeen(middle + (body_m + spare_m) * ray, spare_m, now_s)) return false;
+    ray = step * ray;
+  }
+  return true;
+}
+
+// A thing that touches the body covers so much of that rim, or, where nothing is spared, is less
+// than 1 mm into the body.
+double LastGate::rimStep() const {
+  const double body_m = params_.limits.radius_m;
+  const double spare_m = 0.5 * (allow_m_ - body_m);
+  const double bend_m = kThinnest_m * body_m / (kThinnest_m + body_m);
+  return std::max(2.0 * std::sqrt(2.0 * spare_m * bend_m), kGap_m);
+}
+
+// What the body newly covers while it goes one way is what the front half of its rim sweeps. That
+// is looked at in rows across the way; each end is taken further by the margin, or the robot could
+// creep on where nothing is seen.
+bool LastGate::isSeenAhead(const Vector2d& start, double now_s) {
+  const double apart_m = rimStep();
+  for (const double sign : {1.0, -1.0}) {
+    const auto goes = [&](const Piece& p) { return sign > 0.0 ? p.advances : p.backs; };
+    // Forwards it never creeps on blindly: the scanner looks there.
+    const double stood_m =
+        params_.limits.radius_m + (sign > 0.0 ? std::max(kGrazed_m, beside_m_) : kGrazed_m);
+    double looked_m = kNever;
+    for (std::size_t i = 0; i < pieces_.size(); ++i) {
+      const Piece& piece = pieces_[i];
+      const bool ends = i + 1 == pieces_.size() || !goes(pieces_[i + 1]);
+      if (!goes(piece) || (!ends && piece.driven_m - looked_m < apart_m)) continue;
+      looked_m = piece.driven_m;
+      const double along_m =
+          (sign > 0.0 ? piece.last_m : piece.first_m) + (ends ? sign * params_.margin_m : 0.0);
+      if (!isRimSeen(start, piece.from + along_m * piece.way, sign * piece.way,
+                     params_.limits.radius_m + piece.aside_m, stood_m, now_s)) {
+        return false;
       }
     }
   }
@@ -387,6 +485,7 @@ void LastGate::layOut(const VelocityCommand& velocity, const FloorPose& from, do
     piece.from = pose.position;
     piece.way = {std::cos(half_rad), std::sin(half_rad)};
     piece.driven_m = driven_m;
+    piece.time_s = time_s + dt_s - then_s;
     piece.turned_rad = turn_rad + off_rad;
     piece.advances = fast.forward_mps > 0.0 || next_fast.forward_mps > 0.0;
     piece.backs = slow.forward_mps < 0.0 || next_slow.forward_mps < 0.0;
@@ -430,7 +529,7 @@ GatedVelocity LastGate::pass(const VelocityCommand& wanted, const DriveState& no
     approach(now.pose.position,
              params_.limits.radius_m + params_.margin_m +
                  stoppingDistance(params_.limits, top_mps, until_brakes_s),
-             now_s);
+             then_s, now_s);
     const auto passes = [&](const VelocityCommand& velocity) {
       const GateReason reason = judge(velocity, now.pose, then_s, now_s);
       if (reason == GateReason::kFree) gated.velocity = velocity;

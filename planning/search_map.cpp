@@ -17,10 +17,10 @@ constexpr double kNoShare = 1e-12;  // below this a share is none
 constexpr double kNoChance = 1e-6;  // below this a cell is not worth a look
 
 void requirePositive(const SearchMapParams& p) {
-  for (const double value :
-       {p.cell_size_m, p.body_radius_m, p.top_speed_mps, p.usual_speed_mps, p.straight_s,
-        p.place_sigma_m, p.field_of_view_rad, p.max_range_m, p.max_scan_m, p.notice_s,
-        p.robot_clearance_m, p.robot_speed_mps, p.robot_turn_radps, p.look_s, p.view_spacing_m}) {
+  checkLimits(p.limits);
+  for (const double value : {p.cell_size_m, p.body_radius_m, p.top_speed_mps, p.usual_speed_mps,
+                             p.straight_s, p.place_sigma_m, p.field_of_view_rad, p.max_range_m,
+                             p.max_scan_m, p.notice_s, p.spare_m, p.look_s, p.view_spacing_m}) {
     if (!(value > 0.0)) throw std::invalid_argument("a search map's parameters must be positive");
   }
 }
@@ -52,7 +52,7 @@ void SearchMap::findViews() {
     const bool is_on_lattice =
         c % floor_.width() % every == every / 2 && c / floor_.width() % every == every / 2;
     if (is_on_lattice && floor_.isFree(c) &&
-        floor_.isClear(floor_.center(c), params_.robot_clearance_m)) {
+        floor_.isClear(floor_.center(c), params_.limits.radius_m + params_.spare_m)) {
       view_cells_.push_back(c);
     }
   }
@@ -216,9 +216,9 @@ std::optional<SearchView> SearchMap::nextView(const FloorPose& camera) {
   if (walked_m_.empty()) return std::nullopt;
   floor_.walkingDistances(floor_.nearestFree(camera.position), way_m_, way_open_);
   // First the place, by all that is in view around it: who goes to a room looks all around in it.
-  const double around_s = 2.0 * kPi / params_.robot_turn_radps + params_.look_s;
+  const double around_s = 2.0 * kPi / params_.limits.max_turn_radps + params_.look_s;
   const auto way_s = [&](std::size_t view) {
-    return static_cast<double>(way_m_[index(view_cells_[view])]) / params_.robot_speed_mps;
+    return static_cast<double>(way_m_[index(view_cells_[view])]) / params_.limits.max_speed_mps;
   };
   std::size_t best = 0;
   double best_rate = 0.0;
@@ -264,7 +264,7 @@ SearchView SearchMap::bestLook(std::size_t view, double way_s, double yaw_rad) c
     const double middle = static_cast<double>(first) + 0.5 * static_cast<double>(in_view);
     const double yaw = wrapped(2.0 * kPi / kBearings * middle);
     const double look_s =
-        std::abs(wrapped(yaw - yaw_rad)) / params_.robot_turn_radps + params_.look_s;
+        std::abs(wrapped(yaw - yaw_rad)) / params_.limits.max_turn_radps + params_.look_s;
     if (!(chance / look_s > best_rate)) continue;
     best_rate = chance / look_s;
     best = {{floor_.center(view_cells_[view]), yaw}, chance, way_s + look_s};

@@ -11,6 +11,7 @@
 #include <heel/mapping/laser_scan.hpp>
 #include <heel/planning/coarse_floor.hpp>
 #include <heel/planning/function_ref.hpp>
+#include <heel/planning/trajectory.hpp>
 
 #include <array>
 #include <optional>
@@ -31,16 +32,15 @@ struct SearchMapParams {
   double place_sigma_m = 0.3;
 
   // What the robot sees, and how it moves.
-  double field_of_view_rad = 1.0;   ///< Horizontal field of view of the camera.
-  double min_range_m = 0.6;         ///< The camera sees nobody nearer than this.
-  double max_range_m = 5.0;         ///< The camera sees nobody further away than this.
-  double max_scan_m = 6.0;          ///< Legs further away than this can be missed by the laser.
-  double notice_s = 0.3;            ///< Time for which a person in view goes unnoticed, on average.
-  double robot_clearance_m = 0.35;  ///< Free room around a place to look from.
-  double robot_speed_mps = 0.3;     ///< Speed at which the robot gets to a place.
-  double robot_turn_radps = 0.8;    ///< Speed at which the robot turns to look.
-  double look_s = 1.5;              ///< Time that a look takes, until a track is sure.
-  double view_spacing_m = 0.6;      ///< Distance from one place to look from to the next.
+  DriveLimits limits;              ///< The robot's.
+  double field_of_view_rad = 1.0;  ///< Horizontal field of view of the camera.
+  double min_range_m = 0.6;        ///< The camera sees nobody nearer than this.
+  double max_range_m = 5.0;        ///< The camera sees nobody further away than this.
+  double max_scan_m = 6.0;         ///< Legs further away than this can be missed by the laser.
+  double notice_s = 0.3;           ///< Time for which a person in view goes unnoticed, on average.
+  double spare_m = 0.09;           ///< Free room around the robot at a place to look from.
+  double look_s = 1.5;             ///< Time that a look takes, until a track is sure.
+  double view_spacing_m = 0.6;     ///< Distance from one place to look from to the next.
 };
 
 /// A place to look from.

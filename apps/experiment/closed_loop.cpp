@@ -38,21 +38,14 @@ void addTruth(const Readings& readings, const ClosedLoopParams& params, FollowSa
 
 }  // namespace
 
-RobotDescription describeRobot(const Simulator& simulator) {
-  const RobotParams& params = simulator.scene().robot;
+RobotDescription describeRobot(const RobotParams& params) {
   RobotDescription robot;
-  robot.drive.radius_m = params.radius_m;
-  robot.drive.max_speed_mps = params.max_speed_mps;
-  robot.drive.max_turn_radps = params.max_turn_radps;
-  robot.drive.max_acceleration_mps2 = params.max_acceleration_mps2;
-  robot.drive.max_turn_acceleration_radps2 = params.max_turn_acceleration_radps2;
+  robot.drive = params.drive;
   robot.height_m = params.height_m;
   robot.T_base_scanner.position = params.laser.at.head<2>();
   robot.scanner_height_m = params.laser.at.z();
-  robot.camera.sensor = SensorKind::kStereo;
-  robot.camera.camera = simulator.camera();
-  robot.camera.T_base_camera = simulator.T_base_camera();
-  robot.camera.is_configured = true;
+  robot.scan_latency_s = params.laser.latency_s;
+  robot.wheels_latency_s = params.wheels_latency_s;
   return robot;
 }
 
@@ -80,10 +73,16 @@ FollowLog runClosedLoop(const Scene& scene, const PetriPlan& plan, const ClosedL
   SimulatorOptions options;
   options.seed = params.seed;
   options.threads = params.threads;
-  const Latencies latencies = latenciesOf(params.rough, params.seed);
+  Latencies latencies = latenciesOf(params.rough, params.seed);
+  latencies.laser_s = std::max(latencies.laser_s, scene.robot.laser.latency_s);
+  latencies.wheels_s = std::max(latencies.wheels_s, scene.robot.wheels_latency_s);
   options.wheels_latency_s = latencies.wheels_s;
   Simulator simulator(roughened(scene, params.rough, params.seed), options);
-  RobotDescription robot = describeRobot(simulator);
+  RobotDescription robot = describeRobot(simulator.scene().robot);
+  robot.camera.sensor = SensorKind::kStereo;
+  robot.camera.camera = simulator.camera();
+  robot.camera.T_base_camera = simulator.T_base_camera();
+  robot.camera.is_configured = true;
   robot.drive.period_s = params.period_s;
   robot.scan_latency_s = latencies.laser_s;
   robot.wheels_latency_s = latencies.wheels_s;

@@ -35,8 +35,8 @@ struct ClosedLoopParams {
 using LoopObserver =
     std::function<void(const Readings&, const FollowStep&, const Follower&, const FollowSample&)>;
 
-/// What a scene's robot is.
-RobotDescription describeRobot(const Simulator& simulator);
+/// What a simulated robot is, but for its camera's optics and how it is turned.
+RobotDescription describeRobot(const RobotParams& params);
 
 /// What a step tells of itself, without the truth.
 FollowSample sampleOf(const FollowStep& step, const Follower& follower);

@@ -58,6 +58,10 @@ void run(Job& job, const FollowExperimentParams& params) {
   if (!job.is_random && episode.seed == 1) scene.people.resize(1);
   const PetriPlan plan = loadPlan(params.plans / (episode.plan + ".pnml"), followingVocabulary());
   ClosedLoopParams loop;
+  if (params.config) {
+    putRobot(scene, params.config->robot);
+    loop.follower = params.config->follow;
+  }
   loop.seed = episode.seed;
   loop.threads = 1;  // Whole runs are what goes on side by side.
   loop.limit_s = params.limit_s;

@@ -6,25 +6,28 @@
 #pragma once
 
 #include <heel/apps/experiment/closed_loop.hpp>
+#include <heel/apps/experiment/robot_config.hpp>
 #include <heel/apps/pages/follow_experiment_page.hpp>
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace heel {
 
 struct FollowExperimentParams {
-  std::filesystem::path scenes;  ///< Folder of the scenes that come with Heel.
-  std::filesystem::path plans;   ///< Folder of the plans.
-  bool table1 = true;            ///< Whether to make the paper's three experiments.
-  int episodes = 100;            ///< Random ones; with our plan.
-  std::uint64_t first_seed = 1;  ///< Of the random episodes.
-  double limit_s = 600.0;        ///< Of each run.
-  std::string rough;             ///< Of the random ones' world; see roughWorldOf().
-  int jobs = 0;                  ///< Runs at a time; 0: as many as the machine has threads.
+  std::filesystem::path scenes;       ///< Folder of the scenes that come with Heel.
+  std::filesystem::path plans;        ///< Folder of the plans.
+  bool table1 = true;                 ///< Whether to make the paper's three experiments.
+  int episodes = 100;                 ///< Random ones; with our plan.
+  std::uint64_t first_seed = 1;       ///< Of the random episodes.
+  double limit_s = 600.0;             ///< Of each run.
+  std::string rough;                  ///< Of the random ones' world; see roughWorldOf().
+  std::optional<RobotConfig> config;  ///< Instead of each scene's robot, and the defaults.
+  int jobs = 0;                       ///< Runs at a time; 0: as many as the machine has threads.
 };
 
 /// The three experiments in the scene `office`, each with the paper's plan and with ours, then the

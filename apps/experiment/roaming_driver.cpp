@@ -29,7 +29,7 @@ RoamingDriver::RoamingDriver(const Scene& scene, std::uint64_t seed) : random_(h
   room_ = OccupancyGrid(bounds.low, kRoamCell_m, static_cast<int>(size.x()) + 1,
                         static_cast<int>(size.y()) + 1, Occupancy::kOccupied);
   const FloorPlan plan(scene);
-  const double needed_m = scene.robot.radius_m + 0.08;
+  const double needed_m = scene.robot.drive.radius_m + 0.08;
   for (GridCell c; c.y < room_.height(); ++c.y) {
     for (c.x = 0; c.x < room_.width(); ++c.x) {
       if (plan.clearance(room_.center(c)) >= needed_m) room_.at(c) = Occupancy::kFree;

@@ -60,6 +60,7 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   params.goal.radius_m = robot.drive.radius_m;
   params.wayside.radius_m = robot.drive.radius_m;
   params.drive.limits = robot.drive;
+  params.search.map.limits = robot.drive;
   LastGateParams& gate = params.last_gate;
   gate.limits = robot.drive;
   gate.T_base_scanner = robot.T_base_scanner;

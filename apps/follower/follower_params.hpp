@@ -39,9 +39,9 @@ struct RobotDescription {
 };
 
 /// All that can be set of a Follower. Some of it the robot tells, whatever is written here:
-/// drive.limits, paths.robot_radius_m, goal.radius_m, wayside.radius_m, obstacles.max_height_m,
-/// obstacles.laser_height_m, obstacle_points.max_height_m, gate.eye_height_m, and of last_gate all
-/// but margin_m and remembers_s; see fittedTo().
+/// drive.limits, search.map.limits, paths.robot_radius_m, goal.radius_m, wayside.radius_m,
+/// obstacles.max_height_m, obstacles.laser_height_m, obstacle_points.max_height_m,
+/// gate.eye_height_m, and of last_gate all but margin_m and remembers_s; see fittedTo().
 struct FollowerParams {
   LearnPersonParams learn;
   PerceptionParams perception;

@@ -180,6 +180,7 @@ int main(int argc, char** argv) {
   heel::addView(app);
   heel::addEvaluate(app);
   heel::addExperiment(app);
+  heel::addConfig(app);
   heel::completeVerbs(app);
   heel::addCompletion(app);
   try {

@@ -19,7 +19,7 @@ DriveBase::DriveBase(const RobotParams& params)
     : params_(params), pose_{params.start, params.start_yaw_rad} {}
 
 void DriveBase::accelerate(double dt_s, const VelocityCommand& command) {
-  const RobotParams& p = params_;
+  const DriveLimits& p = params_.drive;
   speed_.forward_mps = towards(speed_.forward_mps,
                                std::clamp(command.forward_mps, -p.max_speed_mps, p.max_speed_mps),
                                p.max_acceleration_mps2 * dt_s);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <heel/apps/simulation/color.hpp>
+#include <heel/planning/trajectory.hpp>
 
 #include <Eigen/Core>
 
@@ -166,6 +167,7 @@ struct LaserParams {
   double rate_hz = 10.0;               ///< Scans per second.
   double max_range_m = 20.0;           ///< Beams see nothing further away than this.
   double noise_m = 0.01;               ///< Standard deviation of a range.
+  double latency_s = 0.0;              ///< A scan comes at most so long after it was measured.
 };
 
 /// Errors of the wheels' odometry, as standard deviations that grow with the way gone.
@@ -183,12 +185,11 @@ struct OdometryParams {
 struct RobotParams {
   Eigen::Vector2d start = Eigen::Vector2d::Zero();  ///< Where the robot is at the beginning [m].
   double start_yaw_rad = 0.0;                       ///< Its heading at the beginning.
-  double radius_m = 0.26;                           ///< Radius of the disc that holds the robot.
+  DriveLimits drive;                                ///< Its size and how it drives.
   double height_m = 1.1;                            ///< Height of the robot.
-  double max_speed_mps = 0.3;                       ///< Greatest speed.
-  double max_turn_radps = 1.0;                      ///< Greatest speed of turning.
-  double max_acceleration_mps2 = 0.5;               ///< Greatest acceleration.
-  double max_turn_acceleration_radps2 = 2.0;        ///< Greatest acceleration of turning.
+  /// A command acts on the wheels at most so long after it was sent, and odometry comes at most so
+  /// late.
+  double wheels_latency_s = 0.0;
   CameraParams camera;
   LaserParams laser;
   OdometryParams odometry;

@@ -3,73 +3,165 @@
 
 #include <heel/apps/simulation/scene_parts.hpp>
 
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+#include <type_traits>
+
 namespace heel {
+
+std::string shortestText(double value) {
+  char text[32];
+  for (int digits = 6; digits <= 17; ++digits) {
+    std::snprintf(text, sizeof text, "%.*g", digits, value);
+    if (std::strtod(text, nullptr) == value) break;
+  }
+  return text;
+}
+
 namespace {
 
-CameraParams readCamera(YamlMap& map) {
-  CameraParams camera;
-  camera.at = map.point3("at", camera.at);
-  camera.pitch_rad = map.number("pitch_deg", camera.pitch_rad / kRadians, {-60, 60}) * kRadians;
-  camera.width = map.integer("width", camera.width, 16, 4096);
-  camera.height = map.integer("height", camera.height, 16, 4096);
-  camera.horizontal_view_rad =
-      map.number("view_deg", camera.horizontal_view_rad / kRadians, {5, 150}) * kRadians;
-  camera.baseline_m = map.number("baseline_m", camera.baseline_m, kPositive);
-  camera.rate_hz = map.number("rate_hz", camera.rate_hz, kPositive);
-  camera.exposure = map.number("exposure", camera.exposure, kPositive);
-  camera.read_noise = map.number("read_noise", camera.read_noise, kNotNegative);
-  camera.shot_noise = map.number("shot_noise", camera.shot_noise, kNotNegative);
-  camera.vignetting = map.number("vignetting", camera.vignetting, kShare);
-  camera.blur_px = map.number("blur_px", camera.blur_px, {0.0, 3.0});
-  camera.drawn_light = map.flag("drawn_light", camera.drawn_light);
-  map.done();
-  return camera;
-}
+/// Takes the values of a map's keys; what is absent stays as it is.
+struct RobotReader {
+  YamlMap& map;
 
-LaserParams readLaser(YamlMap& map) {
-  LaserParams laser;
-  laser.at = map.point3("at", laser.at);
-  laser.view_rad = map.number("view_deg", laser.view_rad / kRadians, {1, 360}) * kRadians;
-  laser.beams = map.integer("beams", laser.beams, 2, 100000);
-  laser.rate_hz = map.number("rate_hz", laser.rate_hz, kPositive);
-  laser.max_range_m = map.number("max_range_m", laser.max_range_m, kPositive);
-  laser.noise_m = map.number("noise_m", laser.noise_m, kNotNegative);
-  map.done();
-  return laser;
-}
+  void number(const char* key, double& value, NumberRange range, const char*) {
+    value = map.number(key, value, range);
+  }
+  void angle(const char* key, double& value_rad, NumberRange range_deg, const char*) {
+    if (map.has(key)) value_rad = map.number(key, range_deg) * kRadians;
+  }
+  void integer(const char* key, int& value, int low, int high, const char*) {
+    value = map.integer(key, value, low, high);
+  }
+  void flag(const char* key, bool& value, const char*) { value = map.flag(key, value); }
+  void place(const char* key, Eigen::Vector3d& value, const char*) {
+    value = map.point3(key, value);
+  }
+  template <typename Part>
+  void part(const char* key, Part& value) {
+    if (auto inner = map.map(key, key)) {
+      RobotReader reader{*inner};
+      visit(reader, value);
+      inner->done();
+    }
+  }
+};
 
-OdometryParams readOdometry(YamlMap& map) {
-  OdometryParams odometry;
-  odometry.rate_hz = map.number("rate_hz", odometry.rate_hz, kPositive);
-  odometry.distance_noise = map.number("distance_noise", odometry.distance_noise, kNotNegative);
-  odometry.turn_noise = map.number("turn_noise", odometry.turn_noise, kNotNegative);
-  odometry.drift_noise = map.number("drift_noise", odometry.drift_noise, kNotNegative);
-  odometry.distance_bias = map.number("distance_bias", odometry.distance_bias, {-1, 1});
-  odometry.turn_bias = map.number("turn_bias", odometry.turn_bias, {-1, 1});
-  odometry.drift_bias = map.number("drift_bias", odometry.drift_bias, {-1, 1});
-  map.done();
-  return odometry;
+/// Writes them, each with what it is.
+struct RobotWriter {
+  std::ostringstream& out;
+  std::string indent;
+
+  void line(const char* key, const std::string& value, const char* what) {
+    out << indent << key << ": " << value << "  # " << what << '\n';
+  }
+  void number(const char* key, double value, NumberRange, const char* what) {
+    line(key, shortestText(value), what);
+  }
+  void angle(const char* key, double value_rad, NumberRange, const char* what) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.9g", value_rad / kRadians);
+    line(key, text, what);
+  }
+  void integer(const char* key, int value, int, int, const char* what) {
+    line(key, std::to_string(value), what);
+  }
+  void flag(const char* key, bool value, const char* what) {
+    line(key, value ? "true" : "false", what);
+  }
+  void place(const char* key, const Eigen::Vector3d& p, const char* what) {
+    line(key,
+         "[" + shortestText(p.x()) + ", " + shortestText(p.y()) + ", " + shortestText(p.z()) + "]",
+         what);
+  }
+  template <typename Part>
+  void part(const char* key, const Part& value) {
+    out << indent << key << ":\n";
+    RobotWriter writer{out, indent + "  "};
+    visit(writer, value);
+  }
+};
+
+// One list of the keys, for reading (the parts change) and for writing (they are const).
+template <typename Part, typename As>
+constexpr bool kIs = std::is_same_v<std::remove_const_t<Part>, As>;
+
+template <typename Keys, typename Part>
+void visit(Keys& keys, Part& p) {
+  if constexpr (kIs<Part, CameraParams>) {
+    keys.place("at", p.at, "[m] place of the left camera in the base frame: ahead, left, up");
+    keys.angle("pitch_deg", p.pitch_rad, {-60, 60}, "[deg] how far it looks down");
+    keys.integer("width", p.width, 16, 4096, "[px]");
+    keys.integer("height", p.height, 16, 4096, "[px]");
+    keys.angle("view_deg", p.horizontal_view_rad, {5, 150}, "[deg] horizontal field of view");
+    keys.number("baseline_m", p.baseline_m, kPositive, "[m] from the left camera to the right");
+    keys.number("rate_hz", p.rate_hz, kPositive, "[1/s] pictures; of a simulated robot");
+    keys.number("exposure", p.exposure, kPositive, "simulated: signal for a radiance of 1");
+    keys.number("read_noise", p.read_noise, kNotNegative, "simulated, of 255 levels");
+    keys.number("shot_noise", p.shot_noise, kNotNegative, "simulated, of 255 levels");
+    keys.number("vignetting", p.vignetting, kShare, "simulated: share lost in the corners");
+    keys.number("blur_px", p.blur_px, {0.0, 3.0}, "[px] simulated");
+    keys.flag("drawn_light", p.drawn_light, "simulated: exposure and colours drawn from the seed");
+  } else if constexpr (kIs<Part, LaserParams>) {
+    keys.place("at", p.at, "[m] its place in the base frame: ahead, left, up");
+    keys.angle("view_deg", p.view_rad, {1, 360}, "[deg] from the first beam to the last");
+    keys.integer("beams", p.beams, 2, 100000, "of a scan");
+    keys.number("rate_hz", p.rate_hz, kPositive, "[1/s] scans; of a simulated robot");
+    keys.number("max_range_m", p.max_range_m, kPositive, "[m] simulated");
+    keys.number("noise_m", p.noise_m, kNotNegative, "[m] simulated: deviation of a range");
+    keys.number("latency_s", p.latency_s, {0.0, 1.0}, "[s] a scan comes at most so late");
+  } else if constexpr (kIs<Part, OdometryParams>) {
+    keys.number("rate_hz", p.rate_hz, kPositive, "[1/s] simulated, as all of odometry");
+    keys.number("distance_noise", p.distance_noise, kNotNegative, "[m] per root of a metre");
+    keys.number("turn_noise", p.turn_noise, kNotNegative, "[rad] per root of a radian");
+    keys.number("drift_noise", p.drift_noise, kNotNegative, "[rad] per root of a metre");
+    keys.number("distance_bias", p.distance_bias, {-1, 1}, "share of the way");
+    keys.number("turn_bias", p.turn_bias, {-1, 1}, "share of the turn");
+    keys.number("drift_bias", p.drift_bias, {-1, 1}, "[rad/m]");
+  } else {
+    auto& drive = p.drive;
+    keys.number("radius_m", drive.radius_m, kPositive, "[m] of the disc that holds the robot");
+    keys.number("height_m", p.height_m, kPositive, "[m] what hangs lower is in its way");
+    keys.number("max_speed_mps", drive.max_speed_mps, kPositive, "[m/s] forwards");
+    keys.number("max_reverse_mps", drive.max_reverse_mps, kPositive, "[m/s] backwards");
+    keys.number("max_turn_radps", drive.max_turn_radps, kPositive, "[rad/s]");
+    keys.number("max_acceleration_mps2", drive.max_acceleration_mps2, kPositive,
+                "[m/s2] and deceleration");
+    keys.number("max_turn_acceleration_radps2", drive.max_turn_acceleration_radps2, kPositive,
+                "[rad/s2]");
+    keys.number("wheels_latency_s", p.wheels_latency_s, {0.0, 1.0},
+                "[s] a command acts, and odometry comes, at most so late");
+    keys.part("camera", p.camera);
+    keys.part("laser", p.laser);
+    keys.part("odometry", p.odometry);
+  }
 }
 
 }  // namespace
 
-RobotParams readRobot(YamlMap& map) {
+RobotParams readRobotItself(YamlMap& map) {
   RobotParams robot;
-  robot.start = map.point2("start");
-  robot.start_yaw_rad = map.number("yaw_deg", 0.0) * kRadians;
-  robot.radius_m = map.number("radius_m", robot.radius_m, kPositive);
-  robot.height_m = map.number("height_m", robot.height_m, kPositive);
-  robot.max_speed_mps = map.number("max_speed_mps", robot.max_speed_mps, kPositive);
-  robot.max_turn_radps = map.number("max_turn_radps", robot.max_turn_radps, kPositive);
-  robot.max_acceleration_mps2 =
-      map.number("max_acceleration_mps2", robot.max_acceleration_mps2, kPositive);
-  robot.max_turn_acceleration_radps2 =
-      map.number("max_turn_acceleration_radps2", robot.max_turn_acceleration_radps2, kPositive);
-  if (auto camera = map.map("camera", "camera")) robot.camera = readCamera(*camera);
-  if (auto laser = map.map("laser", "laser")) robot.laser = readLaser(*laser);
-  if (auto odometry = map.map("odometry", "odometry")) robot.odometry = readOdometry(*odometry);
+  RobotReader reader{map};
+  visit(reader, robot);
   map.done();
   return robot;
+}
+
+RobotParams readRobot(YamlMap& map) {
+  const Eigen::Vector2d start = map.point2("start");
+  const double yaw_rad = map.number("yaw_deg", 0.0) * kRadians;
+  RobotParams robot = readRobotItself(map);
+  robot.start = start;
+  robot.start_yaw_rad = yaw_rad;
+  return robot;
+}
+
+std::string toYaml(const RobotParams& robot, const std::string& indent) {
+  std::ostringstream out;
+  RobotWriter writer{out, indent};
+  visit(writer, robot);
+  return out.str();
 }
 
 }  // namespace heel

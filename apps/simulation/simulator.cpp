@@ -119,17 +119,17 @@ double Simulator::State::clearance(const Eigen::Vector2d& p) const {
     const Mover mover = walker.mover();
     least = std::min(least, (mover.position - p).norm() - mover.radius_m);
   }
-  return least - scene.robot.radius_m;
+  return least - scene.robot.drive.radius_m;
 }
 
 /// Whether the robot, on its way from one place to another, moves towards what it touches there.
 bool Simulator::State::isDrivenInto(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
-  if (plan.clearance(to) < scene.robot.radius_m) return true;
+  if (plan.clearance(to) < scene.robot.drive.radius_m) return true;
   return std::any_of(walkers.begin(), walkers.end(), [&](const Walker& walker) {
     const Mover mover = walker.mover();
     const double before_m = (mover.position - from).norm();
     const double after_m = (mover.position - to).norm();
-    return after_m < mover.radius_m + scene.robot.radius_m &&
+    return after_m < mover.radius_m + scene.robot.drive.radius_m &&
            before_m - after_m > kMoves_mps * kTick_s;
   });
 }
@@ -172,7 +172,8 @@ void Simulator::State::tick() {
     for (std::size_t j = 0; j < walkers.size(); ++j) {
       if (j != i) others.push_back(walkers[j].mover());
     }
-    others.push_back({robot.pose().position, robot_velocity, scene.robot.radius_m + kRobotRoom_m});
+    others.push_back(
+        {robot.pose().position, robot_velocity, scene.robot.drive.radius_m + kRobotRoom_m});
     walkers[i].step(kTicksPerStride * kTick_s, plan, others, others.back());
   }
 }

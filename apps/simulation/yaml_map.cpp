@@ -3,8 +3,10 @@
 
 #include <heel/apps/simulation/yaml_map.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -18,6 +20,20 @@ std::string show(double value) {
   return text;
 }
 
+// Letters to change, add or leave out to get from one word to the other.
+std::size_t editsBetween(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t before = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t same = before + (a[i - 1] == b[j - 1] ? 0 : 1);
+      before = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, same}));
+    }
+  }
+  return row.back();
+}
+
 [[noreturn]] void failAt(const std::string& file, const YAML::Mark& mark, const std::string& text) {
   const std::string line = mark.is_null() ? "" : ", line " + std::to_string(mark.line + 1);
   throw std::runtime_error(file + line + ": " + text);
@@ -28,16 +44,22 @@ std::string show(double value) {
 YamlMap::YamlMap(const YAML::Node& node, std::string file, std::string what)
     : node_(node), file_(std::move(file)), what_(std::move(what)) {
   if (!node_.IsMap()) failAt(file_, node_.Mark(), "the " + what_ + " must be a map of keys");
+  std::set<std::string> keys;
+  for (const auto& entry : node_) {
+    if (!entry.first.IsScalar() || keys.insert(entry.first.Scalar()).second) continue;
+    failAt(file_, entry.first.Mark(),
+           "'" + entry.first.Scalar() + "' of the " + what_ + " is there twice");
+  }
 }
 
 YamlMap YamlMap::fromFile(const std::string& file, const std::string& what) {
   if (!std::filesystem::is_regular_file(file)) throw std::runtime_error(file + ": no such file");
   try {
     return {YAML::LoadFile(file), file, what};
-  } catch (const YAML::ParserException& error) {
-    failAt(file, error.mark, "not YAML: " + error.msg);
   } catch (const YAML::BadFile&) {
     throw std::runtime_error(file + ": can't be read");
+  } catch (const YAML::Exception& error) {
+    failAt(file, error.mark, "not YAML: " + error.msg);
   }
 }
 
@@ -171,10 +193,15 @@ void YamlMap::done() const {
   for (const auto& entry : node_) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "?";
     if (known_.count(key) != 0) continue;
-    std::string all;
-    for (const std::string& name : known_) all += (all.empty() ? "" : ", ") + name;
+    std::string all, nearest;
+    for (const std::string& name : known_) {
+      all += (all.empty() ? "" : ", ") + name;
+      if (nearest.empty() || editsBetween(key, name) < editsBetween(key, nearest)) nearest = name;
+    }
     failAt(file_, entry.first.Mark(),
-           "'" + key + "' is not a key of the " + what_ + "; it can have " + all);
+           "'" + key + "' is not a key of the " + what_ +
+               (nearest.empty() ? "" : ", and '" + nearest + "' is nearest") + "; it can have " +
+               all);
   }
 }
 

@@ -4,7 +4,7 @@
 /// @file
 /// The last gate's promise in ten million drawn situations, or as many as are asked for: ends with
 /// 1 if it was broken. Then the time of one velocity before a wall. After SECONDS no more is drawn.
-///   last_gate_benchmark [SITUATIONS [SECONDS]]
+///   last_gate_benchmark [SITUATIONS [SECONDS [SEED]]]
 
 #include "tests/support/gate_trial.hpp"
 #include <heel/planning/last_gate.hpp>
@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
   const auto start = std::chrono::steady_clock::now();
   long situations = 0, held_back = 0, broken = 0;
   double deepest_m = 0.0, way_m = 0.0;
-  for (std::uint64_t seed = 1;
+  for (std::uint64_t seed = argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1;
        situations < wanted && std::chrono::steady_clock::now() - start < most; ++seed) {
     const heel::test::GateTrial trial = heel::test::runGateTrial(seed);
     situations += trial.situations;

@@ -15,12 +15,14 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace heel {
 namespace {
 
 struct FollowExperimentOptions {
   std::filesystem::path out;
+  std::string config;  // empty: each scene's robot, and the defaults
   FollowExperimentParams params;
 };
 
@@ -38,6 +40,9 @@ void printRow(const FollowEpisode& episode) {
 void run(FollowExperimentOptions& options) {
   options.params.scenes = sceneFolder();
   options.params.plans = planFolder();
+  if (!options.config.empty()) {
+    options.params.config = loadRobotConfig(robotFile(options.config).string());
+  }
   std::optional<Output> output = experimentOutput("follow", options.out);
   const int runs = (options.params.table1 ? 6 : 0) + options.params.episodes;
   ProgressBar progress("runs", static_cast<std::size_t>(runs));
@@ -52,6 +57,7 @@ void run(FollowExperimentOptions& options) {
                        std::to_string(options.params.first_seed);
   if (!options.params.table1) experiment.command += " --no-table1";
   if (!options.params.rough.empty()) experiment.command += " --rough " + options.params.rough;
+  if (!options.config.empty()) experiment.command += " --config " + options.config;
   experiment.command += " --out again";
   const EpisodeCounts all = countEpisodes(experiment.episodes, experiment.plans.back());
   std::printf(
@@ -87,6 +93,7 @@ void addFollowExperiment(CLI::App& experiment) {
   verb->add_option("--limit", options->params.limit_s, "a run ends after so long [s]")
       ->capture_default_str();
   addRough(*verb, options->params.rough);
+  addRobotConfig(*verb, options->config);
   verb->add_option("--jobs", options->params.jobs, "runs side by side; 0: one for each thread")
       ->capture_default_str();
   verb->add_option("--out", options->out, "folder for the results")->required();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/experiment/random_episode.hpp>
+#include <heel/apps/experiment/robot_config.hpp>
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/follow/follow_output.hpp>
 #include <heel/apps/heel/follow/shadow.hpp>
@@ -21,6 +22,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -46,6 +48,7 @@ struct FollowOptions {
   std::string image_size;  // empty: the scene's
   std::string light;       // the same
   std::string rough;       // empty: nothing
+  std::string config;      // empty: the scene's robot, and the defaults
   double rate_hz = 0.0;    // 0: the scene's camera's, and ten commands a second
   bool random = false;
   RandomEpisodeParams episode;
@@ -57,10 +60,11 @@ struct FollowOptions {
   RecordingParams opening;
 };
 
-Scene sceneOf(const FollowOptions& options) {
+Scene sceneOf(const FollowOptions& options, const std::optional<RobotConfig>& config) {
   Scene scene = options.random ? randomEpisode(options.loop.seed, sceneFolder(), options.episode)
                                : loadScene(sceneFile(options.scene).string());
   if (options.alone && !scene.people.empty()) scene.people.resize(1);
+  if (config) putRobot(scene, config->robot);
   setLight(scene, options.light);
   CameraParams& camera = scene.robot.camera;
   char end = '\0';
@@ -80,6 +84,7 @@ std::string commandOf(const FollowOptions& options) {
   if (!options.map.map.empty()) {
     command << "heel follow " << options.scene << " --map " << options.map.map;
     if (!options.model.empty()) command << " --model " << options.model.string();
+    if (!options.config.empty()) command << " --config " << options.config;
     command << " --plan " << options.plan << " --out again";
     return command.str();
   }
@@ -91,6 +96,7 @@ std::string commandOf(const FollowOptions& options) {
   if (!options.image_size.empty()) command << " --image-size " << options.image_size;
   if (!options.light.empty()) command << " --light " << options.light;
   if (!options.rough.empty()) command << " --rough " << options.rough;
+  if (!options.config.empty()) command << " --config " << options.config;
   if (options.rate_hz > 0.0) command << " --rate " << options.rate_hz;
   command << " --plan " << options.plan << " --seed " << options.loop.seed;
   if (options.loop.limit_s != shortest.loop.limit_s) {
@@ -143,8 +149,9 @@ void print(const FollowSummary& summary, const FollowOutput& output) {
   std::printf("results in %s: %s\n", output.folder().c_str(), output.fileNames().c_str());
 }
 
-ShadowParams shadowOf(const FollowOptions& options) {
+ShadowParams shadowOf(const FollowOptions& options, const std::optional<RobotConfig>& config) {
   ShadowParams params;
+  if (config) params.config = *config;
   params.recording = options.scene;
   params.opening = options.opening;
   params.map = openLogMap(options.map);
@@ -169,7 +176,10 @@ void run(FollowOptions& options) {
     options.loop.period_s = std::max(1.0, std::round(100.0 / options.rate_hz)) / 100.0;
   }
   options.loop.rough = roughWorldOf(options.rough);
-  const Scene scene = is_log ? Scene() : sceneOf(options);
+  std::optional<RobotConfig> config;
+  if (!options.config.empty()) config = loadRobotConfig(robotFile(options.config).string());
+  if (config) options.loop.follower = config->follow;
+  const Scene scene = is_log ? Scene() : sceneOf(options, config);
   const std::filesystem::path plan_file = planFile(options.plan);
   const PetriPlan plan = loadPlan(plan_file, followingVocabulary());
   std::vector<std::filesystem::path> inputs = {plan_file};
@@ -178,6 +188,7 @@ void run(FollowOptions& options) {
   } else if (!options.random) {
     inputs.push_back(sceneFile(options.scene));
   }
+  if (config) inputs.push_back(robotFile(options.config));
   FollowOutput output(options.out, !options.no_film, options.bag, inputs);
   // Of a log, runShadow() tells.
   ProgressBar progress("following", is_log ? 0 : static_cast<std::size_t>(options.loop.limit_s));
@@ -195,7 +206,7 @@ void run(FollowOptions& options) {
     const double ms = clock.lap_ms();
     if (stage != FollowStage::kBegin) output.addTime(stage, ms);
   };
-  FollowLog log = is_log ? runShadow(shadowOf(options), plan, observer, stage_done)
+  FollowLog log = is_log ? runShadow(shadowOf(options, config), plan, observer, stage_done)
                          : runClosedLoop(scene, plan, options.loop, observer, stage_done);
   log.command = commandOf(options);
   const FollowSummary summary = summarize(log);
@@ -251,6 +262,7 @@ void addFollow(CLI::App& app) {
                    "pictures and commands [Hz]; the period is rounded to 0.01 s (default: the "
                    "scene's pictures, 10 commands)")
       ->check(CLI::Range(1.0, 100.0));
+  addRobotConfig(*verb, options->config);
   addLight(*verb, options->light);
   addRough(*verb, options->rough);
   verb->add_flag("--no-film", options->no_film, "write no film");

@@ -96,12 +96,13 @@ class DrivenSpeed {
 
 Follower makeFollower(const ShadowParams& params, const PetriPlan& plan, const CameraSetup& setup,
                       const LogLaser& laser, const LaserReading& first) {
-  RobotDescription robot;
+  RobotDescription robot = describeRobot(params.config.robot);
   robot.camera = setup;
   robot.T_base_scanner = laser.T_base_scanner;
   robot.scanner_height_m = laser.height_m;
   const auto in_map = motionInMap(params.recording, params.opening);
-  return Follower(robot, params.map.walls, plan, startOnMap(params.map, in_map, first, setup));
+  return Follower(robot, params.map.walls, plan, startOnMap(params.map, in_map, first, setup),
+                  params.config.follow);
 }
 
 }  // namespace
@@ -109,7 +110,7 @@ Follower makeFollower(const ShadowParams& params, const PetriPlan& plan, const C
 FollowLog runShadow(const ShadowParams& params, const PetriPlan& plan, const LoopObserver& observer,
                     const Follower::StageDone& stage_done) {
   const auto open = [&] { return openRecording(params.recording, params.opening); };
-  const CameraSetup setup = findCameraSetup(*open());
+  const CameraSetup setup = findCameraSetup(*open(), params.config.camera_setup);
   for (const std::string& warning : setup.warnings) warn(warning);
   auto recording = open();
   RobotPlaces odometry(*recording, setup);

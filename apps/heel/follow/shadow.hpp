@@ -6,6 +6,7 @@
 #pragma once
 
 #include <heel/apps/experiment/closed_loop.hpp>
+#include <heel/apps/experiment/robot_config.hpp>
 #include <heel/apps/heel/shared/robot_places.hpp>
 #include <heel/segmentation/appearance_model.hpp>
 
@@ -19,12 +20,13 @@ struct ShadowParams {
   std::filesystem::path recording;  ///< With camera, laser scans and odometry.
   RecordingParams opening;
   LogMap map;
-  std::optional<AppearanceModel> model;                      ///< Else the log begins with phase 1.
+  RobotConfig config;                    ///< Camera and scanner are where the log says.
+  std::optional<AppearanceModel> model;  ///< Else the log begins with phase 1.
   double limit_s = std::numeric_limits<double>::infinity();  ///< It ends here, whatever comes.
 };
 
-/// Gives the follower a log's readings, at each moment in which camera or laser measured. Its robot
-/// is one of the default size and speed; its commands move nothing, so what it would have done is
+/// Gives the follower a log's readings, at each moment in which camera or laser measured. Its
+/// commands move nothing, so what it would have done is
 /// to be judged from moment to moment: had it driven, it would have been elsewhere later.
 ///
 /// Of the samples, `robot_true` is the log's reference where it has one, else the estimate;

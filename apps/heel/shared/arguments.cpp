@@ -36,6 +36,16 @@ fs::path sceneFile(const std::string& scene) {
   return find(scene, sceneFolder(), ".yaml", "scene");
 }
 
+fs::path robotFile(const std::string& robot) {
+  return find(robot, shippedFolder("robots"), ".yaml", "robot");
+}
+
+void addRobotConfig(CLI::App& verb, std::string& robot) {
+  verb.add_option("--config", robot,
+                  "the robot and how it follows: a name (turtlebot4, tiago, ...) or a YAML file, "
+                  "as 'heel config' prints one (default: the scene's robot)");
+}
+
 void addLight(CLI::App& verb, std::string& light) {
   verb.add_option("--light", light,
                   "exposure, white balance, gamma, motion blur and flicker: 'fixed', or 'drawn' "

@@ -25,6 +25,13 @@ std::filesystem::path sceneFolder();
 /// @throws std::runtime_error  if there is neither.
 std::filesystem::path sceneFile(const std::string& scene);
 
+/// A robot's file: the path itself, or the name of a robot that comes with Heel.
+/// @throws std::runtime_error  if there is neither.
+std::filesystem::path robotFile(const std::string& robot);
+
+/// Adds --config: a robot's name or file.
+void addRobotConfig(CLI::App& verb, std::string& robot);
+
 /// Adds --light: 'fixed' or 'drawn'; empty is as the scene says.
 void addLight(CLI::App& verb, std::string& light);
 

@@ -16,12 +16,12 @@ TEST(DriveBase, ObeysItsLimitsOfSpeedAndAcceleration) {
   double last = 0.0;
   for (int i = 0; i < 200; ++i) {
     robot.accelerate(0.01, {5.0, 9.0});
-    EXPECT_LE(robot.speed().forward_mps - last, params.max_acceleration_mps2 * 0.01 + 1e-12);
+    EXPECT_LE(robot.speed().forward_mps - last, params.drive.max_acceleration_mps2 * 0.01 + 1e-12);
     last = robot.speed().forward_mps;
     robot.go(0.01, true);
   }
   EXPECT_DOUBLE_EQ(robot.speed().forward_mps, 0.3);
-  EXPECT_DOUBLE_EQ(robot.speed().turn_radps, params.max_turn_radps);
+  EXPECT_DOUBLE_EQ(robot.speed().turn_radps, params.drive.max_turn_radps);
 }
 
 TEST(WheelOdometry, DriftsWithTheStatisticsThatAreConfigured) {

@@ -71,7 +71,7 @@ robot: {start: [3, 1], yaw_deg: 180, laser: {beams: 361}}
   EXPECT_EQ(scene.people[0].path[1].kind, PathStep::Kind::kWaitForRobot);
   EXPECT_DOUBLE_EQ(scene.people[0].path[0].speed_mps, 0.5);
   EXPECT_EQ(scene.robot.laser.beams, 361);
-  EXPECT_DOUBLE_EQ(scene.robot.max_speed_mps, RobotParams().max_speed_mps);
+  EXPECT_DOUBLE_EQ(scene.robot.drive.max_speed_mps, DriveLimits().max_speed_mps);
 }
 
 TEST(SceneFile, NamesFileLineAndKeyOfAnUnknownKey) {
