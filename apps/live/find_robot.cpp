@@ -59,6 +59,7 @@ double steadyClock_s() {
 }
 
 FoundRobot findRobot(Ros2Network& network, const BagTopics& topics,
+                     const CameraSetupParams& camera_setup,
                      const std::function<bool(const std::string&)>& goes_on) {
   std::set<std::string> subscribed;
   Lately lately;
@@ -89,7 +90,7 @@ FoundRobot findRobot(Ros2Network& network, const BagTopics& topics,
         opening.topics = topics;
         const auto beginning = BagRecording::openLive(survey, std::move(again), opening);
         lately.feed(replayed);
-        robot.camera = findCameraSetup(*beginning);
+        robot.camera = findCameraSetup(*beginning, camera_setup);
         const auto& needed = robot.readings->topics();
         for (const std::string& name : subscribed) {
           if (std::find(needed.begin(), needed.end(), name) == needed.end()) {

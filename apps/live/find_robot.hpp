@@ -26,6 +26,7 @@ struct FoundRobot {
 /// search.
 /// @throws std::runtime_error  if it was ended, with what is missing; as findCameraSetup().
 FoundRobot findRobot(Ros2Network& network, const BagTopics& topics,
+                     const CameraSetupParams& camera_setup,
                      const std::function<bool(const std::string& missing)>& goes_on);
 
 /// A clock that does not jump [s].

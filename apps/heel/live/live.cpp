@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <heel/apps/experiment/robot_config.hpp>
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/follow/follow_output.hpp>
 #include <heel/apps/heel/shared/arguments.hpp>
@@ -32,6 +33,7 @@ struct LiveOptions {
   LogMapOptions map;
   std::filesystem::path model;
   std::string plan = "search";
+  std::string config;  // empty: a robot of the default size and speed
   BagTopics topics;
   Ros2NetworkParams network;
   std::string command_topic = "/cmd_vel";
@@ -41,10 +43,11 @@ struct LiveOptions {
   std::filesystem::path out;
 };
 
-FoundRobot waitForRobot(Ros2Network& network, const LiveOptions& options) {
+FoundRobot waitForRobot(Ros2Network& network, const LiveOptions& options,
+                        const RobotConfig& config) {
   const double began_s = steadyClock_s();
   std::string told;
-  return findRobot(network, options.topics, [&](const std::string& missing) {
+  return findRobot(network, options.topics, config.camera_setup, [&](const std::string& missing) {
     if (isStopRequested()) throw Stopped("stopped before there was a robot");
     if (missing != told) warn("waiting: " + missing);
     told = missing;
@@ -52,16 +55,17 @@ FoundRobot waitForRobot(Ros2Network& network, const LiveOptions& options) {
   });
 }
 
-Follower makeFollower(const LiveOptions& options, const FoundRobot& found) {
+Follower makeFollower(const LiveOptions& options, const FoundRobot& found,
+                      const RobotConfig& config) {
   const LogMap map = openLogMap(options.map);
   const LaserLog& laser = found.readings->laser();
-  RobotDescription robot;
+  RobotDescription robot = describeRobot(config.robot);
   robot.camera = found.camera;
   robot.T_base_scanner =
       map.scanner ? *map.scanner : laser.T_base_scanner().value_or(map.scene_scanner);
   robot.scanner_height_m = laser.scannerHeight_m().value_or(map.scanner_height_m);
   const PetriPlan plan = loadPlan(planFile(options.plan), followingVocabulary());
-  return Follower(robot, map.walls, plan, map.start);
+  return Follower(robot, map.walls, plan, map.start, config.follow);
 }
 
 /// What a run tells on the terminal: each state when it begins, and why.
@@ -132,13 +136,19 @@ void listen(Ros2Network& network, LiveReadings& readings, double period_s) {
 void run(const LiveOptions& options) {
   std::optional<AppearanceModel> model;
   if (!options.model.empty()) model = loadAppearance(options.model);
-  FollowOutput output(options.out, false, {}, {options.model, mapSource(options.map.map)});
+  RobotConfig config;
+  std::vector<std::filesystem::path> inputs = {options.model, mapSource(options.map.map)};
+  if (!options.config.empty()) {
+    inputs.push_back(robotFile(options.config));
+    config = loadRobotConfig(inputs.back().string());
+  }
+  FollowOutput output(options.out, false, {}, inputs);
   Ros2Network network(options.network);
-  const FoundRobot found = waitForRobot(network, options);
+  const FoundRobot found = waitForRobot(network, options, config);
   for (const std::string& warning : found.camera.warnings) warn(warning);
   LiveReadings& readings = *found.readings;
   std::fprintf(stderr, "heel: the robot's camera: %s\n", readings.info().layout.c_str());
-  Follower follower = makeFollower(options, found);
+  Follower follower = makeFollower(options, found, config);
   if (model) follower.skipLearning(*model);
 
   FollowLog log;
@@ -247,6 +257,7 @@ void addLive(CLI::App& app) {
       ->check(CLI::PositiveNumber);
   verb->add_option("--command-topic", options->command_topic, "where velocities go")
       ->capture_default_str();
+  addRobotConfig(*verb, options->config);
   addNetwork(*verb, options->network);
   addLogMap(*verb, options->map, options->topics);
   addCameraTopics(*verb, options->topics);

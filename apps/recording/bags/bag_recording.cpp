@@ -192,6 +192,9 @@ void BagRecording::setUpDepth(const BagSurvey& survey, const BagCamera& camera) 
                              color.topic.name + ", and tf does not tell where '" + depth.frame_id +
                              "' is from '" + color.frame_id + "'");
   }
+  if (!T_color_depth->matrix().allFinite()) {
+    throw std::runtime_error(origin + ": tf's place of '" + depth.frame_id + "' is not finite");
+  }
   depth_camera_ = own;
   if (!is_rectified && isDistorted(*info)) {
     makeMaps(path_ + ", camera_info of " + depth.topic.name, *info, depth_x_, depth_y_);
