@@ -11,7 +11,10 @@
 namespace heel {
 
 CommandSender::CommandSender(std::unique_ptr<BagWriter> writer, CommandSenderParams params)
-    : params_(std::move(params)), writer_(std::move(writer)), thread_([this] { run(); }) {}
+    : params_(std::move(params)), writer_(std::move(writer)) {
+  send({});  // Whether it can be sent is seen here, and not in the thread.
+  thread_ = std::thread([this] { run(); });
+}
 
 CommandSender::~CommandSender() {
   {

@@ -29,6 +29,7 @@ struct CommandSenderParams {
 /// that is killed sends nothing: the base itself must stop when nothing comes.)
 class CommandSender {
  public:
+  /// @throws std::runtime_error  if nothing can be sent.
   explicit CommandSender(std::unique_ptr<BagWriter> writer, CommandSenderParams params = {});
   ~CommandSender();
   CommandSender(const CommandSender&) = delete;

@@ -4,9 +4,9 @@
 #include <heel/apps/experiment/random_episode.hpp>
 #include <heel/apps/experiment/robot_config.hpp>
 #include <heel/apps/heel/commands.hpp>
-#include <heel/apps/heel/follow/follow_output.hpp>
 #include <heel/apps/heel/follow/shadow.hpp>
 #include <heel/apps/heel/shared/arguments.hpp>
+#include <heel/apps/heel/shared/follow_output.hpp>
 #include <heel/apps/heel/shared/lap_clock.hpp>
 #include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/run_end.hpp>

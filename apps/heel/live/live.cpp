@@ -3,8 +3,8 @@
 
 #include <heel/apps/experiment/robot_config.hpp>
 #include <heel/apps/heel/commands.hpp>
-#include <heel/apps/heel/follow/follow_output.hpp>
 #include <heel/apps/heel/shared/arguments.hpp>
+#include <heel/apps/heel/shared/follow_output.hpp>
 #include <heel/apps/heel/shared/lap_clock.hpp>
 #include <heel/apps/heel/shared/network_options.hpp>
 #include <heel/apps/heel/shared/robot_places.hpp>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/heel/follow/follow_output.hpp>
+#include <heel/apps/heel/shared/follow_output.hpp>
 #include <heel/apps/results/result_files.hpp>
 
 #include <opencv2/imgcodecs.hpp>
