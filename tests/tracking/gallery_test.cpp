@@ -82,8 +82,7 @@ TEST(Gallery, ALookOfSeveralColorsIsComparedByItsDivergence) {
   const double first = (0.7 + 0.1 * usual) / 1.1, second = (0.2 + 0.1 * usual) / 1.1;
   const double to_person = std::log(0.5) - 0.5 * (std::log(first) + std::log(second));
   const double to_anybody = std::log(0.5) - std::log(usual);
-  const double log_odds =
-      kLookGain * (kLikenessOffset - to_person + kRarityShare * to_anybody);
+  const double log_odds = kLookGain * (kLikenessOffset - to_person + kRarityShare * to_anybody);
   Gallery gallery(looks, params);
   EXPECT_NEAR(of(gallery, look)[kTarget], target(log_odds, params), 1e-5);
 }
