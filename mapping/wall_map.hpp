@@ -22,6 +22,12 @@ namespace heel {
 struct HeightBand {
   double low_m = 0.0;   ///< Lower end.
   double high_m = 2.0;  ///< Upper end.
+
+  /// What a level scanner at this height sees: its plane, as exactly as one can measure where it
+  /// is. A low one looks under what stands on feet, which a thicker band would show as a wall.
+  static constexpr HeightBand around(double height_m) {
+    return {height_m - 0.005, height_m + 0.005};
+  }
 };
 
 /// The heights at which a robot or a person can bump into something.

@@ -48,9 +48,8 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
       floor_(walls_->floorGrid({0.05, robot.height_m})),
       to_walls_(floor_, 1.0),
       watch_(robot.camera, params_.watch),
-      localization_(
-          walls_->floorGrid({robot.scanner_height_m - 0.05, robot.scanner_height_m + 0.05}),
-          robot.T_base_scanner, params_.localization),
+      localization_(walls_->floorGrid(HeightBand::around(robot.scanner_height_m)),
+                    robot.T_base_scanner, params_.localization),
       layer_(params_.obstacles),
       obstacle_points_(robot.camera, params_.obstacle_points),
       legs_(params_.legs),

@@ -30,6 +30,15 @@ WallMap wallWithDoorway() {
   return builder.build();
 }
 
+TEST(WallMap, WhatStandsOnFeetIsNoWallToAScannerThatLooksUnderIt) {
+  const WallMap map = wallWithDoorway();  // Its lintel begins at 2 m.
+  const auto at = [&](double height_m) {
+    return map.floorGrid(HeightBand::around(height_m)).at(Vector2d(2.1, 0.5));
+  };
+  EXPECT_EQ(at(1.99), Occupancy::kFree);
+  EXPECT_EQ(at(2.01), Occupancy::kOccupied);
+}
+
 TEST(WallMap, KnowsWhereWallsAre) {
   const WallMap map = wallWithDoorway();
   EXPECT_TRUE(map.isWall({2.1, -0.5, 1.0}));

@@ -124,11 +124,9 @@ void RobotPlaces::putOnMap(const std::filesystem::path& path, const RecordingPar
     return;
   }
   scans_ = std::move(laser.scans);
-  // A cell of the map to both sides of the laser's plane.
-  const double cell_m = map.walls->cell_size_m();
-  localization_ = std::make_unique<Localization>(
-      map.walls->floorGrid({laser.height_m - cell_m, laser.height_m + cell_m}),
-      laser.T_base_scanner, map.localization);
+  localization_ =
+      std::make_unique<Localization>(map.walls->floorGrid(HeightBand::around(laser.height_m)),
+                                     laser.T_base_scanner, map.localization);
   has_scan_ = scans_->next(scan_);
 }
 
