@@ -21,6 +21,12 @@ std::string lead(const FollowLog& log, const FollowSummary& sum) {
            shownNumber(sum.command_off_radps, 2, "rad/s") +
            " (root mean squares). Contacts, clearance and the truth of people are not known.";
   }
+  if (log.is_live) {
+    return "The robot went <strong>" + shownNumber(sum.distance_m, 1, "m") +
+           "</strong> in <strong>" + shownNumber(sum.elapsed_s, 0, "s") +
+           "</strong>. It lost them " + timesText(static_cast<std::size_t>(sum.losses)) +
+           ". Contacts, clearance and the truth of people are not known.";
+  }
   const std::string who = log.person.empty() ? "the person" : escapedHtml(log.person);
   std::string text = "The robot went <strong>" + shownNumber(sum.distance_m, 1, "m") +
                      "</strong> behind " + who + " in <strong>" +
@@ -42,7 +48,7 @@ std::string lead(const FollowLog& log, const FollowSummary& sum) {
   return text;
 }
 
-std::string tiles(const FollowSummary& sum) {
+std::string tiles(const FollowLog& log, const FollowSummary& sum) {
   const auto share = [](double value) { return shownNumber(100.0 * value, 1, "%"); };
   const double yaw_deg = sum.yaw_rms_rad * 180.0 / M_PI;
   return tile("Distance", shownNumber(sum.distance_m, 2, "m"),
@@ -51,17 +57,21 @@ std::string tiles(const FollowSummary& sum) {
               shownNumber(sum.driving_speed_mps, 3, "m/s") + " while driving") +
          tile("Time seeking", share(sum.seekShare()),
               shownNumber(sum.seek_s, 1, "s") + "; the paper: 57 to 62\u00a0%") +
-         tile("Contacts by the robot", std::to_string(sum.contacts_by_robot),
-              std::to_string(sum.contactsByPeople()) + " by people; least clearance " +
-                  shownNumber(sum.min_clearance_m, 2, "m"),
-              sum.contacts_by_robot == 0 ? Tone::kGood : Tone::kBad) +
+         (!log.hasTruth()
+              ? std::string()
+              : tile("Contacts by the robot", std::to_string(sum.contacts_by_robot),
+                     std::to_string(sum.contactsByPeople()) + " by people; least clearance " +
+                         shownNumber(sum.min_clearance_m, 2, "m"),
+                     sum.contacts_by_robot == 0 ? Tone::kGood : Tone::kBad)) +
          tile("Target in view", share(sum.elapsed_s > 0 ? sum.with_target_s / sum.elapsed_s : 0.0),
               "lost " + timesText(static_cast<std::size_t>(sum.losses))) +
-         tile("Wrong person", shownNumber(sum.wrong_person_s, 1, "s"),
-              share(sum.wrongShare()) + " of the time",
-              sum.wrongShare() < 0.01 ? Tone::kGood : Tone::kBad) +
-         tile("Place in the map", shownNumber(sum.position_rms_m, 3, "m"),
-              "and " + shownNumber(yaw_deg, 1) + "\u00b0 RMS error") +
+         (!log.hasTruth() ? std::string()
+                          : tile("Wrong person", shownNumber(sum.wrong_person_s, 1, "s"),
+                                 share(sum.wrongShare()) + " of the time",
+                                 sum.wrongShare() < 0.01 ? Tone::kGood : Tone::kBad)) +
+         (log.is_live ? std::string()
+                      : tile("Place in the map", shownNumber(sum.position_rms_m, 3, "m"),
+                             "and " + shownNumber(yaw_deg, 1) + "\u00b0 RMS error")) +
          tile("Nearest to the person", shownNumber(sum.best_distance_m, 2, "m"),
               shownNumber(sum.last_distance_m, 2, "m") + " at the end");
 }
@@ -181,13 +191,15 @@ std::string followPage(const FollowLog& log, const FollowSummary& sum,
   StateTones tones;
   RunPage page;
   page.title = escapedHtml(log.scene) + " \u00b7 Heel";
-  page.eyebrow = "Heel \u00b7 person following in simulation \u00b7 plan " +
-                 escapedHtml(wordsOf(log.plan)) + " \u00b7 seed " + std::to_string(log.seed);
+  page.eyebrow = "Heel \u00b7 person following";
+  if (log.hasTruth()) page.eyebrow += " in simulation";
+  page.eyebrow += " \u00b7 plan " + escapedHtml(wordsOf(log.plan));
+  if (log.hasTruth()) page.eyebrow += " \u00b7 seed " + std::to_string(log.seed);
   page.headline = escapedHtml(log.scene.empty() ? "A run without a name" : log.scene);
   page.outcome = escapedHtml(sum.outcome.empty() ? "no outcome" : sum.outcome);
   page.tone = toneOf(sum.outcome);
   page.lead = lead(log, sum);
-  page.tiles = tiles(sum);
+  page.tiles = tiles(log, sum);
   page.map = followMap(log, frame);
   page.map_legend = followMapLegend(log);
   page.values = momentValue("person is at", "distance", 2, "m") +

@@ -73,6 +73,9 @@ struct FollowLog {
   std::string plan;  ///< Name of the Petri net plan.
   /// The follower ran on a log: its commands moved nothing, and `speed_true` is what the robot did.
   bool is_shadow = false;
+  bool is_live = false;  ///< A robot was driven, and nobody knows the truth.
+  /// Whether contacts, clearance, people and the robot's place are known, as in simulation.
+  bool hasTruth() const { return !is_shadow && !is_live; }
   std::string command;  ///< The command line that repeats the run; may be empty.
   std::string outcome;  ///< The follower's own word: "reached", "failed", "done", "timeout", ...
   std::string person;   ///< Whom to follow.

@@ -179,10 +179,12 @@ nlohmann::ordered_json followJson(const FollowLog& log, const FollowSummary& sum
   json["seek_share"] = numberOrNull(sum.seekShare(), 4);
   json["moving_speed_mps"] = numberOrNull(sum.moving_speed_mps, 4);
   json["driving_speed_mps"] = numberOrNull(sum.driving_speed_mps, 4);
-  json["contacts"] = sum.contacts;
-  json["contacts_by_robot"] = sum.contacts_by_robot;
-  json["contacts_by_people"] = sum.contactsByPeople();
-  json["wrong_person_s"] = numberOrNull(sum.wrong_person_s, 3);
+  if (log.hasTruth()) {
+    json["contacts"] = sum.contacts;
+    json["contacts_by_robot"] = sum.contacts_by_robot;
+    json["contacts_by_people"] = sum.contactsByPeople();
+    json["wrong_person_s"] = numberOrNull(sum.wrong_person_s, 3);
+  }
   json["min_clearance_m"] = numberOrNull(sum.min_clearance_m, 3);
   json["losses"] = sum.losses;
   json["with_target_s"] = numberOrNull(sum.with_target_s, 3);

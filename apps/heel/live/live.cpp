@@ -157,7 +157,7 @@ void run(const LiveOptions& options) {
   log.map = follower.floor();
   log.robot_radius_m = follower.robot().drive.radius_m;
   log.max_speed_mps = follower.robot().drive.max_speed_mps;
-  log.is_shadow = true;  // there is no truth to show
+  log.is_live = true;
   log.outcome = "ended";
   LapClock clock;
   const Follower::StageDone stage_done = [&](FollowStage stage) {
