@@ -63,8 +63,27 @@ FollowSample sampleOf(const FollowStep& step, const Follower& follower) {
     sample.candidate_share =
         step.perception->color_pixels / static_cast<double>(step.perception->mask.total());
   }
-  if (!step.is_learning) sample.target_estimate = step.target;
+  sample.robot_true = step.robot.pose;
+  sample.speed_true = step.velocity;
+  if (step.target && !step.is_learning) {
+    sample.target_estimate = step.target;
+    sample.person_distance_m = (*step.target - step.robot.pose.position).norm();
+  }
   return sample;
+}
+
+Readings shownOf(const RobotReadings& readings, StereoReading& picture) {
+  Readings shown;
+  shown.stamp_s = readings.stamp_s;
+  if (readings.frame != nullptr && !readings.frame->image_bgr.empty()) {
+    picture.left_bgr = readings.frame->image_bgr;
+    shown.stereo = &picture;
+  }
+  return shown;
+}
+
+const char* outcomeOf(PlanOutcome outcome) {
+  return outcome == PlanOutcome::kFailed ? "failed" : "done";
 }
 
 FollowLog runClosedLoop(const Scene& scene, const PetriPlan& plan, const ClosedLoopParams& params,
@@ -128,7 +147,7 @@ FollowLog runClosedLoop(const Scene& scene, const PetriPlan& plan, const ClosedL
       break;
     }
     if (step->outcome != PlanOutcome::kRunning) {
-      log.outcome = step->outcome == PlanOutcome::kFailed ? "failed" : "done";
+      log.outcome = outcomeOf(step->outcome);
       break;
     }
     if (isStopRequested()) {

@@ -38,8 +38,15 @@ using LoopObserver =
 /// What a simulated robot is, but for its camera's optics and how it is turned.
 RobotDescription describeRobot(const RobotParams& params);
 
-/// What a step tells of itself, without the truth.
+/// What a step tells of itself; for the truth there are the estimates.
 FollowSample sampleOf(const FollowStep& step, const Follower& follower);
+
+/// Of what a robot without truth reads, what a LoopObserver is shown: the time and the picture.
+/// @param picture  Holds it.
+Readings shownOf(const RobotReadings& readings, StereoReading& picture);
+
+/// How a run ends with a plan that has: "failed" or "done".
+const char* outcomeOf(PlanOutcome outcome);
 
 /// The scene's first person enters and is learned and followed, until they have walked all of their
 /// path and the robot is with them ("reached"), the plan fails ("failed") or comes to a goal of its

@@ -4,6 +4,7 @@
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/run_end.hpp>
+#include <heel/apps/output/typos.hpp>
 
 #include <CLI/CLI.hpp>
 #include <opencv2/core.hpp>
@@ -41,23 +42,6 @@ std::vector<std::string> optionsOf(const CLI::App& app) {
   return names;
 }
 
-/// How many letters must be put in, left out, changed or swapped with the next to make `b` of `a`.
-std::size_t typosBetween(const std::string& a, const std::string& b) {
-  std::vector<std::vector<std::size_t>> typos(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) {
-    for (std::size_t j = 0; j <= b.size(); ++j) {
-      std::size_t& least = typos[i][j] = std::max(i, j);
-      if (i == 0 || j == 0) continue;
-      least = std::min({typos[i - 1][j] + 1, typos[i][j - 1] + 1,
-                        typos[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
-        least = std::min(least, typos[i - 2][j - 2] + 1);
-      }
-    }
-  }
-  return typos[a.size()][b.size()];
-}
-
 /// "; did you mean --model?", if a name is near enough to what was written: a third of its letters
 /// may be wrong.
 std::string nearest(const std::string& written, const std::vector<std::string>& names,
@@ -65,7 +49,7 @@ std::string nearest(const std::string& written, const std::vector<std::string>& 
   const std::string* best = nullptr;
   std::size_t least = written.size() / 3 + 1;
   for (const std::string& name : names) {
-    const std::size_t typos = typosBetween(written, name);
+    const std::size_t typos = heel::typosBetween(written, name);
     if (typos >= least) continue;
     best = &name;
     least = typos;

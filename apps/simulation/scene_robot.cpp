@@ -3,8 +3,8 @@
 
 #include <heel/apps/simulation/scene_parts.hpp>
 
+#include <charconv>
 #include <cstdio>
-#include <cstdlib>
 #include <sstream>
 #include <type_traits>
 
@@ -12,11 +12,7 @@ namespace heel {
 
 std::string shortestText(double value) {
   char text[32];
-  for (int digits = 6; digits <= 17; ++digits) {
-    std::snprintf(text, sizeof text, "%.*g", digits, value);
-    if (std::strtod(text, nullptr) == value) break;
-  }
-  return text;
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
 namespace {

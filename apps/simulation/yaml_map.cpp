@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <heel/apps/output/typos.hpp>
 #include <heel/apps/simulation/yaml_map.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -18,20 +17,6 @@ std::string show(double value) {
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
   return text;
-}
-
-// Letters to change, add or leave out to get from one word to the other.
-std::size_t editsBetween(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t before = std::exchange(row[0], i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t same = before + (a[i - 1] == b[j - 1] ? 0 : 1);
-      before = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, same}));
-    }
-  }
-  return row.back();
 }
 
 [[noreturn]] void failAt(const std::string& file, const YAML::Mark& mark, const std::string& text) {
@@ -196,7 +181,7 @@ void YamlMap::done() const {
     std::string all, nearest;
     for (const std::string& name : known_) {
       all += (all.empty() ? "" : ", ") + name;
-      if (nearest.empty() || editsBetween(key, name) < editsBetween(key, nearest)) nearest = name;
+      if (nearest.empty() || typosBetween(key, name) < typosBetween(key, nearest)) nearest = name;
     }
     failAt(file_, entry.first.Mark(),
            "'" + key + "' is not a key of the " + what_ +

@@ -151,10 +151,14 @@ void print(const FollowSummary& summary, const FollowOutput& output) {
 
 ShadowParams shadowOf(const FollowOptions& options, const std::optional<RobotConfig>& config) {
   ShadowParams params;
-  if (config) params.config = *config;
   params.recording = options.scene;
   params.opening = options.opening;
   params.map = openLogMap(options.map);
+  if (config) {
+    params.config = *config;
+    const RobotDescription robot = describeRobot(config->robot);
+    params.map.setScanner(robot.T_base_scanner, robot.scanner_height_m);
+  }
   if (!options.model.empty()) params.model = loadAppearance(options.model);
   if (options.has_limit) params.limit_s = options.loop.limit_s;
   return params;

@@ -135,7 +135,6 @@ FollowLog runShadow(const ShadowParams& params, const PetriPlan& plan, const Loo
   DrivenSpeed driven;
   RobotReadings now;
   StereoReading picture;
-  Readings shown;  // what there is of these in a log
   while (readings.next(now)) {
     if (isStopRequested()) {
       log.outcome = kStoppedRun;
@@ -149,20 +148,11 @@ FollowLog runShadow(const ShadowParams& params, const PetriPlan& plan, const Loo
       break;
     }
     FollowSample& sample = log.samples.emplace_back(sampleOf(*step, follower));
-    sample.robot_true = readings.reference().value_or(step->robot.pose);
+    if (readings.reference()) sample.robot_true = *readings.reference();
     sample.speed_true = driven.at(now);
-    if (sample.target_estimate) {
-      sample.person_distance_m = (*sample.target_estimate - step->robot.pose.position).norm();
-    }
-    shown.stamp_s = now.stamp_s;
-    shown.stereo = nullptr;
-    if (now.frame != nullptr && !now.frame->image_bgr.empty()) {
-      picture.left_bgr = now.frame->image_bgr;
-      shown.stereo = &picture;
-    }
-    if (observer) observer(shown, *step, follower, sample);
+    if (observer) observer(shownOf(now, picture), *step, follower, sample);
     if (step->outcome != PlanOutcome::kRunning) {
-      log.outcome = step->outcome == PlanOutcome::kFailed ? "failed" : "done";
+      log.outcome = outcomeOf(step->outcome);
       break;
     }
     const double elapsed_s = now.stamp_s - log.samples.front().stamp_s;

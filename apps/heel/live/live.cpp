@@ -57,12 +57,13 @@ FoundRobot waitForRobot(Ros2Network& network, const LiveOptions& options,
 
 Follower makeFollower(const LiveOptions& options, const FoundRobot& found,
                       const RobotConfig& config) {
-  const LogMap map = openLogMap(options.map);
+  LogMap map = openLogMap(options.map);
   const LaserLog& laser = found.readings->laser();
   RobotDescription robot = describeRobot(config.robot);
+  if (!options.config.empty()) map.setScanner(robot.T_base_scanner, robot.scanner_height_m);
   robot.camera = found.camera;
   robot.T_base_scanner =
-      map.scanner ? *map.scanner : laser.T_base_scanner().value_or(map.scene_scanner);
+      map.scanner ? *map.scanner : laser.T_base_scanner().value_or(map.default_scanner);
   robot.scanner_height_m = laser.scannerHeight_m().value_or(map.scanner_height_m);
   const PetriPlan plan = loadPlan(planFile(options.plan), followingVocabulary());
   return Follower(robot, map.walls, plan, map.start, config.follow);
@@ -194,21 +195,10 @@ void run(const LiveOptions& options) {
     if (sender) sender->set(step->velocity);
     if (now.frame != nullptr) latencies_s.push_back(readings.frameAge_s(steadyClock_s()));
     teller.tell(*step, steadyClock_s() - began_s);
-    FollowSample& sample = log.samples.emplace_back(sampleOf(*step, follower));
-    sample.robot_true = step->robot.pose;
-    sample.speed_true = step->velocity;
-    if (sample.target_estimate) {
-      sample.person_distance_m = (*sample.target_estimate - step->robot.pose.position).norm();
-    }
-    Readings shown;
-    shown.stamp_s = now.stamp_s;
-    if (now.frame != nullptr && !now.frame->image_bgr.empty()) {
-      picture.left_bgr = now.frame->image_bgr;
-      shown.stereo = &picture;
-    }
-    output.add(shown, *step, follower, sample);
+    const FollowSample& sample = log.samples.emplace_back(sampleOf(*step, follower));
+    output.add(shownOf(now, picture), *step, follower, sample);
     if (step->outcome != PlanOutcome::kRunning) {
-      log.outcome = step->outcome == PlanOutcome::kFailed ? "failed" : "done";
+      log.outcome = outcomeOf(step->outcome);
       break;
     }
     if (steadyClock_s() - began_s >= options.limit_s) break;

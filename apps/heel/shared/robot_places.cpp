@@ -52,8 +52,7 @@ LogMap openLogMap(const LogMapOptions& options) {
   LogMap map;
   if (sourced.source == "scene") {
     const Eigen::Vector3d at = loadScene(file.string()).robot.laser.at;
-    map.scene_scanner.position = at.head<2>();
-    map.scanner_height_m = at.z();
+    map.setScanner({at.head<2>(), 0.0}, at.z());
   }
   map.walls = std::make_shared<const WallMap>(std::move(sourced.map));
   if (!options.start.empty()) map.start = floorPoseOf(options.start);
@@ -66,7 +65,7 @@ LogLaser openLogLaser(const std::filesystem::path& path, const BagTopics& topics
   LogLaser laser;
   laser.scans = openLaserLog(path, topics);
   laser.T_base_scanner =
-      map.scanner ? *map.scanner : laser.scans->T_base_scanner().value_or(map.scene_scanner);
+      map.scanner ? *map.scanner : laser.scans->T_base_scanner().value_or(map.default_scanner);
   laser.height_m = laser.scans->scannerHeight_m().value_or(map.scanner_height_m);
   return laser;
 }

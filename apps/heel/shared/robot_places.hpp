@@ -41,9 +41,15 @@ struct LogMap {
   std::shared_ptr<const WallMap> walls;
   std::optional<FloorPose> start;    ///< Else from tf, the log's reference, or anywhere.
   std::optional<FloorPose> scanner;  ///< In the base frame; else the log's own, else the scene's.
-  FloorPose scene_scanner;           ///< What a scene says of it.
-  double scanner_height_m = 0.3;     ///< Where the log does not tell it: the scene's, or this.
+  /// Where nothing else tells it: what the robot's file says, or the scene.
+  FloorPose default_scanner;
+  double scanner_height_m = 0.3;  ///< The same of its height.
   LocalizationParams localization;
+
+  void setScanner(const FloorPose& T_base_scanner, double height_m) {
+    default_scanner = T_base_scanner;
+    scanner_height_m = height_m;
+  }
 };
 
 /// @throws std::runtime_error  as mapSource() and openMap().

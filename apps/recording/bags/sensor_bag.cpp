@@ -60,19 +60,21 @@ void SensorBag::writeStatic(double stamp_s) {
   bag_->write("/tf_static", nanosecondsOf(stamp_s), static_, true);
 }
 
+void SensorBag::writeRaw(const std::string& topic, double stamp_s, const cv::Mat& image,
+                         const char* encoding) {
+  const cv::Mat whole = image.isContinuous() ? image : image.clone();
+  ImageMsg message;
+  message.header = header(stamp_s, kCamera);
+  message.width = static_cast<std::uint32_t>(whole.cols);
+  message.height = static_cast<std::uint32_t>(whole.rows);
+  message.encoding = encoding;
+  message.step = static_cast<std::uint32_t>(whole.elemSize()) * message.width;
+  message.data.assign(whole.datastart, whole.dataend);
+  bag_->write(topic, message.header.stamp.ns, message);
+}
+
 void SensorBag::writeImage(const std::string& topic, double stamp_s, const cv::Mat& image_bgr) {
-  if (!packs_images_) {
-    ImageMsg raw;
-    raw.header = header(stamp_s, kCamera);
-    raw.width = static_cast<std::uint32_t>(image_bgr.cols);
-    raw.height = static_cast<std::uint32_t>(image_bgr.rows);
-    raw.encoding = "bgr8";
-    raw.step = 3 * raw.width;
-    const cv::Mat whole = image_bgr.isContinuous() ? image_bgr : image_bgr.clone();
-    raw.data.assign(whole.datastart, whole.dataend);
-    bag_->write(topic + "/image_rect_color", raw.header.stamp.ns, raw);
-    return;
-  }
+  if (!packs_images_) return writeRaw(topic + "/image_rect_color", stamp_s, image_bgr, "bgr8");
   CompressedImageMsg message;
   message.header = header(stamp_s, kCamera);
   message.format = "bgr8; png compressed bgr8";
@@ -108,15 +110,7 @@ void SensorBag::add(const Frame& frame) {
   } else if (camera_.sensor == SensorKind::kRgbd) {
     writeInfo("/camera/rgb", s, 0.0);
     writeImage("/camera/rgb", s, frame.image_bgr);
-    const cv::Mat depth = frame.depth_m.isContinuous() ? frame.depth_m : frame.depth_m.clone();
-    ImageMsg message;
-    message.header = header(s, kCamera);
-    message.width = static_cast<std::uint32_t>(depth.cols);
-    message.height = static_cast<std::uint32_t>(depth.rows);
-    message.encoding = "32FC1";
-    message.step = 4 * message.width;
-    message.data.assign(depth.datastart, depth.dataend);
-    bag_->write("/camera/depth_registered/image_rect", message.header.stamp.ns, message);
+    writeRaw("/camera/depth_registered/image_rect", s, frame.depth_m, "32FC1");
   } else {
     PointCloud2Msg message = toCloudMsg(*frame.cloud);
     message.header = header(s, kCamera);

@@ -52,6 +52,8 @@ class SensorBag {
 
  private:
   HeaderMsg header(double stamp_s, const char* frame);
+  void writeRaw(const std::string& topic, double stamp_s, const cv::Mat& image,
+                const char* encoding);
   void writeImage(const std::string& topic, double stamp_s, const cv::Mat& image_bgr);
   void writeInfo(const std::string& topic, double stamp_s, double baseline_m);
   void writeStatic(double stamp_s);
