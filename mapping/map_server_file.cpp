@@ -3,13 +3,13 @@
 
 #include <heel/cloud/image_extent.hpp>
 #include <heel/cloud/whole_file.hpp>
+#include <heel/cloud/yaml_map.hpp>
 #include <heel/mapping/map_server_file.hpp>
 
 #include <opencv2/core/mat.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <yaml-cpp/yaml.h>
 
-#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
@@ -67,71 +67,22 @@ cv::Mat readImage(const fs::path& file) {
   return image;
 }
 
-/// Reads the keys of a map_server YAML file, each error one sentence.
-class MapYaml {
- public:
-  explicit MapYaml(fs::path file) : file_(std::move(file)) {
-    try {
-      root_ = YAML::Load(readWholeFile(file_));
-    } catch (const YAML::Exception& error) {
-      fail(file_, "it is not YAML: line " + std::to_string(error.mark.line + 1) + ", " + error.msg);
-    }
-    if (!root_.IsMap() || !root_["image"]) {
-      fail(file_, "it is not a map_server map: it has no key 'image'");
-    }
-  }
+/// 0 or 1, as map_saver writes it, or a word.
+bool readFlag(YamlMap& map, const std::string& key) {
+  const std::string value = map.text(key);
+  return value == "1" || (value != "0" && map.flag(key));
+}
 
-  bool has(const char* key) const { return static_cast<bool>(root_[key]); }
-  std::string text(const char* key) const { return as<std::string>(root_[key], key, "a text"); }
-  double number(const char* key) const { return finite(root_[key], key); }
-
-  bool flag(const char* key) const {
-    const std::string value = text(key);
-    if (value == "0" || value == "false") return false;
-    if (value == "1" || value == "true") return true;
-    fail(file_, std::string("'") + key + "' is not 0 or 1");
+Eigen::Vector2d readOrigin(YamlMap& map) {
+  const Eigen::Vector3d origin = map.point3("origin");
+  if (origin.z() != 0.0) {
+    char reason[100];
+    std::snprintf(reason, sizeof reason,
+                  "is turned by %g rad, and only maps that are not turned can be read", origin.z());
+    map.fail("origin", reason);
   }
-
-  Eigen::Vector2d origin() const {
-    const YAML::Node node = root_["origin"];
-    if (!node || !node.IsSequence() || node.size() != 3) {
-      fail(file_, "'origin' is not a list of x, y and yaw");
-    }
-    const double yaw_rad = finite(node[2], "origin");
-    if (yaw_rad != 0.0) {
-      char yaw[32];
-      std::snprintf(yaw, sizeof yaw, "%g", yaw_rad);
-      fail(file_, std::string("its origin is turned by ") + yaw +
-                      " rad, and only maps that are not turned can be read");
-    }
-    return {finite(node[0], "origin"), finite(node[1], "origin")};
-  }
-
-  double share(const char* key) const {
-    const double value = number(key);
-    if (value < 0.0 || value > 1.0) fail(file_, std::string("'") + key + "' is not within 0 and 1");
-    return value;
-  }
-
- private:
-  template <typename T>
-  T as(const YAML::Node& node, const char* key, const char* what) const {
-    if (!node) fail(file_, std::string("it has no key '") + key + "'");
-    try {
-      return node.as<T>();
-    } catch (const YAML::Exception&) {
-      fail(file_, std::string("'") + key + "' is not " + what);
-    }
-  }
-  double finite(const YAML::Node& node, const char* key) const {
-    const auto value = as<double>(node, key, "a number");
-    if (!std::isfinite(value)) fail(file_, std::string("'") + key + "' is not a finite number");
-    return value;
-  }
-
-  fs::path file_;
-  YAML::Node root_;
-};
+  return origin.head<2>();
+}
 
 }  // namespace
 
@@ -157,30 +108,28 @@ OccupancyGrid gridFromImage(const fs::path& file, double cell_size_m,
 }
 
 OccupancyGrid loadMapServer(const fs::path& yaml) {
-  const MapYaml map(yaml);
+  YamlMap map = YamlMap::fromFile(yaml, "map");
+  if (!map.has("image")) fail(yaml, "it is not a map_server map: it has no key 'image'");
   MapImageParams params;
   const double cell_size_m = map.number("resolution");
-  if (!isCellSize(cell_size_m)) fail(yaml, "'resolution' is not from 0.0001 to 100 m");
-  params.origin_m = map.origin();
-  constexpr double kFurthest_m = 1e6;
-  if (params.origin_m.cwiseAbs().maxCoeff() > kFurthest_m) fail(yaml, "'origin' is too far away");
-  if (map.has("negate")) params.negate = map.flag("negate");
-  if (map.has("occupied_thresh")) params.occupied_thresh = map.share("occupied_thresh");
-  if (map.has("free_thresh")) params.free_thresh = map.share("free_thresh");
+  if (!isCellSize(cell_size_m)) map.fail("resolution", "is not from 0.0001 to 100 m");
+  params.origin_m = readOrigin(map);
+  if (map.has("negate")) params.negate = readFlag(map, "negate");
+  params.occupied_thresh = map.number("occupied_thresh", params.occupied_thresh, kShare);
+  params.free_thresh = map.number("free_thresh", params.free_thresh, kShare);
   if (params.free_thresh > params.occupied_thresh) {
-    fail(yaml, "'free_thresh' is over 'occupied_thresh'");
+    map.fail("free_thresh", "is over 'occupied_thresh'");
   }
-  if (map.has("mode") && map.text("mode") != "trinary") {
-    fail(yaml, "its mode is '" + map.text("mode") + "', and only 'trinary' can be read");
+  if (map.text("mode", "trinary") != "trinary") {
+    map.fail("mode", "is '" + map.text("mode") + "', and only 'trinary' can be read");
   }
   return gridFromImage(yaml.parent_path() / map.text("image"), cell_size_m, params);
 }
 
 bool isMapServerFile(const fs::path& file) {
   try {
-    const YAML::Node root = YAML::Load(readWholeFile(file));
-    return root.IsMap() && root["image"];
-  } catch (const std::exception&) {
+    return YamlMap::fromFile(file, "map").has("image");
+  } catch (const std::runtime_error&) {
     return false;
   }
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/cloud/whole_file.hpp>
+#include <heel/cloud/yaml_map.hpp>
 #include <heel/segmentation/appearance_model_io.hpp>
 
 #include <yaml-cpp/yaml.h>
@@ -73,75 +74,52 @@ void visitStature(Values& stature, Visitor& visitor) {
 
 // --- Reading ------------------------------------------------------------------------------------
 
-[[noreturn]] void complain(const std::string& field, const std::string& why) {
-  throw std::runtime_error("its field '" + field + "' " + why);
-}
-
-const char* kindOf(double) { return "a number"; }
-const char* kindOf(bool) { return "true or false"; }
-const char* kindOf(int) { return "a whole number"; }
-const char* kindOf(std::uint64_t) { return "a count"; }
-const char* kindOf(const std::string&) { return "a text"; }
-
-/// Reads the fields of a map, and says which is missing or wrong.
+/// Reads the fields of a map, which may have none but these.
 class Reader {
  public:
-  explicit Reader(const YAML::Node& map, std::string path = "") : path_(std::move(path)) {
-    maps_.push_back(map);
-  }
+  explicit Reader(YamlMap map) { maps_.push_back(std::move(map)); }
 
-  YAML::Node node(const std::string& key) const {
-    const YAML::Node map = maps_.back();
-    if (!map.IsMap() || !map[key]) {
-      throw std::runtime_error("it has no field '" + path_ + key + "'");
-    }
-    return map[key];
-  }
-
-  template <typename T>
-  void field(const std::string& key, T& value) const {
-    try {
-      value = node(key).as<T>();
-    } catch (const YAML::Exception&) {
-      complain(path_ + key, std::string("is not ") + kindOf(T{}));
-    }
+  void field(const char* key, double& value) { value = map().number(key); }
+  void field(const char* key, bool& value) { value = map().flag(key); }
+  void field(const char* key, int& value) { value = map().integer(key, 0, kMost); }
+  void field(const char* key, std::uint64_t& value) {
+    value = static_cast<std::uint64_t>(map().integer(key, 0, kMost));
   }
 
   template <typename Enum>
-  void choice(const std::string& key, Enum& value, const Names<Enum>& names) const {
-    std::string text;
-    field(key, text);
+  void choice(const char* key, Enum& value, const Names<Enum>& names) {
+    const std::string text = map().text(key);
     for (const auto& [known, name] : names) {
       if (name == text) {
         value = known;
         return;
       }
     }
-    complain(path_ + key, "is '" + text + "', which is not known");
+    map().fail(key, "is '" + text + "', which is not known");
   }
 
-  void begin(const std::string& key) {
-    maps_.push_back(node(key));
-    path_ += key + '.';
+  void begin(const char* key) {
+    std::optional<YamlMap> inner = map().map(key, key);
+    if (!inner) map().fail(key, "is missing");
+    maps_.push_back(std::move(*inner));
   }
 
   void end() {
+    map().done();
     maps_.pop_back();
-    path_.erase(path_.find_last_of('.', path_.size() - 2) + 1);
   }
 
-  const std::string& path() const { return path_; }
+  /// The one that is being read.
+  YamlMap& map() { return maps_.back(); }
 
  private:
-  std::vector<YAML::Node> maps_;  // from the outermost to the one being read
-  std::string path_;              // of the latter, with a dot at its end
+  static constexpr int kMost = 1000000000;
+
+  std::vector<YamlMap> maps_;  // from the outermost inwards
 };
 
-ColorHistogram readColors(const Reader& reader) {
-  std::string text;
-  reader.field("colors", text);
-  const std::string field = reader.path() + "colors";
-  std::istringstream lines(text);
+ColorHistogram readColors(YamlMap& map) {
+  std::istringstream lines(map.text("colors"));
   ColorHistogram colors;
   for (std::string line; std::getline(lines, line);) {
     unsigned b = 0;
@@ -150,9 +128,11 @@ ColorHistogram readColors(const Reader& reader) {
     unsigned long long count = 0;
     char rest = 0;
     if (std::sscanf(line.c_str(), "%u %u %u %llu %c", &b, &g, &r, &count, &rest) != 4) {
-      complain(field, "has a line that is not 'blue green red count': '" + line + "'");
+      map.fail("colors", "has a line that is not 'blue green red count': '" + line + "'");
     }
-    if (std::max({b, g, r}) > 255) complain(field, "has a colour out of range: '" + line + "'");
+    if (std::max({b, g, r}) > 255) {
+      map.fail("colors", "has a colour out of range: '" + line + "'");
+    }
     colors.add(
         {static_cast<std::uint8_t>(b), static_cast<std::uint8_t>(g), static_cast<std::uint8_t>(r)},
         count);
@@ -160,75 +140,65 @@ ColorHistogram readColors(const Reader& reader) {
   return colors;
 }
 
-BodyDescription readPortrait(const YAML::Node& stripes) {
+BodyDescription readPortrait(YamlMap& map) {
   BodyDescription portrait;
-  if (!stripes.IsSequence() || stripes.size() != BodyDescriber::kStripes) {
-    complain("portrait",
-             "is not a list of " + std::to_string(BodyDescriber::kStripes) + " stripes");
-  }
   portrait.colors.setZero(BodyDescriber::kBins, BodyDescriber::kStripes);
-  for (int stripe = 0; stripe < BodyDescriber::kStripes; ++stripe) {
-    const std::string field = "portrait[" + std::to_string(stripe) + "]";
-    if (!stripes[stripe].IsScalar()) complain(field, "is not a text");
-    std::istringstream lines(stripes[stripe].as<std::string>());
-    auto column = portrait.colors.col(stripe);
+  Eigen::Index stripe = 0;
+  for (const std::string& text : map.texts("portrait", BodyDescriber::kStripes)) {
+    auto column = portrait.colors.col(stripe++);
+    std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
       int bin = 0;
       float share = 0.0F;
       char rest = 0;
       const bool is_read = std::sscanf(line.c_str(), "%d %f %c", &bin, &share, &rest) == 2;
       if (!is_read || bin < 0 || bin >= BodyDescriber::kBins || !(share >= 0.0F && share <= 1.0F)) {
-        complain(field, "has a line that is not 'bin share': '" + line + "'");
+        map.fail("portrait", "has a line that is not 'bin share': '" + line + "'");
       }
       column[bin] = share;
     }
-    if (column.sum() > 1.01F) complain(field, "has shares of more than 1 in all");
+    if (column.sum() > 1.01F) {
+      map.fail("portrait", "has a stripe with shares of more than 1 in all");
+    }
   }
   return portrait;
 }
 
-AppearanceModel readModel(const YAML::Node& root) {
-  Reader reader(root);
-  int version = 0;
-  reader.field(kVersionKey, version);
+AppearanceModel readModel(YamlMap root) {
+  const int version = root.integer(kVersionKey, 1, 1000000);
   if (version > kAppearanceFormat) {
-    throw std::runtime_error("it has format version " + std::to_string(version) +
-                             ", but this program knows only versions up to " +
-                             std::to_string(kAppearanceFormat));
+    root.fail(kVersionKey, "is " + root.text(kVersionKey) +
+                               ", but this program knows only versions up to " +
+                               std::to_string(kAppearanceFormat));
   }
-  if (version < 1) complain(kVersionKey, "is not a version of the format");
   AppearanceParams params;
-  visitParams(params, reader);
-
-  const YAML::Node bands = reader.node("bands");
-  if (!bands.IsSequence()) complain("bands", "is not a list");
   params.bands.clear();
   std::vector<ColorHistogram> person;
   std::vector<std::uint8_t> thresholds;
-  for (std::size_t i = 0; i < bands.size(); ++i) {
-    const Reader band(bands[i], "bands[" + std::to_string(i) + "].");
-    BodyBand body;
-    band.field("name", body.name);
-    band.field("min_height_m", body.min_height_m);
-    band.field("max_height_m", body.max_height_m);
-    int threshold = 0;
-    band.field("threshold", threshold);
-    if (threshold < 0 || threshold > 255) complain(band.path() + "threshold", "is not in 0 to 255");
-    params.bands.push_back(body);
-    thresholds.push_back(static_cast<std::uint8_t>(threshold));
+  for (YamlMap& band : root.list("bands", "band")) {
+    params.bands.push_back(
+        {band.text("name"), band.number("min_height_m"), band.number("max_height_m")});
+    thresholds.push_back(static_cast<std::uint8_t>(band.integer("threshold", 0, 255)));
     person.push_back(readColors(band));
+    band.done();
   }
+  BodyDescription portrait;
+  if (version >= 2) portrait = readPortrait(root);
+  const bool has_stature = root.has("stature");
+
+  Reader reader(std::move(root));
+  visitParams(params, reader);
   std::optional<Stature> stature;
-  if (root["stature"]) {
+  if (has_stature) {
     reader.begin("stature");
     visitStature(stature.emplace(), reader);
     reader.end();
   }
-  BodyDescription portrait;
-  if (version >= 2) portrait = readPortrait(reader.node("portrait"));
   reader.begin("room");
-  AppearanceModel model(std::move(params), std::move(person), readColors(reader), stature,
-                        std::move(portrait));
+  const ColorHistogram room = readColors(reader.map());
+  reader.end();
+  reader.map().done();
+  AppearanceModel model(std::move(params), std::move(person), room, stature, std::move(portrait));
   for (std::size_t i = 0; i < thresholds.size(); ++i) model.setThreshold(i, thresholds[i]);
   return model;
 }
@@ -325,25 +295,15 @@ void saveAppearance(const AppearanceModel& model, const fs::path& file) {
 }
 
 AppearanceModel loadAppearance(const fs::path& file) {
-  const std::string name = file.string();
-  YAML::Node yaml;
-  try {
-    yaml = YAML::LoadFile(name);
-  } catch (const YAML::BadFile&) {
-    throw std::runtime_error(name + " cannot be read: " +
-                             (fs::exists(file) ? "it is not a readable file" : "no such file"));
-  } catch (const YAML::Exception& e) {
-    throw std::runtime_error(name + " is not YAML: line " + std::to_string(e.mark.line + 1) + ", " +
-                             e.msg);
-  }
-  if (!yaml.IsMap() || !yaml[kVersionKey]) {
-    throw std::runtime_error(name + " is not an appearance model: it has no field '" + kVersionKey +
-                             "'");
+  YamlMap map = YamlMap::fromFile(file, "appearance model");
+  if (!map.has(kVersionKey)) {
+    throw std::runtime_error(file.string() + " is not an appearance model: it has no field '" +
+                             kVersionKey + "'");
   }
   try {
-    return readModel(yaml);
-  } catch (const std::exception& e) {
-    throw std::runtime_error(name + " is not a valid appearance model: " + e.what());
+    return readModel(std::move(map));
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(file.string() + " is not a valid appearance model: " + error.what());
   }
 }
 

@@ -18,11 +18,11 @@ void check(const ColorRatioParams& params) {
   if (!(params.dark_offset > 0.0 && params.chroma_limit > 0.0 && params.other_weight > 0.0)) {
     throw std::invalid_argument("dark offset, chroma limit and other weight must be positive");
   }
-  if (params.chroma_bins < 1 || params.brightness_bins < 1) {
-    throw std::invalid_argument("chroma and brightness need at least one bin");
+  if (!isBinCount(params.chroma_bins) || !isBinCount(params.brightness_bins)) {
+    throw std::invalid_argument("chroma and brightness need 1 to 256 bins");
   }
-  if (!(params.smoothing_bins >= 0.0)) {
-    throw std::invalid_argument("the smoothing must not be negative");
+  if (!(params.smoothing_bins >= 0.0 && params.smoothing_bins <= 256.0)) {
+    throw std::invalid_argument("the smoothing must be 0 to 256 bins");
   }
 }
 

@@ -71,4 +71,7 @@ struct ColorRatioParams {
 ColorScore colorRatioScore(const ColorHistogram& person, const ColorHistogram& room,
                            const ColorRatioParams& params = {});
 
+/// Whether a channel of colours, which has 256 values, can be divided into so many bins.
+constexpr bool isBinCount(int bins) { return bins >= 1 && bins <= 256; }
+
 }  // namespace heel

@@ -13,8 +13,8 @@
 namespace heel {
 
 ColorScore hueSaturationScore(const ColorHistogram& person, const HueSaturationParams& params) {
-  if (params.hue_bins < 1 || params.saturation_bins < 1) {
-    throw std::invalid_argument("hue and saturation need at least one bin");
+  if (!isBinCount(params.hue_bins) || !isBinCount(params.saturation_bins)) {
+    throw std::invalid_argument("hue and saturation need 1 to 256 bins");
   }
   if (person.empty()) throw std::invalid_argument("there are no colours of the person");
   const auto hues = static_cast<std::size_t>(params.hue_bins);

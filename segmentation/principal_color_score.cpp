@@ -43,11 +43,11 @@ PrincipalColor makePrincipalColor(const ColorHistogram& points,
 }  // namespace
 
 ColorScore principalColorScore(const ColorHistogram& person, const PrincipalColorParams& params) {
-  if (params.count < 0 || params.max_count < 1) {
-    throw std::invalid_argument("the number of principal colours must not be negative");
+  if (params.count < 0 || params.count > 256 || !isBinCount(params.max_count)) {
+    throw std::invalid_argument("the number of principal colours must be 0 to 256");
   }
-  if (params.hue_bins < 1 || params.value_bins < 1) {
-    throw std::invalid_argument("hue and value need at least one bin");
+  if (!isBinCount(params.hue_bins) || !isBinCount(params.value_bins)) {
+    throw std::invalid_argument("hue and value need 1 to 256 bins");
   }
   const auto parts = params.count == 0
                          ? clusterColorsFromData(person, params.max_count, params.min_spread_drop)

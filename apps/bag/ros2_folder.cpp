@@ -17,9 +17,10 @@ namespace {
 /// The files that metadata.yaml lists; none if there is no such list.
 std::vector<fs::path> listedFiles(const fs::path& folder) {
   std::vector<fs::path> files;
+  const fs::path metadata = folder / "metadata.yaml";
+  if (!fs::is_regular_file(metadata)) return files;
   try {
-    const YAML::Node about =
-        YAML::LoadFile((folder / "metadata.yaml").string())["rosbag2_bagfile_information"];
+    const YAML::Node about = YAML::LoadFile(metadata.string())["rosbag2_bagfile_information"];
     const auto storage = about["storage_identifier"].as<std::string>("sqlite3");
     if (storage != "sqlite3" && storage != "mcap") {
       throw std::runtime_error(folder.string() + ": the bag is in '" + storage +

@@ -34,8 +34,7 @@ std::vector<Job> jobsOf(const FollowExperimentParams& params,
       job.episode.seed = static_cast<unsigned long>(number);
       job.episode.plan = plan;
       job.episode.command = std::string("heel follow office") + (number == 1 ? " --alone" : "") +
-                            " --plan " + plan + " --seed " + std::to_string(number) +
-                            " --out again";
+                            " --plan " + plan + " --seed " + std::to_string(number);
     }
   }
   for (int i = 0; i < params.episodes; ++i) {
@@ -46,7 +45,6 @@ std::vector<Job> jobsOf(const FollowExperimentParams& params,
     job.episode.plan = plans.back();
     job.episode.command = "heel follow --random --seed " + std::to_string(job.episode.seed);
     if (!params.rough.empty()) job.episode.command += " --rough " + params.rough;
-    job.episode.command += " --out again";
   }
   return jobs;
 }

@@ -4,7 +4,7 @@
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/run_end.hpp>
-#include <heel/apps/output/typos.hpp>
+#include <heel/cloud/typos.hpp>
 
 #include <CLI/CLI.hpp>
 #include <opencv2/core.hpp>

@@ -4,7 +4,7 @@
 #include <heel/apps/simulation/material.hpp>
 #include <heel/apps/simulation/scene.hpp>
 #include <heel/apps/simulation/scene_parts.hpp>
-#include <heel/apps/simulation/yaml_map.hpp>
+#include <heel/cloud/yaml_map.hpp>
 
 #include <algorithm>
 #include <cmath>

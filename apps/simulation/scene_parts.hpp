@@ -6,7 +6,7 @@
 #pragma once
 
 #include <heel/apps/simulation/scene.hpp>
-#include <heel/apps/simulation/yaml_map.hpp>
+#include <heel/cloud/yaml_map.hpp>
 
 #include <string>
 

@@ -97,11 +97,13 @@ TEST_F(MapServerFile, WhatIsWrongGetsASentenceWithTheKey) {
       {"negate", "perhaps"},      {"free_thresh", "0.9"}, {"occupied_thresh", "65"},
       {"free_thresh", "several"}, {"mode", "scale"}};
   for (const auto& [key, value] : wrong) {
-    EXPECT_THAT(whyNot(with(key, value)), AllOf(HasSubstr("map.yaml: "), HasSubstr(key))) << value;
+    EXPECT_THAT(whyNot(with(key, value)),
+                AllOf(HasSubstr("map.yaml, line "), HasSubstr("'" + key + "' of the map")))
+        << value;
   }
-  EXPECT_THAT(whyNot("image: map.pgm\n"), HasSubstr("no key 'resolution'"));
+  EXPECT_THAT(whyNot("image: map.pgm\n"), HasSubstr("'resolution' of the map is missing"));
   EXPECT_THAT(whyNot("kitchen: [0, 0, 0]\n"), HasSubstr("not a map_server map"));
-  EXPECT_THAT(whyNot("image: [}\n"), HasSubstr("not YAML: line 1"));
+  EXPECT_THAT(whyNot("image: [}\n"), HasSubstr("map.yaml, line 1: not YAML"));
   EXPECT_THAT(messageOf([&] { loadMapServer(folder_ / "none.yaml"); }),
               AllOf(HasSubstr("none.yaml"), HasSubstr("No such file")));
 }

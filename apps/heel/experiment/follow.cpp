@@ -57,8 +57,9 @@ void run(FollowExperimentOptions& options) {
                        std::to_string(options.params.first_seed);
   if (!options.params.table1) experiment.command += " --no-table1";
   if (!options.params.rough.empty()) experiment.command += " --rough " + options.params.rough;
-  if (!options.config.empty()) experiment.command += " --config " + options.config;
-  experiment.command += " --out again";
+  const std::string config = options.config.empty() ? "" : " --config " + options.config;
+  experiment.command += config + " --out again";
+  for (FollowEpisode& episode : experiment.episodes) episode.command += config + " --out again";
   const EpisodeCounts all = countEpisodes(experiment.episodes, experiment.plans.back());
   std::printf(
       "%d random episodes: %d reached, %d with a contact by the robot, wrong person %.2f %% of the "

@@ -184,24 +184,21 @@ TEST_F(RgbdFolder, NamesWhatIsWrongInTheCameraFile) {
     return messageOf([&] { openRecording(folder.path()); });
   };
   const std::string file = (folder / "camera.yaml").string();
-  EXPECT_EQ(message("fx: 20", "# fx"), file + " has no 'fx'");
-  EXPECT_EQ(message("fx: 20", "fx: wide"), file + " has a 'fx' that is not a number");
-  EXPECT_EQ(message("fx: 20", "fx: 0"), file + " has a 'fx' that is not above 0");
-  EXPECT_EQ(message("width: 16", "width: 16.5"), file + " has a 'width' that is no size");
+  EXPECT_EQ(message("fx: 20", "# fx"), file + ", line 1: 'fx' of the camera is missing");
+  EXPECT_THAT(message("fx: 20", "fx: wide"), HasSubstr("'fx' of the camera must be a number"));
+  EXPECT_THAT(message("fx: 20", "fx: 0"), HasSubstr("is 0, but must be more than 0"));
+  EXPECT_THAT(message("width: 16", "width: 16.5"), HasSubstr("must be a whole number"));
   EXPECT_EQ(message("depth_scale: 1000", ""), file + " has no 'depth_scale'");
-  EXPECT_EQ(message("1.5, 0,0,0,1", "1.5"),
-            file + " has a 'T_ground_camera' that is not a list of 16 numbers");
-  EXPECT_EQ(message("[0,0,1,0", "[0,0,2,0"),
-            file + " has a 'T_ground_camera' that is not a rotation and a translation");
-  EXPECT_EQ(message("1.5, 0,0,0,1", "1.5, 0,0,x,1"),
-            file + " has a 'T_ground_camera' that is not a list of 16 numbers");
-  EXPECT_THAT(
-      message("T_ground_camera", "T_ground_camara"),
-      HasSubstr(file + " has the key 'T_ground_camara', which is unknown; there are width"));
+  EXPECT_THAT(message("1.5, 0,0,0,1", "1.5"), HasSubstr("must be a list of 16 numbers"));
+  EXPECT_THAT(message("[0,0,1,0", "[0,0,2,0"),
+              HasSubstr("'T_ground_camera' of the camera is not a rotation and a translation"));
+  EXPECT_THAT(message("1.5, 0,0,0,1", "1.5, 0,0,x,1"), HasSubstr("must be a number, not 'x'"));
+  EXPECT_THAT(message("T_ground_camera", "T_ground_camara"),
+              HasSubstr("'T_ground_camara' is not a key of the camera, and 'T_ground_camera' is"));
   EXPECT_THAT(message("width: 16\nheight: 12", "width: 99999\nheight: 99999"),
               HasSubstr("a camera of 99999x99999 pixels asks for"));
-  EXPECT_THAT(message(kCamera, "just words"), HasSubstr("holds no settings"));
-  EXPECT_THAT(message("fx: 20", "fx: [20"), HasSubstr("is not YAML"));
+  EXPECT_THAT(message(kCamera, "just words"), HasSubstr("the camera must be a map of keys"));
+  EXPECT_THAT(message("fx: 20", "fx: [20"), HasSubstr("not YAML"));
 }
 
 TEST_F(RgbdFolder, WithoutOneOfItsListsNamesIt) {

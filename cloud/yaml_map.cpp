@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/output/typos.hpp>
-#include <heel/apps/simulation/yaml_map.hpp>
+#include <heel/cloud/typos.hpp>
+#include <heel/cloud/whole_file.hpp>
+#include <heel/cloud/yaml_map.hpp>
+
+#include <yaml-cpp/yaml.h>
 
 #include <cmath>
-#include <filesystem>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -27,30 +30,30 @@ std::string show(double value) {
 }  // namespace
 
 YamlMap::YamlMap(const YAML::Node& node, std::string file, std::string what)
-    : node_(node), file_(std::move(file)), what_(std::move(what)) {
-  if (!node_.IsMap()) failAt(file_, node_.Mark(), "the " + what_ + " must be a map of keys");
+    : node_(std::make_shared<const YAML::Node>(node)),
+      file_(std::move(file)),
+      what_(std::move(what)) {
+  if (!node_->IsMap()) failAt(file_, node_->Mark(), "the " + what_ + " must be a map of keys");
   std::set<std::string> keys;
-  for (const auto& entry : node_) {
+  for (const auto& entry : *node_) {
     if (!entry.first.IsScalar() || keys.insert(entry.first.Scalar()).second) continue;
     failAt(file_, entry.first.Mark(),
            "'" + entry.first.Scalar() + "' of the " + what_ + " is there twice");
   }
 }
 
-YamlMap YamlMap::fromFile(const std::string& file, const std::string& what) {
-  if (!std::filesystem::is_regular_file(file)) throw std::runtime_error(file + ": no such file");
+YamlMap YamlMap::fromFile(const std::filesystem::path& file, const std::string& what) {
+  const std::string name = file.string();
   try {
-    return {YAML::LoadFile(file), file, what};
-  } catch (const YAML::BadFile&) {
-    throw std::runtime_error(file + ": can't be read");
+    return {YAML::Load(readWholeFile(file)), name, what};
   } catch (const YAML::Exception& error) {
-    failAt(file, error.mark, "not YAML: " + error.msg);
+    failAt(name, error.mark, "not YAML: " + error.msg);
   }
 }
 
 YAML::Node YamlMap::value(const std::string& key) {
   known_.insert(key);
-  const YAML::Node found = std::as_const(node_)[key];
+  const YAML::Node found = (*node_)[key];
   if (found.IsDefined() && found.IsNull()) fail(key, "has no value");
   return found;
 }
@@ -58,8 +61,8 @@ YAML::Node YamlMap::value(const std::string& key) {
 bool YamlMap::has(const std::string& key) { return value(key).IsDefined(); }
 
 void YamlMap::fail(const std::string& key, const std::string& reason) const {
-  const YAML::Node found = node_[key];
-  failAt(file_, found.IsDefined() ? found.Mark() : node_.Mark(),
+  const YAML::Node found = (*node_)[key];
+  failAt(file_, found.IsDefined() ? found.Mark() : node_->Mark(),
          "'" + key + "' of the " + what_ + " " + reason);
 }
 
@@ -88,24 +91,32 @@ double YamlMap::number(const std::string& key, double fallback, NumberRange rang
   return has(key) ? number(key, range) : fallback;
 }
 
-int YamlMap::integer(const std::string& key, int fallback, int low, int high) {
-  const double found = number(key, fallback, {double(low), double(high)});
+int YamlMap::integer(const std::string& key, int low, int high) {
+  const double found = number(key, {double(low), double(high)});
   if (found != std::floor(found)) fail(key, "must be a whole number");
   return static_cast<int>(found);
 }
 
-bool YamlMap::flag(const std::string& key, bool fallback) {
+int YamlMap::integer(const std::string& key, int fallback, int low, int high) {
+  return has(key) ? integer(key, low, high) : fallback;
+}
+
+bool YamlMap::flag(const std::string& key) {
   const YAML::Node found = value(key);
-  if (!found.IsDefined()) return fallback;
+  if (!found.IsDefined()) fail(key, "is missing");
   bool flag = false;
   if (!YAML::convert<bool>::decode(found, flag)) fail(key, "must be true or false");
   return flag;
 }
 
+bool YamlMap::flag(const std::string& key, bool fallback) {
+  return has(key) ? flag(key) : fallback;
+}
+
 std::string YamlMap::text(const std::string& key) {
   const YAML::Node found = value(key);
   if (!found.IsDefined()) fail(key, "is missing");
-  if (!found.IsScalar()) fail(key, "must be a word");
+  if (!found.IsScalar()) fail(key, "must be a text");
   return found.Scalar();
 }
 
@@ -113,14 +124,29 @@ std::string YamlMap::text(const std::string& key, const std::string& fallback) {
   return has(key) ? text(key) : fallback;
 }
 
-std::vector<double> YamlMap::numbers(const std::string& key, std::size_t count) {
+YAML::Node YamlMap::listOf(const std::string& key, std::size_t count, const char* entries) {
   const YAML::Node found = value(key);
   if (!found.IsDefined()) fail(key, "is missing");
   if (!found.IsSequence() || found.size() != count) {
-    fail(key, "must be a list of " + std::to_string(count) + " numbers");
+    fail(key, "must be a list of " + std::to_string(count) + " " + entries);
   }
+  return found;
+}
+
+std::vector<std::string> YamlMap::texts(const std::string& key, std::size_t count) {
+  std::vector<std::string> out;
+  for (const YAML::Node& entry : listOf(key, count, "texts")) {
+    if (!entry.IsScalar()) fail(key, "must be a list of texts");
+    out.push_back(entry.Scalar());
+  }
+  return out;
+}
+
+std::vector<double> YamlMap::numbers(const std::string& key, std::size_t count) {
   std::vector<double> out;
-  for (const YAML::Node& entry : found) out.push_back(numberOf(entry, key, {}));
+  for (const YAML::Node& entry : listOf(key, count, "numbers")) {
+    out.push_back(numberOf(entry, key, {}));
+  }
   return out;
 }
 
@@ -160,13 +186,13 @@ std::vector<YamlMap> YamlMap::list(const std::string& key, const std::string& wh
   const YAML::Node found = value(key);
   if (!found.IsDefined()) return out;
   if (!found.IsSequence()) fail(key, "must be a list");
-  for (const YAML::Node& entry : found) out.emplace_back(entry, file_, what);
+  for (const YAML::Node& entry : found) out.push_back(YamlMap(entry, file_, what));
   return out;
 }
 
 std::vector<std::string> YamlMap::keys() {
   std::vector<std::string> out;
-  for (const auto& entry : node_) {
+  for (const auto& entry : *node_) {
     if (!entry.first.IsScalar()) failAt(file_, entry.first.Mark(), "a key is no word");
     out.push_back(entry.first.Scalar());
   }
@@ -175,7 +201,7 @@ std::vector<std::string> YamlMap::keys() {
 }
 
 void YamlMap::done() const {
-  for (const auto& entry : node_) {
+  for (const auto& entry : *node_) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "?";
     if (known_.count(key) != 0) continue;
     std::string all, nearest;
