@@ -15,6 +15,9 @@ namespace {
 /// A bin that a portrait lacks counts as this share of anybody's: nobody was seen from everywhere.
 constexpr float kUnseenShare = 0.1F;
 constexpr double kMostWeight = 30.0;  // Independent looks; an older one fades as new ones come.
+constexpr double kFirstWeight = 3.0;  // What is known beforehand counts for so many.
+// What makes kLookGain's slope the one between gamma distributions with these means.
+constexpr double kMisfitShape = 1.0 / (1.0 / kMisfit - 1.0 / kOthersMisfit);
 
 }  // namespace
 
@@ -51,6 +54,10 @@ Gallery::Gallery(TargetLooks looks, const GalleryParams& params)
 
 void Gallery::refresh(Person& person) const {
   const Eigen::Index parts = person.mean.cols();
+  if (person.misfit.size() == 0) {
+    person.misfit.setConstant(parts, kMisfit);
+    person.misfit_weight.setConstant(parts, kFirstWeight);
+  }
   person.log_shares =
       ((person.mean.colwise() + kUnseenShare * anybody_) / (1.0F + kUnseenShare)).log();
   person.knows.resize(static_cast<std::size_t>(parts));
@@ -76,14 +83,17 @@ void Gallery::takeApart(const Eigen::ArrayXXf& look) {
   }
 }
 
-/// Over the parts that both the look and the person show, in the light that fits best.
-double Gallery::likeness(const Person& person) const {
+/// Over the parts that both the look and the person show, in the light that fits best; leaves their
+/// misfits in that light, -1 where there is none.
+double Gallery::likeness(const Person& person) {
   double best = -std::numeric_limits<double>::infinity();
   for (const Tint& tint : looks_.tints) {
     double sum = tint.log_prior;
+    misfit_.setConstant(person.mean.cols(), -1.0);
     for (std::size_t part = 0, i = 0; part < ends_.size(); i = ends_[part++]) {
       if (i == ends_[part] || !person.knows[part]) continue;
-      const float* log_shares = person.log_shares.col(static_cast<Eigen::Index>(part)).data();
+      const auto column = static_cast<Eigen::Index>(part);
+      const float* log_shares = person.log_shares.col(column).data();
       float like = 0.0F, usual = 0.0F;
       for (std::size_t n = i; n < ends_[part]; ++n) {
         const int bin = tint.bins[look_[n].bin];
@@ -91,11 +101,18 @@ double Gallery::likeness(const Person& person) const {
         usual += look_[n].share * log_anybody_[bin];
       }
       const double entropy = entropies_[part];
-      const double likeness = static_cast<double>(like) - entropy +
-                              kRarityShare * (entropy - static_cast<double>(usual));
-      sum += kLikenessOffset + std::max(likeness, kWorstLikeness);
+      const double misfit = misfit_[column] = std::max(entropy - static_cast<double>(like), 0.0);
+      const double likeness = kRarityShare * (entropy - static_cast<double>(usual)) - misfit;
+      const double mean = person.misfit[column];
+      // Only against them: things of their colours may fit as well.
+      const double against =
+          kMisfitShape * (misfit * (1.0 / mean - 1.0 / kMisfit) - std::log(kMisfit / mean));
+      sum += kLikenessOffset + std::max(likeness, kWorstLikeness) -
+             std::clamp(against, 0.0, -std::log(params_.misleading_share));
     }
-    best = std::max(best, sum);
+    if (sum <= best) continue;
+    best = sum;
+    best_misfit_.swap(misfit_);
   }
   return kLookGain * best;
 }
@@ -152,6 +169,14 @@ void Gallery::average(Person& person, const Eigen::ArrayXXf& look, double weight
 void Gallery::addLookAt(int hypothesis, const Observation& seen, double weight) {
   if (seen.look == nullptr || !isKnown(hypothesis)) return;
   Person& person = people_[index(hypothesis)];
+  takeApart(*seen.look);
+  likeness(person);
+  for (Eigen::Index part = 0; part < best_misfit_.size(); ++part) {
+    if (best_misfit_[part] < 0.0) continue;
+    double& rests_on = person.misfit_weight[part];
+    rests_on = std::min(rests_on + weight, kMostWeight);
+    person.misfit[part] += weight / rests_on * (best_misfit_[part] - person.misfit[part]);
+  }
   average(hypothesis == kTarget ? lately_ : person, *seen.look, weight);
   if (hypothesis == kTarget) mixLately();
   refresh(person);
@@ -186,6 +211,7 @@ int Gallery::meet(const Eigen::ArrayXXf& mean_look, double weight, int replaced)
   }
   if (hypothesis < kFirstOther) return kStranger;
   Person& person = people_[index(hypothesis)];
+  person = {};
   person.mean = mean_look;
   person.weight = weight;
   refresh(person);

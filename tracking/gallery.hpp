@@ -44,12 +44,17 @@ using Evidence = Eigen::Array<double, kHypotheses, 1>;
 
 /// A look's log odds is kLookGain * sum over its parts of (likeness + kLikenessOffset), where
 /// likeness = kRarityShare * KL(look || anybody) - KL(look || person), in the light that fits best.
+/// Sure looks at a person teach how well they usually fit, which adds what kMisfit says.
 /// The gain and the offset were learned by logistic regression on people of real recordings, see
 /// docs/results.md: another description of bodies needs others.
 inline constexpr double kLookGain = 0.9;  ///< Less than 1: a body's parts are not independent.
 /// A part whose likeness is minus this says nothing.
 inline constexpr double kLikenessOffset = 0.38;
 inline constexpr double kWorstLikeness = -1.5;  ///< No part says more against a person [nat].
+/// Mean misfit, KL(look || person), of the looks at a person and at somebody else, over all parts
+/// and lights: what is expected before a person was looked at. Whoever usually fits better than
+/// that is not taken for them where they fit no better than others do.
+inline constexpr double kMisfit = 0.97, kOthersMisfit = 2.0;
 /// How much of a rare colour's evidence counts: whoever wears a rare colour wears much of it.
 inline constexpr double kRarityShare = 0.5;
 
@@ -80,16 +85,17 @@ class Gallery {
 
  private:
   struct Person {
-    Eigen::ArrayXXf mean;        // of their looks
-    Eigen::ArrayXXf log_shares;  // of a bin, with a little of anybody's
-    std::vector<bool> knows;     // which parts
-    double weight = 0.0;         // independent looks that it rests on; 0: nobody
+    Eigen::ArrayXXf mean;                  // of their looks
+    Eigen::ArrayXXf log_shares;            // of a bin, with a little of anybody's
+    std::vector<bool> knows;               // which parts
+    double weight = 0.0;                   // independent looks that it rests on; 0: nobody
+    Eigen::ArrayXd misfit, misfit_weight;  // usual ones, part by part, and what they rest on
   };
   static std::size_t index(int hypothesis) { return static_cast<std::size_t>(hypothesis); }
   void refresh(Person& person) const;
   static void average(Person& person, const Eigen::ArrayXXf& look, double weight);
   void takeApart(const Eigen::ArrayXXf& look);
-  double likeness(const Person& person) const;
+  double likeness(const Person& person);
   void mixLately();
 
   TargetLooks looks_;
@@ -105,6 +111,7 @@ class Gallery {
   std::vector<Share> look_;
   std::vector<std::size_t> ends_;  // of the parts in look_
   std::vector<double> entropies_;  // sum of share * log(share) of each part
+  Eigen::ArrayXd misfit_, best_misfit_;
 };
 
 }  // namespace heel

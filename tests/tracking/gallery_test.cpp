@@ -6,10 +6,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <stdexcept>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -30,6 +32,19 @@ double partLogOdds(double share_of_portrait) {
   const double like = std::log((share_of_portrait + 0.1 / test::kColors) / 1.1);
   const double rare = kRarityShare * std::log(test::kColors);
   return kLikenessOffset + std::max(like + rare, kWorstLikeness);
+}
+
+double misfitOf(double share_of_portrait) {
+  return -std::log((share_of_portrait + 0.1 / test::kColors) / 1.1);
+}
+
+/// What a part's misfit says against a person whose looks usually have another one than is
+/// expected: the logarithm of two gamma distributions' ratio.
+double usualLogOdds(double usual_misfit, double misfit) {
+  const double shape = 1.0 / (1.0 / kMisfit - 1.0 / kOthersMisfit);
+  const double odds =
+      std::log(kMisfit / usual_misfit) - misfit * (1.0 / usual_misfit - 1.0 / kMisfit);
+  return std::clamp(shape * odds, std::log(GalleryParams{}.misleading_share), 0.0);
 }
 
 /// The target's evidence over a stranger's where its looks have these log odds.
@@ -178,17 +193,32 @@ TEST(Gallery, WhatWasLearnedAtFirstKeepsHalfOfTheSay) {
   const Eigen::ArrayXXf now = clothes(2, 3);
   for (int i = 0; i < 1000; ++i) gallery.addLookAt(kTarget, seen(0, 0, &now), 1.0);
   const double lately = 0.5 * 30.0 / 33.0;  // It rests on 30 looks at most.
-  EXPECT_NEAR(of(gallery, clothes(0, 1))[kTarget], target(0.9 * 2.0 * partLogOdds(1.0 - lately)),
-              1e-4);
-  EXPECT_NEAR(of(gallery, clothes(2, 3))[kTarget], target(0.9 * 2.0 * partLogOdds(lately)), 1e-4);
-  EXPECT_NEAR(of(gallery, clothes(4, 5))[kTarget], target(0.9 * 2.0 * partLogOdds(0.0)), 1e-4);
+  for (const auto& [look, share] :
+       {std::pair(clothes(0, 1), 1.0 - lately), std::pair(clothes(2, 3), lately),
+        std::pair(clothes(4, 5), 0.0)}) {
+    const double part = partLogOdds(share) + usualLogOdds(misfitOf(lately), misfitOf(share));
+    EXPECT_NEAR(of(gallery, look)[kTarget], target(0.9 * 2.0 * part), 1e-4) << share;
+  }
 }
 
 TEST(Gallery, AFewLooksChangeThePortraitALittle) {
   Gallery gallery(looksOf(clothes(0, 1)));
   const Eigen::ArrayXXf now = clothes(2, 3);
   gallery.addLookAt(kTarget, seen(0, 0, &now), 1.0);
-  EXPECT_NEAR(of(gallery, now)[kTarget], target(0.9 * 2.0 * partLogOdds(0.5 * 1.0 / 4.0)), 1e-5);
+  const double share = 0.5 * 1.0 / 4.0;
+  const double usual = kMisfit + (misfitOf(0.0) - kMisfit) / 4.0;
+  const double part = partLogOdds(share) + usualLogOdds(usual, misfitOf(share));
+  EXPECT_NEAR(of(gallery, now)[kTarget], target(0.9 * 2.0 * part), 1e-5);
+}
+
+TEST(Gallery, WhoeverSharesOneGarmentIsNotTakenForSomebodyWhoUsuallyFits) {
+  Gallery gallery(looksOf(clothes(0, 1)));
+  const Eigen::ArrayXXf own = clothes(0, 1);
+  const double own_before = of(gallery, own)[kTarget];
+  const double alike_before = of(gallery, clothes(0, 5))[kTarget];
+  for (int i = 0; i < 100; ++i) gallery.addLookAt(kTarget, seen(0, 0, &own), 0.1);
+  EXPECT_NEAR(of(gallery, own)[kTarget], own_before, 1e-5);
+  EXPECT_LT(of(gallery, clothes(0, 5))[kTarget], std::min(alike_before - 0.5, -0.5));
 }
 
 TEST(Gallery, LearnsAPartThatWasNeverSeenBefore) {
@@ -235,8 +265,11 @@ TEST(Gallery, ALookIsAveragedIntoWhoeverItIs) {
   const int ann = gallery.meet(clothes(2, 3), 3.0);
   const Eigen::ArrayXXf now = clothes(4, 5);
   gallery.addLookAt(ann, seen(0, 0, &now), 1.0);
-  EXPECT_NEAR(of(gallery, now)[ann], target(0.9 * 2.0 * partLogOdds(0.25)), 1e-5);
-  EXPECT_NEAR(of(gallery, clothes(2, 3))[ann], target(0.9 * 2.0 * partLogOdds(0.75)), 1e-5);
+  const double usual = kMisfit + (misfitOf(0.0) - kMisfit) / 4.0;
+  for (const auto& [look, share] : {std::pair(now, 0.25), std::pair(clothes(2, 3), 0.75)}) {
+    const double part = partLogOdds(share) + usualLogOdds(usual, misfitOf(share));
+    EXPECT_NEAR(of(gallery, look)[ann], target(0.9 * 2.0 * part), 1e-5) << share;
+  }
   gallery.addLookAt(ann + 1, seen(0, 0, &now), 1.0);
   EXPECT_FALSE(gallery.isKnown(ann + 1)) << "nobody is met by that";
 }
