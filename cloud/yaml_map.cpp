@@ -44,6 +44,7 @@ YamlMap::YamlMap(const YAML::Node& node, std::string file, std::string what)
 
 YamlMap YamlMap::fromFile(const std::filesystem::path& file, const std::string& what) {
   const std::string name = file.string();
+  if (!std::filesystem::exists(file)) throw std::runtime_error(name + ": there is no such file");
   try {
     return {YAML::Load(readWholeFile(file)), name, what};
   } catch (const YAML::Exception& error) {

@@ -105,7 +105,7 @@ TEST_F(MapServerFile, WhatIsWrongGetsASentenceWithTheKey) {
   EXPECT_THAT(whyNot("kitchen: [0, 0, 0]\n"), HasSubstr("not a map_server map"));
   EXPECT_THAT(whyNot("image: [}\n"), HasSubstr("map.yaml, line 1: not YAML"));
   EXPECT_THAT(messageOf([&] { loadMapServer(folder_ / "none.yaml"); }),
-              AllOf(HasSubstr("none.yaml"), HasSubstr("No such file")));
+              AllOf(HasSubstr("none.yaml"), HasSubstr("no such file")));
 }
 
 TEST_F(MapServerFile, ABadImageIsNamed) {

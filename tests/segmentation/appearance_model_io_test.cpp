@@ -139,7 +139,7 @@ TEST_F(AppearanceFile, TakesAThresholdSetByHand) {
 }
 
 TEST_F(AppearanceFile, ThatIsMissingIsNamed) {
-  EXPECT_THAT(complaint(), AllOf(HasSubstr("person.yaml"), HasSubstr("No such file")));
+  EXPECT_THAT(complaint(), AllOf(HasSubstr("person.yaml"), HasSubstr("no such file")));
 }
 
 TEST_F(AppearanceFile, OfTheFutureIsRefused) {

@@ -128,7 +128,8 @@ TEST(SceneFile, RefusesValuesOfAWrongKind) {
 TEST(SceneFile, RefusesAModelThatIsNotThere) {
   EXPECT_THAT(complaint("furniture:\n  - {model: sofa, at: [0, 0, 0]}\n"),
               AllOf(HasSubstr("line 2"), HasSubstr("'sofa'")));
-  EXPECT_THAT(complaint("models: nowhere.yaml\n"), HasSubstr("nowhere.yaml: no such file"));
+  EXPECT_THAT(complaint("models: nowhere.yaml\n"),
+              HasSubstr("nowhere.yaml: there is no such file"));
 }
 
 TEST(SceneFile, RefusesTwoPeopleOfOneName) {
@@ -142,7 +143,7 @@ TEST(SceneFile, SaysThatAFileIsMissing) {
     loadScene("no_such_scene.yaml");
     FAIL();
   } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "no_such_scene.yaml: no such file");
+    EXPECT_STREQ(error.what(), "no_such_scene.yaml: there is no such file");
   }
 }
 
