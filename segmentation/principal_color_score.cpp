@@ -43,7 +43,7 @@ PrincipalColor makePrincipalColor(const ColorHistogram& points,
 }  // namespace
 
 ColorScore principalColorScore(const ColorHistogram& person, const PrincipalColorParams& params) {
-  if (params.count < 0 || params.count > 256 || !isBinCount(params.max_count)) {
+  if ((params.count != 0 && !isBinCount(params.count)) || !isBinCount(params.max_count)) {
     throw std::invalid_argument("the number of principal colours must be 0 to 256");
   }
   if (!isBinCount(params.hue_bins) || !isBinCount(params.value_bins)) {

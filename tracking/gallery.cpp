@@ -58,6 +58,8 @@ void Gallery::refresh(Person& person) const {
     person.misfit.setConstant(parts, kMisfit);
     person.misfit_weight.setConstant(parts, kFirstWeight);
   }
+  person.rate_gain = 1.0 / person.misfit - 1.0 / kMisfit;
+  person.log_rate_gain = (kMisfit / person.misfit).log();
   person.log_shares =
       ((person.mean.colwise() + kUnseenShare * anybody_) / (1.0F + kUnseenShare)).log();
   person.knows.resize(static_cast<std::size_t>(parts));
@@ -103,10 +105,9 @@ double Gallery::likeness(const Person& person) {
       const double entropy = entropies_[part];
       const double misfit = misfit_[column] = std::max(entropy - static_cast<double>(like), 0.0);
       const double likeness = kRarityShare * (entropy - static_cast<double>(usual)) - misfit;
-      const double mean = person.misfit[column];
       // Only against them: things of their colours may fit as well.
       const double against =
-          kMisfitShape * (misfit * (1.0 / mean - 1.0 / kMisfit) - std::log(kMisfit / mean));
+          kMisfitShape * (misfit * person.rate_gain[column] - person.log_rate_gain[column]);
       sum += kLikenessOffset + std::max(likeness, kWorstLikeness) -
              std::clamp(against, 0.0, -std::log(params_.misleading_share));
     }
@@ -186,7 +187,7 @@ void Gallery::addLookAt(int hypothesis, const Observation& seen, double weight) 
 /// grows as that comes to rest on more.
 void Gallery::mixLately() {
   Person& target = people_[kTarget];
-  const auto lately = static_cast<float>(0.5 * lately_.weight / (lately_.weight + 3.0));
+  const auto lately = static_cast<float>(0.5 * lately_.weight / (lately_.weight + kFirstWeight));
   for (Eigen::Index part = 0; part < target.mean.cols(); ++part) {
     const bool has_anchor = looks_.target.col(part).sum() > 0.5F;
     const bool has_lately = lately_.mean.col(part).sum() > 0.5F;

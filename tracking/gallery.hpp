@@ -85,11 +85,13 @@ class Gallery {
 
  private:
   struct Person {
-    Eigen::ArrayXXf mean;                  // of their looks
-    Eigen::ArrayXXf log_shares;            // of a bin, with a little of anybody's
-    std::vector<bool> knows;               // which parts
-    double weight = 0.0;                   // independent looks that it rests on; 0: nobody
-    Eigen::ArrayXd misfit, misfit_weight;  // usual ones, part by part, and what they rest on
+    Eigen::ArrayXXf mean;        // of their looks
+    Eigen::ArrayXXf log_shares;  // of a bin, with a little of anybody's
+    std::vector<bool> knows;     // which parts
+    double weight = 0.0;         // independent looks that it rests on; 0: nobody
+    // Their usual misfits, part by part, what these rest on, and how much steeper than kMisfit's a
+    // gamma distribution with such a mean falls.
+    Eigen::ArrayXd misfit, misfit_weight, rate_gain, log_rate_gain;
   };
   static std::size_t index(int hypothesis) { return static_cast<std::size_t>(hypothesis); }
   void refresh(Person& person) const;
