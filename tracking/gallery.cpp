@@ -58,8 +58,9 @@ void Gallery::refresh(Person& person) const {
     person.misfit.setConstant(parts, kMisfit);
     person.misfit_weight.setConstant(parts, kFirstWeight);
   }
-  person.rate_gain = 1.0 / person.misfit - 1.0 / kMisfit;
-  person.log_rate_gain = (kMisfit / person.misfit).log();
+  // Whoever usually fits worse than people do is judged as people are.
+  person.rate_gain = (1.0 / person.misfit - 1.0 / kMisfit).max(0.0);
+  person.log_rate_gain = (kMisfit / person.misfit).log().max(0.0);
   person.log_shares =
       ((person.mean.colwise() + kUnseenShare * anybody_) / (1.0F + kUnseenShare)).log();
   person.knows.resize(static_cast<std::size_t>(parts));

@@ -90,7 +90,7 @@ class Gallery {
     std::vector<bool> knows;     // which parts
     double weight = 0.0;         // independent looks that it rests on; 0: nobody
     // Their usual misfits, part by part, what these rest on, and how much steeper than kMisfit's a
-    // gamma distribution with such a mean falls.
+    // gamma distribution with such a mean falls, if it does.
     Eigen::ArrayXd misfit, misfit_weight, rate_gain, log_rate_gain;
   };
   static std::size_t index(int hypothesis) { return static_cast<std::size_t>(hypothesis); }

@@ -38,9 +38,10 @@ double misfitOf(double share_of_portrait) {
   return -std::log((share_of_portrait + 0.1 / test::kColors) / 1.1);
 }
 
-/// What a part's misfit says against a person whose looks usually have another one than is
+/// What a part's misfit says against a person whose looks usually have a smaller one than is
 /// expected: the logarithm of two gamma distributions' ratio.
 double usualLogOdds(double usual_misfit, double misfit) {
+  usual_misfit = std::min(usual_misfit, kMisfit);
   const double shape = 1.0 / (1.0 / kMisfit - 1.0 / kOthersMisfit);
   const double odds =
       std::log(kMisfit / usual_misfit) - misfit * (1.0 / usual_misfit - 1.0 / kMisfit);
