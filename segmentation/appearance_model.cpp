@@ -63,7 +63,7 @@ void tabulate(const ColorScore& score, AppearanceBand& band) {
 }
 
 double errorShare(const AppearanceBand& band) {
-  return band.errors.false_negative_share + band.errors.false_positive_share;
+  return band.errors().false_negative_share + band.errors().false_positive_share;
 }
 
 /// Each stripe has the colours of the band that holds its middle.
@@ -117,8 +117,8 @@ AppearanceModel::AppearanceModel(AppearanceParams params, std::vector<ColorHisto
     if (bands_[i].person.empty()) continue;
     has_points = true;
     tabulate(makeScore(params_, bands_[i].person, room_), bands_[i]);
-    const ErrorCurve curve = countColorErrors(bands_[i].table, bands_[i].person, room_);
-    setThreshold(i, chooseThreshold(curve, params_.threshold));
+    bands_[i].error_curve = countColorErrors(bands_[i].table, bands_[i].person, room_);
+    setThreshold(i, chooseThreshold(bands_[i].error_curve, params_.threshold));
   }
   if (!has_points) throw std::invalid_argument("there are no colours of the person");
   if (portrait_.colors.size() == 0) portrait_ = portraitOf(bands_);
@@ -134,10 +134,8 @@ ColorTable AppearanceModel::filterTable() const {
 }
 
 void AppearanceModel::setThreshold(std::size_t band, std::uint8_t threshold) {
-  AppearanceBand& b = bands_.at(band);
-  if (b.table.empty()) return;
-  b.table = b.table.withThreshold(threshold);
-  b.errors = countColorErrors(b.table, b.person, room_)[threshold];
+  ColorTable& table = bands_.at(band).table;
+  if (!table.empty()) table = table.withThreshold(threshold);
 }
 
 Separability AppearanceModel::separability() const {
@@ -158,8 +156,8 @@ Separability AppearanceModel::separability() const {
   if (result.error_share > params_.max_error_share) {
     result.doubt = AppearanceDoubt::kLikeTheRoom;
     result.advice = "The person's colours are the room's: even the " + best->body.name +
-                    " keeps only " + percent(1.0 - best->errors.false_negative_share) +
-                    " of the person while " + percent(best->errors.false_positive_share) +
+                    " keeps only " + percent(1.0 - best->errors().false_negative_share) +
+                    " of the person while " + percent(best->errors().false_positive_share) +
                     " of the room passes. Let the person wear another colour, learn the legs too, "
                     "or improve the light.";
   }

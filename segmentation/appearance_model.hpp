@@ -72,8 +72,9 @@ struct AppearanceBand {
   ColorHistogram person;       ///< Of all the target's points in the band, over time.
   ColorTable table;            ///< With its threshold; empty if the band has no points.
   double score_per_level = 0;  ///< The model's score at level 1 of the table.
-  ColorErrors errors;          ///< Of the table, on what was learned from.
+  ErrorCurve error_curve{};    ///< Of the table, on what was learned from.
 
+  const ColorErrors& errors() const { return error_curve[table.threshold()]; }
   /// The threshold in the model's own unit: the paper's delta.
   double delta() const { return table.threshold() * score_per_level; }
 };

@@ -158,8 +158,8 @@ void drawDistributions(cv::Mat panel, const ColorHistogram& person) {
        [&](int i) { return cv::Scalar::all(i * 220.0 / kValueBins); });
 }
 
-void drawErrors(cv::Mat panel, const AppearanceBand& band, const ColorHistogram& room) {
-  const ErrorCurve curve = countColorErrors(band.table, band.person, room);
+void drawErrors(cv::Mat panel, const AppearanceBand& band) {
+  const ErrorCurve& curve = band.error_curve;
   const auto place = [&](std::size_t threshold, double share) {
     return cv::Point(static_cast<int>(threshold) * (panel.cols - 1) / 255,
                      cvRound((1.0 - share) * (panel.rows - 1)));
@@ -179,7 +179,7 @@ std::string describe(const AppearanceBand& band) {
                 "%.2f to %.2f m, %llu points, threshold %.3g: loses %.0f %%, room passes %.0f %%",
                 band.body.min_height_m, band.body.max_height_m,
                 static_cast<unsigned long long>(band.person.total()), band.delta(),
-                100 * band.errors.false_negative_share, 100 * band.errors.false_positive_share);
+                100 * band.errors().false_negative_share, 100 * band.errors().false_positive_share);
   return band.body.name + ", " + text;
 }
 
@@ -205,7 +205,7 @@ cv::Mat drawAppearance(const AppearanceModel& model) {
       drawColors(panel(1, "the room's colours"), model.room());
       drawPassing(panel(2, "passes: pale, dull, vivid"), band.table);
       drawDistributions(panel(3, "hue and value (D_H, D_V)"), band.person);
-      drawErrors(panel(4, "errors: room blue, person red"), band, model.room());
+      drawErrors(panel(4, "errors: room blue, person red"), band);
     }
     top += row_height;
   }

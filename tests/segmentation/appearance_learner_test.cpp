@@ -103,8 +103,8 @@ TEST(AppearanceLearner, MakesAModelOfBoth) {
   const AppearanceModel model = learner.learn();
   EXPECT_TRUE(model.bands()[0].table.passes(40, 30, 180));
   EXPECT_FALSE(model.bands()[0].table.passes(200, 210, 220));
-  EXPECT_EQ(model.bands()[0].errors.false_negatives, 0U);
-  EXPECT_EQ(model.bands()[0].errors.false_positives, 0U);
+  EXPECT_EQ(model.bands()[0].errors().false_negatives, 0U);
+  EXPECT_EQ(model.bands()[0].errors().false_positives, 0U);
 }
 
 }  // namespace

@@ -68,8 +68,8 @@ TEST_F(AppearanceFile, GivesBackTheModel) {
     EXPECT_TRUE(test::sameColors(a.person, b.person));
     EXPECT_TRUE(std::equal(a.table.data(), a.table.data() + ColorTable::kCells, b.table.data()));
     EXPECT_EQ(a.table.threshold(), b.table.threshold());
-    EXPECT_EQ(a.errors.false_positives, b.errors.false_positives);
-    EXPECT_EQ(a.errors.false_negatives, b.errors.false_negatives);
+    EXPECT_EQ(a.errors().false_positives, b.errors().false_positives);
+    EXPECT_EQ(a.errors().false_negatives, b.errors().false_negatives);
   }
   EXPECT_TRUE(test::sameColors(model.room(), loaded.room()));
   EXPECT_EQ(loaded.params().principal_colors.count, 2);

@@ -109,8 +109,8 @@ TEST(AppearanceModel, StatesTheErrorsOfItsTables) {
     const AppearanceBand& torso = model.bands()[0];
     torso.person.forEach([&](Bgr c, std::uint64_t n) { lost += passes(torso.table, c) ? 0 : n; });
     model.room().forEach([&](Bgr c, std::uint64_t n) { wrong += passes(torso.table, c) ? n : 0; });
-    EXPECT_EQ(torso.errors.false_negatives, lost);
-    EXPECT_EQ(torso.errors.false_positives, wrong);
+    EXPECT_EQ(torso.errors().false_negatives, lost);
+    EXPECT_EQ(torso.errors().false_positives, wrong);
   };
   expectErrors();
   model.setThreshold(0, 250);
