@@ -32,8 +32,8 @@ function(heel_install_module name)
     DESTINATION "${HEEL_CONFIG_DIR}" COMPONENT development)
 endfunction()
 
-# Installs the heel command, what it reads (scenes, plans and robots), and what completes its calls
-# in bash and zsh, where Debian's look for it; the command itself writes that.
+# Installs the heel command, what it reads (scenes, plans and robots), its workflow, and what
+# completes its calls in bash and zsh, where Debian's look for it; the command itself writes that.
 function(heel_install_command)
   install(TARGETS heel_command RUNTIME COMPONENT runtime)
   set(completions "${PROJECT_BINARY_DIR}/completions")
@@ -46,7 +46,7 @@ function(heel_install_command)
   install(FILES "${completions}/_heel" COMPONENT runtime
     DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions")
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/apps/scenes" "${PROJECT_SOURCE_DIR}/apps/plans"
-    "${PROJECT_SOURCE_DIR}/apps/robots"
+    "${PROJECT_SOURCE_DIR}/apps/robots" "${PROJECT_SOURCE_DIR}/apps/batch"
     DESTINATION "${HEEL_DATA_DIR}" COMPONENT runtime)
 endfunction()
 

@@ -39,10 +39,10 @@ const std::map<std::string, Folders> kKnows = {
     {"apps/follower",
      {"cloud", "segmentation", "tracking", "mapping", "planning", "apps/recording"}},
 
-    {"apps/results", {"mapping", "planning", "apps/output"}},
+    {"apps/results", {"cloud", "mapping", "planning", "apps/output"}},
     {"apps/pictures", {"cloud", "mapping", "planning", "apps/output"}},
     {"apps/film", {"mapping", "apps/output", "apps/pictures"}},
-    {"apps/pages", {"mapping", "apps/output", "apps/pictures", "apps/results"}},
+    {"apps/pages", {"cloud", "mapping", "apps/output", "apps/pictures", "apps/results"}},
     {"apps/simulation",
      {"cloud", "mapping", "planning", "apps/film", "apps/output", "apps/recording",
       "apps/results"}},
@@ -70,6 +70,7 @@ const std::map<std::string, Folders> kKnows = {
     {"apps/heel/inspect", kVerb},
     {"apps/heel/localize", kVerb},
     {"apps/heel/planview", kVerb},
+    {"apps/heel/summarize", kVerb},
     {"apps/heel/track", kVerb},
     {"apps/heel/view", kVerb},
 };

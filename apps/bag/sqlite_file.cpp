@@ -117,6 +117,16 @@ SqliteQuery& SqliteQuery::bind(int parameter, std::int64_t value) {
   return *this;
 }
 
+SqliteQuery& SqliteQuery::bind(int parameter, double value) {
+  if (sqlite3_bind_double(statement_.get(), parameter, value) != SQLITE_OK) file_.fail();
+  return *this;
+}
+
+SqliteQuery& SqliteQuery::bindNull(int parameter) {
+  if (sqlite3_bind_null(statement_.get(), parameter) != SQLITE_OK) file_.fail();
+  return *this;
+}
+
 SqliteQuery& SqliteQuery::bind(int parameter, const std::string& value) {
   if (sqlite3_bind_text64(statement_.get(), parameter, value.data(), value.size(), SQLITE_TRANSIENT,
                           SQLITE_UTF8) != SQLITE_OK) {

@@ -63,9 +63,12 @@ class SqliteQuery {
   SqliteQuery(SqliteFile& file, sqlite3_stmt* statement) : file_(file), statement_(statement) {}
 
   SqliteQuery& bind(int parameter, std::int64_t value);
+  SqliteQuery& bind(int parameter, double value);
   SqliteQuery& bind(int parameter, const std::string& value);
   /// The bytes must stay until the statement has been run.
   SqliteQuery& bind(int parameter, const std::uint8_t* bytes, std::size_t size);
+
+  SqliteQuery& bindNull(int parameter);
 
   Row step();  ///< Does not throw.
   void run();  ///< For statements without rows; may be bound and run again.

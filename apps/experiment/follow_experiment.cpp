@@ -44,7 +44,6 @@ std::vector<Job> jobsOf(const FollowExperimentParams& params,
     job.episode.name = "Episode " + std::to_string(job.episode.seed);
     job.episode.plan = plans.back();
     job.episode.command = "heel follow --random --seed " + std::to_string(job.episode.seed);
-    if (!params.rough.empty()) job.episode.command += " --rough " + params.rough;
   }
   return jobs;
 }
@@ -91,11 +90,16 @@ std::string causeOfFailure(const FollowLog& log, const FollowSummary& summary) {
   return summary.wrongShare() >= 0.01 ? "somebody else was followed for a while" : "";
 }
 
+const std::vector<std::string>& experimentPlans() {
+  static const std::vector<std::string> plans = {"paper", "search"};
+  return plans;
+}
+
 FollowExperiment runFollowExperiment(const FollowExperimentParams& params,
                                      const std::function<void(const FollowEpisode&)>& done) {
   roughWorldOf(params.rough);  // or it is told now what is wrong with it
   FollowExperiment experiment;
-  experiment.plans = {"paper", "search"};
+  experiment.plans = experimentPlans();
   std::vector<Job> jobs = jobsOf(params, experiment.plans);
   std::atomic<std::size_t> next{0};
   std::mutex mutex;
@@ -115,8 +119,8 @@ FollowExperiment runFollowExperiment(const FollowExperimentParams& params,
       if (done && jobs[i].has_ended) done(jobs[i].episode);
     }
   };
-  const unsigned count = params.jobs > 0 ? static_cast<unsigned>(params.jobs)
-                                         : std::max(1U, std::thread::hardware_concurrency());
+  const unsigned count = params.threads > 0 ? static_cast<unsigned>(params.threads)
+                                            : std::max(1U, std::thread::hardware_concurrency());
   std::vector<std::thread> threads;
   for (unsigned i = 0; i < count; ++i) threads.emplace_back(work);
   for (std::thread& thread : threads) thread.join();

@@ -27,8 +27,11 @@ struct FollowExperimentParams {
   double limit_s = 600.0;             ///< Of each run.
   std::string rough;                  ///< Of the random ones' world; see roughWorldOf().
   std::optional<RobotConfig> config;  ///< Instead of each scene's robot, and the defaults.
-  int jobs = 0;                       ///< Runs at a time; 0: as many as the machine has threads.
+  int threads = 0;                    ///< Runs at a time; 0: as many as the machine has threads.
 };
+
+/// The plans that are compared, ours last.
+const std::vector<std::string>& experimentPlans();
 
 /// The three experiments in the scene `office`, each with the paper's plan and with ours, then the
 /// random episodes. In the first experiment the person is alone; in the others another walks about.

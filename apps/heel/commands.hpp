@@ -34,12 +34,13 @@ void addMap(CLI::App& app);
 void addPlan(CLI::App& app);
 void addPlanView(CLI::App& app);
 void addSimulate(CLI::App& app);
+void addSummarize(CLI::App& app);
 void addView(CLI::App& app);
 void addEvaluate(CLI::App& app);
 void addExperiment(CLI::App& app);
 
-/// Gives each verb the option --max-memory, and lets it refuse numbers that are not finite; call it
-/// when all these verbs are there.
+/// Gives each verb the options that all have (--threads, --progress, --resume, --max-memory), and
+/// lets it refuse numbers that are not finite; call it when all these verbs are there.
 void completeVerbs(CLI::App& app);
 
 /// The verb that prints what completes the calls of all verbs in a shell.

@@ -84,10 +84,10 @@ void print(const LearnedPerson& learned) {
     std::printf("  %-8s  %.2f to %.2f  %7llu  %8.4f   %8llu %5.1f %%   %8llu %5.1f %%\n",
                 band.body.name.c_str(), band.body.min_height_m, band.body.max_height_m,
                 static_cast<unsigned long long>(band.person.total()), band.delta(),
-                static_cast<unsigned long long>(band.errors.false_positives),
-                100.0 * band.errors.false_positive_share,
-                static_cast<unsigned long long>(band.errors.false_negatives),
-                100.0 * band.errors.false_negative_share);
+                static_cast<unsigned long long>(band.errors().false_positives),
+                100.0 * band.errors().false_positive_share,
+                static_cast<unsigned long long>(band.errors().false_negatives),
+                100.0 * band.errors().false_negative_share);
   }
 }
 

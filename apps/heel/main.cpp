@@ -163,6 +163,7 @@ int main(int argc, char** argv) {
   heel::addSimulate(app);
   heel::addView(app);
   heel::addEvaluate(app);
+  heel::addSummarize(app);
   heel::addExperiment(app);
   heel::addConfig(app);
   heel::completeVerbs(app);

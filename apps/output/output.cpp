@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/output/output.hpp>
+#include <heel/apps/output/run_facts.hpp>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -77,6 +78,7 @@ struct Manifest {
   std::string by;
   bool complete = true;
   Names names;
+  std::string facts;
 };
 
 Manifest readManifest(const fs::path& file) {
@@ -88,8 +90,15 @@ Manifest readManifest(const fs::path& file) {
   std::getline(in, text);  // for people
   in >> std::quoted(manifest.by) >> text;
   manifest.complete = text == kComplete;
-  while (in >> std::quoted(text)) manifest.names.insert(text);
+  while ((in >> std::ws).peek() == '"' && in >> std::quoted(text)) manifest.names.insert(text);
+  std::getline(in, manifest.facts);
   return manifest;
+}
+
+/// The manifest of a folder or a file.
+fs::path manifestOf(const fs::path& place, bool is_folder) {
+  return is_folder ? place / kManifest
+                   : place.parent_path() / ("." + place.filename().string() + kManifest);
 }
 
 }  // namespace
@@ -102,7 +111,7 @@ Output::Output(const OutputPlan& plan) : plan_(plan) {
   const bool is_folder = plan.kind == OutputKind::kFolder;
   home_ = is_folder ? target : parent;
   staging_ = parent / ("." + name + ".heel-part");
-  manifest_ = is_folder ? home_ / kManifest : parent / ("." + name + kManifest);
+  manifest_ = manifestOf(target, is_folder);
   if (!is_folder) plan_.names.push_back(name);
   refuseInputs();
 
@@ -126,6 +135,7 @@ Output::Output(const OutputPlan& plan) : plan_(plan) {
   }
   lock();
   keepResultsOnSignals();
+  inputs_ = stateOfInputs(plan_.inputs);
   try {
     const Manifest manifest = readManifest(manifest_);
     const auto isStillThere = [&](const fs::path& file) { return isThere(home_ / file); };
@@ -256,6 +266,7 @@ void Output::writeManifest(std::FILE* file, const Names& names, bool complete) c
   text << "# Files that 'heel " << plan_.by << "' made: it replaces and removes no others.\n"
        << std::quoted(plan_.by) << ' ' << (complete ? kComplete : "incomplete") << '\n';
   for (const fs::path& name : names) text << std::quoted(name.string()) << '\n';
+  text << factsOfThisRun(inputs_) << '\n';
   if (std::fputs(text.str().c_str(), file) < 0 || std::fflush(file) != 0) {
     failToWrite(manifest_, lastError());
   }
@@ -373,6 +384,24 @@ void Output::moveAside() {
   fs::rename(staging_, kept, error);
   plan_.path = error ? staging_ : kept;
   lock_.reset();
+}
+
+std::string factsAt(const fs::path& place) {
+  const fs::path target = resolved(place);
+  std::error_code ignored;
+  return readManifest(manifestOf(target, fs::is_directory(target, ignored))).facts;
+}
+
+bool isDoneAlready(const fs::path& place) {
+  const fs::path target = resolved(place);
+  std::error_code ignored;
+  const bool is_folder = fs::is_directory(target, ignored);
+  const Manifest manifest = readManifest(manifestOf(target, is_folder));
+  const fs::path home = is_folder ? target : target.parent_path();
+  return !manifest.by.empty() && manifest.complete && !manifest.names.empty() &&
+         std::all_of(manifest.names.begin(), manifest.names.end(),
+                     [&home](const fs::path& name) { return isThere(home / name); }) &&
+         wouldRepeat(manifest.facts);
 }
 
 OutputFile::OutputFile(OutputPath path)

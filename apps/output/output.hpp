@@ -57,6 +57,7 @@ struct OutputPlan {
 /// They are written to a hidden folder beside their place, which is locked: a second run to the
 /// same place is refused, and what a killed run left there is removed by the next one. A hidden
 /// list, the manifest, names the files that were made; none but these are ever replaced or removed.
+/// It also holds the facts of the run; see factsOfThisRun().
 class Output {
  public:
   /// @throws std::invalid_argument  if results may not go there: an input is the same, within it or
@@ -103,12 +104,22 @@ class Output {
   void moveAside();
 
   OutputPlan plan_;
+  std::string inputs_;                       ///< Their state when the run began, for the manifest.
   std::filesystem::path home_;               ///< The folder that the results go to.
   std::filesystem::path staging_;            ///< The hidden folder.
   std::filesystem::path manifest_;           ///< Its place in the end.
   std::vector<std::filesystem::path> made_;  ///< Folders above, the highest one last.
   OpenFile lock_;  ///< The manifest in the making. Null: nothing is pending.
 };
+
+/// What is known of the run whose results are there, as their manifest tells: see factsOfThisRun().
+/// Empty: nothing that we made is there.
+/// @param place  A folder or a file.
+std::string factsAt(const std::filesystem::path& place);
+
+/// Whether a run with the same call on the same inputs left its complete results there, and they
+/// still are.
+bool isDoneAlready(const std::filesystem::path& place);
 
 /// A file that is written piece by piece. One that was not closed, or not written whole, is
 /// removed.

@@ -8,11 +8,9 @@
 #include <heel/apps/pages/page_parts.hpp>
 
 #include "page_assets.hpp"
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 
 namespace heel {
@@ -21,6 +19,30 @@ namespace {
 using Episodes = std::vector<FollowEpisode>;
 
 constexpr double kWrongShareLimit = 0.01;
+constexpr const char* kTable1 = "table1";
+constexpr const char* kRandom = "random";
+
+const std::vector<std::string>& episodeColumns() {
+  static const std::vector<std::string> columns = {"group",
+                                                   "name",
+                                                   "seed",
+                                                   "plan",
+                                                   "outcome",
+                                                   "distance_m",
+                                                   "elapsed_s",
+                                                   "seek_s",
+                                                   "moving_speed_mps",
+                                                   "contacts_by_robot",
+                                                   "contacts_by_people",
+                                                   "wrong_person_s",
+                                                   "min_clearance_m",
+                                                   "losses",
+                                                   "position_rms_m",
+                                                   "yaw_rms_rad",
+                                                   "cause",
+                                                   "command"};
+  return columns;
+}
 
 std::string share(double value, int decimals = 1) {
   return shownNumber(100.0 * value, decimals, "%");
@@ -95,28 +117,13 @@ std::string headCells(const std::vector<std::string>& plans) {
   return cells;
 }
 
-/// A place for the bars of the values that are known, and the middle one of these.
-std::string histogram(const std::string& title, const std::string& unit,
-                      const std::vector<double>& values) {
-  std::vector<double> known;
-  std::copy_if(values.begin(), values.end(), std::back_inserter(known),
-               [](double value) { return std::isfinite(value); });
-  const std::string head =
-      "<figure class=\"histogram\"><figcaption><b>" + title + "</b> [" + unit + "]";
-  if (known.empty()) return head + " no values</figcaption></figure>\n";
-  std::sort(known.begin(), known.end());
-  return head + " median " + shownNumber(known[known.size() / 2], 2) +
-         "</figcaption><div role=\"img\" aria-label=\"Histogram: " + title + "\" data-values=\"" +
-         nlohmann::json(known).dump() + "\"></div></figure>\n";
-}
-
 std::string histogramsOf(const FollowExperiment& experiment, const std::string& plan) {
   const auto of = [&](const std::string& title, const std::string& unit, auto&& value) {
     std::vector<double> values;
     for (const FollowEpisode& e : experiment.episodes) {
       if (e.plan == plan) values.push_back(value(e.summary));
     }
-    return histogram(title, unit, values);
+    return histogram(title, values, unit);
   };
   using Summary = const FollowSummary&;
   return "<h3>How they were spread, " + planName(plan) + "</h3><div class=\"histograms\">\n" +
@@ -251,7 +258,7 @@ std::string followExperimentPage(const FollowExperiment& experiment) {
       std::count_if(experiment.table1.begin(), experiment.table1.end(), isFailure);
   return filledTemplate(assets::kExperimentHtml,
                         {{"title", escapedHtml(experiment.title)},
-                         {"style", std::string(assets::kPageCss) + assets::kUplotCss},
+                         {"head", head(escapedHtml(experiment.title) + " · Heel")},
                          {"scripts", scripts(assets::kHistogramsJs)},
                          {"tiles", tiles(experiment)},
                          {"speed_limit", shownNumber(experiment.max_speed_mps, 1, "m/s")},
@@ -272,13 +279,39 @@ void writeFollowExperimentPage(const OutputPath& file, const FollowExperiment& e
 }
 
 void writeEpisodesCsv(const OutputPath& file, const FollowExperiment& experiment) {
-  CsvWriter csv(file,
-                {"group", "name", "seed", "plan", "outcome", "distance_m", "elapsed_s", "seek_s",
-                 "moving_speed_mps", "contacts_by_robot", "contacts_by_people", "wrong_person_s",
-                 "min_clearance_m", "losses", "position_rms_m", "yaw_rms_rad", "cause", "command"});
-  addRows(csv, "table1", experiment.table1);
-  addRows(csv, "random", experiment.episodes);
+  CsvWriter csv(file, episodeColumns());
+  addRows(csv, kTable1, experiment.table1);
+  addRows(csv, kRandom, experiment.episodes);
   csv.close();
+}
+
+void readEpisodesCsv(const std::filesystem::path& file, FollowExperiment& experiment) {
+  CsvReader csv(file, episodeColumns());
+  const auto numberOrUnknown = [&csv](std::size_t i) {
+    return csv.text(i).empty() ? kNotKnown : csv.number(i);
+  };
+  while (csv.next()) {
+    FollowEpisode& e =
+        (csv.text(0) == kTable1 ? experiment.table1 : experiment.episodes).emplace_back();
+    e.name = csv.text(1);
+    e.seed = static_cast<unsigned long>(csv.integer(2));
+    e.plan = csv.text(3);
+    FollowSummary& s = e.summary;
+    s.outcome = csv.text(4);
+    s.distance_m = csv.number(5);
+    s.elapsed_s = csv.number(6);
+    s.seek_s = csv.number(7);
+    s.moving_speed_mps = numberOrUnknown(8);
+    s.contacts_by_robot = static_cast<int>(csv.integer(9));
+    s.contacts = s.contacts_by_robot + static_cast<int>(csv.integer(10));
+    s.wrong_person_s = csv.number(11);
+    s.min_clearance_m = numberOrUnknown(12);
+    s.losses = static_cast<int>(csv.integer(13));
+    s.position_rms_m = numberOrUnknown(14);
+    s.yaw_rms_rad = numberOrUnknown(15);
+    e.cause = csv.text(16);
+    e.command = csv.text(17);
+  }
 }
 
 }  // namespace heel

@@ -64,4 +64,8 @@ void writeFollowExperimentPage(const OutputPath& file, const FollowExperiment& e
 /// @throws OutputError  as OutputFile.
 void writeEpisodesCsv(const OutputPath& file, const FollowExperiment& experiment);
 
+/// Adds the episodes of such a table: all that the page shows of them.
+/// @throws std::runtime_error  as CsvReader.
+void readEpisodesCsv(const std::filesystem::path& file, FollowExperiment& experiment);
+
 }  // namespace heel

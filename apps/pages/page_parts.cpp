@@ -6,6 +6,7 @@
 #include <heel/apps/pages/page_parts.hpp>
 
 #include "page_assets.hpp"
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -39,6 +40,21 @@ std::string bar(double share, const std::string& of_class) {
   const double percent = 100.0 * std::clamp(std::isfinite(share) ? share : 0.0, 0.0, 1.0);
   return "<span class=\"bar " + of_class + "\"><i style=\"width:" + fixedText(percent, 1) +
          "%\"></i></span>";
+}
+
+std::string histogram(const std::string& title, std::vector<double> values,
+                      const std::string& unit) {
+  values.erase(std::remove_if(values.begin(), values.end(),
+                              [](double value) { return !std::isfinite(value); }),
+               values.end());
+  const std::string head = "<figure class=\"histogram\"><figcaption><b>" + title + "</b>" +
+                           (unit.empty() ? "" : " [" + unit + "]");
+  if (values.empty()) return head + " no values</figcaption></figure>\n";
+  std::sort(values.begin(), values.end());
+  const double median = values[values.size() / 2];
+  return head + " median " + shownNumber(median, median == std::round(median) ? 0 : 2) +
+         "</figcaption><div role=\"img\" aria-label=\"Histogram: " + title + "\" data-values=\"" +
+         nlohmann::json(values).dump() + "\"></div></figure>\n";
 }
 
 std::string runRow(const std::string& name, const PaperRow& row, const std::string& of_class,
@@ -84,6 +100,12 @@ std::string timingTable(const std::vector<StageTime>& stages, const StageTime& s
 std::string howToRepeat(const std::string& command) {
   if (command.empty()) return {};
   return "<p>Repeat it: <code>" + escapedHtml(command) + "</code></p>";
+}
+
+std::string head(const std::string& title, const std::string& style) {
+  return filledTemplate(
+      assets::kHeadHtml,
+      {{"title", title}, {"style", std::string(assets::kPageCss) + style + assets::kUplotCss}});
 }
 
 std::string scripts(const char* script) {

@@ -26,6 +26,11 @@ std::string tile(const std::string& name, const std::string& figure, const std::
 /// A bar of a table: `share` of its width, in [0, 1].
 std::string bar(double share, const std::string& of_class = {});
 
+/// A place for the bars of the values that are known, and the middle one of these; histograms.js
+/// draws them. The title is put in as it is.
+std::string histogram(const std::string& title, std::vector<double> values,
+                      const std::string& unit = {});
+
 /// A row of the paper's Table 1. `name` is put in as it is.
 /// @param with_bar  Ends with the share of seeking as a bar.
 std::string runRow(const std::string& name, const PaperRow& row, const std::string& of_class = {},
@@ -37,6 +42,9 @@ std::string timingTable(const std::vector<StageTime>& stages, const StageTime& s
 
 /// The command line as a sentence; empty for none.
 std::string howToRepeat(const std::string& command);
+
+/// The first elements of a page, up to its own style. The title is put in as it is.
+std::string head(const std::string& title, const std::string& style = {});
 
 /// The last elements of a page: uPlot with its licence, and the page's own script.
 std::string scripts(const char* script);

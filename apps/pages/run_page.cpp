@@ -103,27 +103,25 @@ std::string filledRunPage(const RunPage& page, RunMoments moments) {
     charts.push_back(dataOf(chart, id));
   }
   const std::size_t count = moments.count();
-  return filledTemplate(
-      assets::kRunHtml,
-      {{"title", page.title},
-       {"style", std::string(assets::kPageCss) + assets::kRunCss + assets::kUplotCss},
-       {"eyebrow", page.eyebrow},
-       {"headline", page.headline},
-       {"outcome", page.outcome},
-       {"tone", classOf(page.tone)},
-       {"lead", page.lead},
-       {"tiles", page.tiles},
-       {"place", page.film.name.empty() ? " no-film" : ""},
-       {"film", filmCard(page.film)},
-       {"map", page.map},
-       {"map_legend", page.map_legend},
-       {"values", page.values},
-       {"timeline", timeline},
-       {"last_moment", std::to_string(count == 0 ? 0 : count - 1)},
-       {"sections", page.sections},
-       {"footer", page.footer},
-       {"data", moments.json(charts)},
-       {"scripts", scripts(assets::kRunJs)}});
+  return filledTemplate(assets::kRunHtml,
+                        {{"head", head(page.title, assets::kRunCss)},
+                         {"eyebrow", page.eyebrow},
+                         {"headline", page.headline},
+                         {"outcome", page.outcome},
+                         {"tone", classOf(page.tone)},
+                         {"lead", page.lead},
+                         {"tiles", page.tiles},
+                         {"place", page.film.name.empty() ? " no-film" : ""},
+                         {"film", filmCard(page.film)},
+                         {"map", page.map},
+                         {"map_legend", page.map_legend},
+                         {"values", page.values},
+                         {"timeline", timeline},
+                         {"last_moment", std::to_string(count == 0 ? 0 : count - 1)},
+                         {"sections", page.sections},
+                         {"footer", page.footer},
+                         {"data", moments.json(charts)},
+                         {"scripts", scripts(assets::kRunJs)}});
 }
 
 std::string momentValue(const std::string& name, const std::string& column, int decimals,

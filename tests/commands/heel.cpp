@@ -107,7 +107,8 @@ HeelRun run(const std::vector<std::string>& arguments, std::optional<std::size_t
 }  // namespace
 
 std::vector<std::string> HeelRun::errors() const {
-  static const std::regex kProgress("[a-z]+: [0-9]+ % \\([0-9]+ of [0-9]+\\)");
+  static const std::regex kProgress(
+      "[a-z]+: [0-9]+ % \\([0-9]+ of [0-9]+\\)|\\{\"progress\":.*\\}");
   return linesOf(err, [](const std::string& line) {
     return !startsWith(line, kWarning) && !std::regex_match(line, kProgress);
   });

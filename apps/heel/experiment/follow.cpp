@@ -7,21 +7,29 @@
 #include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/run_end.hpp>
 #include <heel/apps/results/result_files.hpp>
+#include <heel/cloud/whole_file.hpp>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace heel {
 namespace {
 
+constexpr const char* kEpisodes = "episodes.csv";
+constexpr const char* kSummary = "summary.json";
+
 struct FollowExperimentOptions {
   std::filesystem::path out;
+  std::vector<std::filesystem::path> join;
   std::string config;  // empty: each scene's robot, and the defaults
   FollowExperimentParams params;
 };
@@ -37,13 +45,23 @@ void printRow(const FollowEpisode& episode) {
   std::fflush(stdout);
 }
 
-void run(FollowExperimentOptions& options) {
+/// What all runs of an experiment share, as options.
+std::string sharedOptions(const FollowExperimentOptions& options) {
+  std::string shared;
+  if (options.params.limit_s != FollowExperimentParams().limit_s) {
+    shared += " --limit " + CLI::detail::to_string(options.params.limit_s);
+  }
+  if (!options.params.rough.empty()) shared += " --rough " + options.params.rough;
+  if (!options.config.empty()) shared += " --config " + options.config;
+  return shared;
+}
+
+FollowExperiment runAll(FollowExperimentOptions& options) {
   options.params.scenes = sceneFolder();
   options.params.plans = planFolder();
   if (!options.config.empty()) {
     options.params.config = loadRobotConfig(robotFile(options.config).string());
   }
-  std::optional<Output> output = experimentOutput("follow", options.out);
   const int runs = (options.params.table1 ? 6 : 0) + options.params.episodes;
   ProgressBar progress("runs", static_cast<std::size_t>(runs));
   std::size_t count = 0;
@@ -52,14 +70,72 @@ void run(FollowExperimentOptions& options) {
         printRow(episode);
         progress.show(++count);
       });
-  experiment.command = "heel experiment follow --episodes " +
-                       std::to_string(options.params.episodes) + " --seed " +
-                       std::to_string(options.params.first_seed);
-  if (!options.params.table1) experiment.command += " --no-table1";
-  if (!options.params.rough.empty()) experiment.command += " --rough " + options.params.rough;
-  const std::string config = options.config.empty() ? "" : " --config " + options.config;
-  experiment.command += config + " --out again";
-  for (FollowEpisode& episode : experiment.episodes) episode.command += config + " --out again";
+  const std::string shared = sharedOptions(options) + " --out again";
+  for (FollowEpisode& episode : experiment.episodes) episode.command += shared;
+  return experiment;
+}
+
+/// The episodes of results of this experiment, in the order of their seeds.
+/// @param shared  Out: what their runs share, as options.
+FollowExperiment joined(const std::vector<std::filesystem::path>& parts, std::string& shared) {
+  FollowExperiment experiment;
+  experiment.plans = experimentPlans();
+  for (const std::filesystem::path& part : parts) {
+    const std::filesystem::path file = part / kSummary;
+    const auto summary = nlohmann::json::parse(readWholeFile(file), nullptr, false);
+    if (!summary.is_object() || !summary.contains("shared") || !summary["shared"].is_string() ||
+        summary.value("complete", nlohmann::json()) != true) {
+      throw std::runtime_error(file.string() +
+                               ": these are no complete results of this experiment");
+    }
+    const auto of_part = summary["shared"].get<std::string>();
+    if (&part != &parts.front() && of_part != shared) {
+      throw std::runtime_error(part.string() + ": was made with other options (" + of_part +
+                               ") than " + parts.front().string() + " (" + shared + ")");
+    }
+    shared = of_part;
+    readEpisodesCsv(part / kEpisodes, experiment);
+  }
+  auto& episodes = experiment.episodes;
+  std::stable_sort(episodes.begin(), episodes.end(),
+                   [](const FollowEpisode& a, const FollowEpisode& b) { return a.seed < b.seed; });
+  const auto twice = std::adjacent_find(
+      episodes.begin(), episodes.end(),
+      [](const FollowEpisode& a, const FollowEpisode& b) { return a.seed == b.seed; });
+  if (twice != episodes.end() || experiment.table1.size() > 6) {
+    throw std::runtime_error("two of the parts hold the same run" +
+                             (twice == episodes.end() ? "s" : ": " + twice->name));
+  }
+  return experiment;
+}
+
+/// The call that makes all of it again; empty if no single one does.
+std::string commandOf(const FollowExperiment& experiment, const std::string& shared) {
+  const auto& episodes = experiment.episodes;
+  if (!episodes.empty() && episodes.back().seed - episodes.front().seed + 1 != episodes.size()) {
+    return {};
+  }
+  return "heel experiment follow --episodes " + std::to_string(episodes.size()) +
+         (episodes.empty() ? "" : " --seed " + std::to_string(episodes.front().seed)) +
+         (experiment.table1.empty() ? " --no-table1" : "") + shared + " --out again";
+}
+
+void run(FollowExperimentOptions& options) {
+  std::vector<std::filesystem::path> inputs = options.join;
+  if (!options.config.empty()) inputs.push_back(robotFile(options.config));
+  std::optional<Output> output = experimentOutput("follow", options.out, inputs);
+  std::string shared = sharedOptions(options);
+  FollowExperiment experiment =
+      options.join.empty() ? runAll(options) : joined(options.join, shared);
+  writeEpisodesCsv(*output / kEpisodes, experiment);
+  if (options.join.empty()) {
+    // What is shown follows from the table, be it made at once or joined.
+    experiment.table1.clear();
+    experiment.episodes.clear();
+    readEpisodesCsv((*output / kEpisodes).written, experiment);
+  }
+  experiment.command = commandOf(experiment, shared);
+  if (isStopRequested()) experiment.title += " (incomplete: it was stopped)";
   const EpisodeCounts all = countEpisodes(experiment.episodes, experiment.plans.back());
   std::printf(
       "%d random episodes: %d reached, %d with a contact by the robot, wrong person %.2f %% of the "
@@ -67,11 +143,10 @@ void run(FollowExperimentOptions& options) {
       "seeking %.0f %%\n",
       all.episodes, all.reached, all.with_contact, 100.0 * all.wrongShare(),
       all.elapsed_s > 0.0 ? 100.0 * all.seek_s / all.elapsed_s : 0.0);
-  if (isStopRequested()) experiment.title += " (incomplete: it was stopped)";
-  writeEpisodesCsv(*output / "episodes.csv", experiment);
   writeFollowExperimentPage(*output / "report.html", experiment);
-  writeJson(*output / "summary.json",
-            {{"complete", !isStopRequested()}, {"episodes", experiment.episodes.size()}});
+  writeJson(*output / kSummary, {{"complete", !isStopRequested()},
+                                 {"episodes", experiment.episodes.size()},
+                                 {"shared", shared}});
   endExperiment(output);
 }
 
@@ -95,8 +170,12 @@ void addFollowExperiment(CLI::App& experiment) {
       ->capture_default_str();
   addRough(*verb, options->params.rough);
   addRobotConfig(*verb, options->config);
-  verb->add_option("--jobs", options->params.jobs, "runs side by side; 0: one for each thread")
+  verb->add_option("--threads", options->params.threads,
+                   "how many runs at once; 0: as many as cores")
       ->capture_default_str();
+  verb->add_option("--join", options->join,
+                   "make no runs: join the results of other calls, with other seeds, to one")
+      ->option_text("FOLDER...");
   verb->add_option("--out", options->out, "folder for the results")->required();
   verb->callback([options] { run(*options); });
 }

@@ -61,7 +61,7 @@ cv::Mat inspectModel(const fs::path& file) {
         "of the room, false negatives %.1f %% of the person\n",
         band.body.name.c_str(), band.body.min_height_m, band.body.max_height_m,
         static_cast<unsigned long long>(band.person.total()), band.delta(),
-        100.0 * band.errors.false_positive_share, 100.0 * band.errors.false_negative_share);
+        100.0 * band.errors().false_positive_share, 100.0 * band.errors().false_negative_share);
   }
   if (model.stature()) {
     std::printf("  stature %.2f m, seen in %d frames, spread %.3f m\n", model.stature()->height_m,

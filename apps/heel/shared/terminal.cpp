@@ -3,6 +3,7 @@
 
 #include <heel/apps/heel/shared/terminal.hpp>
 
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 namespace heel {
 namespace {
 
+ProgressStyle progress_style = ProgressStyle::kForPeople;
 std::FILE* unended = nullptr;  // where the line of a progress bar is still open
 
 /// Lets what is written next begin on a line of its own, and not behind a progress bar.
@@ -79,6 +81,8 @@ TerminalOutput::~TerminalOutput() {
   stdout = stdout_;
 }
 
+void setProgressStyle(ProgressStyle style) { progress_style = style; }
+
 ProgressBar::ProgressBar(std::string title, std::size_t total, std::FILE* out)
     : title_(std::move(title)), total_(total), out_(out), on_terminal_(isatty(fileno(out)) == 1) {
   show(0);
@@ -92,14 +96,17 @@ void ProgressBar::show(std::size_t done) {
   if (total_ == 0) return;
   done = std::min(done, total_);
   const int percent = static_cast<int>(100 * done / total_);
-  const int step = on_terminal_ ? 1 : 10;
+  const int step = on_terminal_ || progress_style == ProgressStyle::kJson ? 1 : 10;
   if (shown_percent_ >= 0 && percent / step == shown_percent_ / step) return;
   shown_percent_ = percent;
   draw(done, percent);
 }
 
 void ProgressBar::draw(std::size_t done, int percent) const {
-  if (on_terminal_) {
+  if (progress_style == ProgressStyle::kJson) {
+    const nlohmann::ordered_json line = {{"progress", title_}, {"done", done}, {"of", total_}};
+    std::fprintf(out_, "%s\n", line.dump().c_str());
+  } else if (on_terminal_) {
     constexpr std::size_t kWidth = 30;
     const std::size_t full = kWidth * done / total_;
     const std::string bar = std::string(full, '#') + std::string(kWidth - full, '.');

@@ -41,8 +41,14 @@ class TerminalOutput {
   std::FILE* const stdout_;
 };
 
-/// Tells on the console how far a job is: a bar that is drawn over itself on a terminal, else a
-/// line at every tenth, so that logs stay short.
+/// How far a job is: a bar that is drawn over itself on a terminal, and else a line at every tenth,
+/// so that logs stay short; or for programs, at every hundredth a line with a JSON object:
+/// {"progress": "following", "done": 12, "of": 120}.
+enum class ProgressStyle { kForPeople, kJson };
+/// From here on, for the whole process.
+void setProgressStyle(ProgressStyle style);
+
+/// Tells on the console how far a job is.
 class ProgressBar {
  public:
   /// @param total  How many steps there will be; with 0 nothing is shown.

@@ -7,6 +7,7 @@
 #include <heel/apps/film/video_writer.hpp>
 #include <heel/apps/pages/follow_page.hpp>
 #include <heel/apps/pages/localize_page.hpp>
+#include <heel/apps/pages/summary_page.hpp>
 #include <heel/apps/pages/track_page.hpp>
 
 #include <gmock/gmock.h>
@@ -101,6 +102,23 @@ std::string followPageOf(const FollowLog& log, const std::string& film = {}) {
   return followPage(log, summarize(log), params);
 }
 
+/// Of three runs, one of which failed.
+std::string summaryPageOfThree() {
+  heel::RunTable table;
+  table.columns = {"a_figure_with_quite_a_long_name.and_another_one_within", "same", "word"};
+  for (int i = 0; i < 3; ++i) {
+    heel::RunRow& run = table.runs.emplace_back();
+    run.name = "a_long_name_of_a_recording_" + std::to_string(i);
+    run.exit_code = i == 1 ? 3 : 0;
+    run.reason = i == 1 ? "recordings/cut.bag: the bag is truncated" : "";
+    run.call = {"heel", "track", "recordings/" + run.name, "--out", "batch/track/" + run.name};
+    run.fields = {{table.columns[0], 0.5 * i}, {"same", 1.0}, {"word", std::string("<b>")}};
+  }
+  heel::WorstRuns worst;
+  worst.column = table.columns[0];
+  return heel::summaryPage(table, worst);
+}
+
 TEST_F(PagesInBrowser, RunWithoutAnError) {
   for (const std::string& page : {followPageOf(heel::test::flatRun()), trackPageWithFilm()}) {
     const Shown shown = show(page, "say(document.querySelectorAll('canvas').length);");
@@ -112,6 +130,9 @@ TEST_F(PagesInBrowser, RunWithoutAnError) {
   const Shown experiment = show(followExperimentPage(heel::test::followExperiment()));
   EXPECT_THAT(experiment.dom, HasSubstr("data-ready=\"12\""));
   EXPECT_THAT(experiment.log, Not(HasSubstr("CONSOLE")));
+  const Shown summary = show(summaryPageOfThree());
+  EXPECT_THAT(summary.dom, HasSubstr("data-ready=\"1\"")) << "one figure differs among the runs";
+  EXPECT_THAT(summary.log, Not(HasSubstr("CONSOLE")));
 }
 
 TEST_F(PagesInBrowser, EmptyRunsAreNoError) {
@@ -184,8 +205,9 @@ TEST_F(PagesInBrowser, DraggingOverTheTimelineZooms) {
 }
 
 TEST_F(PagesInBrowser, NothingScrollsSidewaysOnAPhone) {
-  for (const std::string& page : {followPageOf(heel::test::flatRun()), trackPageWithFilm(),
-                                  followExperimentPage(heel::test::followExperiment())}) {
+  for (const std::string& page :
+       {followPageOf(heel::test::flatRun()), trackPageWithFilm(),
+        followExperimentPage(heel::test::followExperiment()), summaryPageOfThree()}) {
     const Shown shown = show(page,
                              "const root = document.documentElement;"
                              "say('width ' + root.clientWidth + ' of ' + root.scrollWidth);",
