@@ -29,11 +29,24 @@ struct Shown {
   std::string log;
 };
 
+/// Keeps a page from being loaded, and so from being shown, until what it gives is called.
+const char* const kHold = R"(<script>
+function hold() {
+  const frame = document.createElement('iframe');
+  frame.style.display = 'none';
+  document.body.append(frame);
+  frame.contentDocument.open();
+  return () => { frame.contentDocument.close(); frame.remove(); };
+}
+</script>)";
+
 /// A page that shows page.html as a phone does: a window may not be as narrow.
-const char* const kPhone = R"(<!DOCTYPE html><html><body><script>
+const char* const kPhone = R"(<script>
+const release = hold();
 addEventListener('message', (event) => {
   document.body.insertAdjacentHTML('beforeend', '<b>said: ' + event.data + '</b>');
-});
+  release();
+}, {once: true});
 </script><iframe src="page.html" width="400" height="30000" style="border: 0"></iframe></body></html>)";
 
 /// Means for the scripts of these tests: what they say ends up in the page.
@@ -56,6 +69,12 @@ function drag(from, to) {
   byId('ruler').dispatchEvent(new PointerEvent('pointermove', at(to)));
   byId('ruler').dispatchEvent(new PointerEvent('pointerup', at(to)));
 }
+/** Waits until something is so, as long as a busy machine may take. */
+async function until(isSo) {
+  for (let tries = 0; tries < 3000 && !isSo(); ++tries) {
+    await new Promise((done) => setTimeout(done, 20));
+  }
+}
 </script>)";
 
 class PagesInBrowser : public testing::Test {
@@ -66,13 +85,16 @@ class PagesInBrowser : public testing::Test {
     }
   }
 
+  /// The page after `script`, which may wait for what it needs.
   Shown show(std::string page, const std::string& script = {}, bool on_phone = false) const {
-    page.insert(page.rfind("</body>"), kMeans + ("<script>" + script) + "</script>");
+    page.insert(page.rfind("</body>"),
+                kHold + (kMeans + ("<script>{ const release = hold(); (async () => {" + script +
+                                   "})().finally(release); }</script>")));
     folder_.write("page.html", page);
-    folder_.write("phone.html", kPhone);
+    folder_.write("phone.html", "<!DOCTYPE html><html><body>" + (kHold + std::string(kPhone)));
     const std::string command =
         "chromium --headless --no-sandbox --disable-gpu --enable-logging=stderr "
-        "--virtual-time-budget=5000 --window-size=1400,900 --user-data-dir='" +
+        "--window-size=1400,900 --user-data-dir='" +
         (folder_ / "profile").string() + "' --dump-dom 'file://" +
         (folder_ / (on_phone ? "phone.html" : "page.html")).string() + "' >'" +
         (folder_ / "dom").string() + "' 2>'" + (folder_ / "log").string() + "'";
@@ -145,7 +167,8 @@ TEST_F(PagesInBrowser, EmptyRunsAreNoError) {
 }
 
 TEST_F(PagesInBrowser, FilmThatIsNotThereIsLeftOut) {
-  const Shown shown = show(followPageOf(heel::test::flatRun(), "not-there.mp4"));
+  const Shown shown = show(followPageOf(heel::test::flatRun(), "not-there.mp4"),
+                           "await until(() => !byId('film'));");
   EXPECT_THAT(shown.dom, HasSubstr("class=\"place no-film\""));
   EXPECT_THAT(shown.dom, Not(HasSubstr("<video")));
   EXPECT_THAT(shown.log, Not(HasSubstr("Uncaught")));
@@ -154,15 +177,13 @@ TEST_F(PagesInBrowser, FilmThatIsNotThereIsLeftOut) {
 TEST_F(PagesInBrowser, ClickOnTheTimelineMovesTheFilmAndTheMap) {
   const Shown shown = show(trackPageWithFilm(), R"(
     const film = byId('film');
-    film.addEventListener('seeked', () => say('film at ' + film.currentTime.toFixed(2)));
-    function click() {
-      drag(.75, .75);
-      say('now ' + now() + ' ' + byId('now-state').textContent + ' ' + place('now-target'));
-      drag(.5, .5);
-      say('later ' + now() + ' ' + byId('now-state').textContent + ' ' + place('now-target'));
-    }
-    if (film.readyState > 0) click();
-    else film.addEventListener('loadedmetadata', () => setTimeout(click, 0));)");
+    await until(() => film.readyState > 0);
+    drag(.75, .75);
+    say('now ' + now() + ' ' + byId('now-state').textContent + ' ' + place('now-target'));
+    drag(.5, .5);
+    say('later ' + now() + ' ' + byId('now-state').textContent + ' ' + place('now-target'));
+    await until(() => !film.seeking);
+    say('film at ' + film.currentTime.toFixed(2));)");
   EXPECT_THAT(shown.dom, HasSubstr("now 15.0 seen visible translate("));
   EXPECT_THAT(shown.dom, HasSubstr("later 10.0 lost hidden"));
   EXPECT_THAT(shown.dom, HasSubstr("film at 10.05")) << "the middle of its hundredth picture";
@@ -172,8 +193,8 @@ TEST_F(PagesInBrowser, ClickOnTheTimelineMovesTheFilmAndTheMap) {
 TEST_F(PagesInBrowser, FilmIsOfAFormatThatIsPlayed) {
   const Shown shown = show(trackPageWithFilm(), R"(
     const film = byId('film');
-    film.addEventListener('loadeddata', () => say('size ' + film.videoWidth + ', ' +
-                                                  film.duration.toFixed(1) + ' s'));)");
+    await until(() => film.readyState > 1);
+    say('size ' + film.videoWidth + ', ' + film.duration.toFixed(1) + ' s');)");
   EXPECT_THAT(shown.dom, HasSubstr("said: size 64, 20.1 s"));
 }
 
