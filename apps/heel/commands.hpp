@@ -28,6 +28,7 @@ void addTrack(CLI::App& app);
 void addFilter(CLI::App& app);
 void addFollow(CLI::App& app);
 void addInspect(CLI::App& app);
+void addJoin(CLI::App& app);
 void addLive(CLI::App& app);
 void addLocalize(CLI::App& app);
 void addMap(CLI::App& app);

@@ -155,6 +155,7 @@ int main(int argc, char** argv) {
   heel::addFilter(app);
   heel::addFollow(app);
   heel::addInspect(app);
+  heel::addJoin(app);
   heel::addLive(app);
   heel::addLocalize(app);
   heel::addMap(app);

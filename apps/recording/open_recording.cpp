@@ -6,7 +6,6 @@
 #include <heel/apps/recording/folders/rgbd_recording.hpp>
 #include <heel/apps/recording/folders/stereo_recording.hpp>
 #include <heel/apps/recording/recording.hpp>
-#include <heel/apps/recording/recording_part.hpp>
 
 #include <stdexcept>
 #include <utility>
@@ -17,9 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::unique_ptr<Recording> openKnownLayout(const fs::path& path, const RecordingParams& params) {
-  if (!fs::exists(path)) throw std::runtime_error(path.string() + " does not exist");
-  if (isBag(path)) return BagRecording::open(path, params);
+std::unique_ptr<IndexedRecording> openFiles(const fs::path& path, const RecordingParams& params) {
   if (!fs::is_directory(path)) {
     if (PcdRecording::fits(path)) return PcdRecording::open(path, params);
     throw std::runtime_error(
@@ -48,9 +45,11 @@ std::unique_ptr<Recording> openRecording(const fs::path& path, const RecordingPa
                                 " that is read must begin at 0 s or later, and end after that");
   }
   try {
-    auto recording = openKnownLayout(path, params);
-    if (params.span.isAll() || isBag(path)) return recording;
-    return std::make_unique<RecordingPart>(std::move(recording), params.span);
+    if (!fs::exists(path)) throw std::runtime_error(path.string() + " does not exist");
+    if (isBag(path)) return BagRecording::open(path, params);
+    auto recording = openFiles(path, params);
+    recording->limitTo(params.span);
+    return recording;
   } catch (const fs::filesystem_error& error) {
     throw std::runtime_error(path.string() + " cannot be read: " + error.code().message());
   }

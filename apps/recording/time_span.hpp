@@ -5,6 +5,7 @@
 /// A part of a recording.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -20,6 +21,20 @@ struct TimeSpan {
   double to_s = std::numeric_limits<double>::infinity();  ///< Up to here; both ends are read.
 
   bool isAll() const { return from_s <= 0.0 && std::isinf(to_s); }
+};
+
+/// One of the pieces, all as long, that a recording is cut into.
+struct RecordingPiece {
+  int number = 1;  ///< From 1.
+  int count = 1;
+  double overlap_s = 60.0;  ///< It begins so long before its time, where there is a piece before.
+
+  TimeSpan spanOf(double duration_s) const {
+    const double length_s = duration_s / count;
+    const bool is_last = number == count;
+    return {std::max(0.0, (number - 1) * length_s - overlap_s),
+            is_last ? std::numeric_limits<double>::infinity() : number * length_s};
+  }
 };
 
 }  // namespace heel

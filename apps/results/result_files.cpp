@@ -16,18 +16,20 @@ namespace {
 
 constexpr int kStampDecimals = 6;  // microseconds, as robots' logs have them
 constexpr int kPlaceDecimals = 4;  // a tenth of a millimetre: below every sensor's noise
+constexpr int kAngleDecimals = 6;
 constexpr int kScoreDecimals = 4;
 constexpr int kTimingDecimals = 3;
 
-// The order in which readTracks() and readTruth() ask for the columns.
+// The order in which the readers ask for the columns.
 const std::vector<std::string> kTrackColumns = {"stamp_s", "track_id", "is_target", "x_m",   "y_m",
                                                 "vx_mps",  "vy_mps",   "score",     "status"};
 const std::string kPersonColumn = "person_probability";  // tables of others need not have it
 const std::vector<std::string> kTruthColumns = {"stamp_s", "frame", "person",
                                                 "x_m",     "y_m",   "exact"};
 const std::vector<std::string> kFrameColumns = {
-    "frame",        "stamp_s", "color_pixels", "color_points", "standing_points", "blobs",
-    "observations", "tracks",  "target_id",    "confidence",   "state",           "reason"};
+    "frame", "stamp_s",      "color_pixels", "color_points", "standing_points",
+    "blobs", "observations", "tracks",       "target_id",    "confidence",
+    "state", "reason",       "robot_x_m",    "robot_y_m",    "robot_yaw_rad"};
 
 std::vector<std::string> trackColumns() {
   std::vector<std::string> columns = kTrackColumns;
@@ -45,8 +47,9 @@ std::vector<std::string> timingColumns(const std::vector<std::string>& stages) {
 
 ResultFiles::ResultFiles(const Output& output, const std::vector<std::string>& stages)
     : tracks_(output / "tracks.csv", trackColumns()),
-      frames_(output / "frames.csv", kFrameColumns),
-      timing_(output / "timing.csv", timingColumns(stages)) {}
+      frames_(output / "frames.csv", kFrameColumns) {
+  if (!stages.empty()) timing_.emplace(output / "timing.csv", timingColumns(stages));
+}
 
 void ResultFiles::add(const TrackRow& row) {
   tracks_.number(row.stamp_s, kStampDecimals)
@@ -72,17 +75,22 @@ void ResultFiles::add(const FrameRow& row) {
       .number(row.confidence, kScoreDecimals)
       .text(row.state)
       .text(row.reason)
+      .number(row.robot.position.x(), kPlaceDecimals)
+      .number(row.robot.position.y(), kPlaceDecimals)
+      .number(row.robot.yaw_rad, kAngleDecimals)
       .endRow();
 }
 
 void ResultFiles::addTiming(std::size_t frame, const std::vector<double>& stages_ms) {
-  timing_.integer(static_cast<std::int64_t>(frame));
-  for (const double ms : stages_ms) timing_.number(ms, kTimingDecimals);
-  timing_.endRow();
+  timing_->integer(static_cast<std::int64_t>(frame));
+  for (const double ms : stages_ms) timing_->number(ms, kTimingDecimals);
+  timing_->endRow();
 }
 
 void ResultFiles::close() {
-  for (CsvWriter* file : {&tracks_, &frames_, &timing_}) file->close();
+  tracks_.close();
+  frames_.close();
+  if (timing_) timing_->close();
 }
 
 void writeJson(const OutputPath& file, const nlohmann::ordered_json& value) {
@@ -104,6 +112,26 @@ std::vector<TrackRow> readTracks(const fs::path& file) {
     row.status = csv.text(8);
     if (csv.has(9)) row.person_probability = csv.number(9);
     rows.push_back(row);
+  }
+  return rows;
+}
+
+std::vector<FrameRow> readFrames(const fs::path& file) {
+  CsvReader csv(file, kFrameColumns);
+  std::vector<FrameRow> rows;
+  while (csv.next()) {
+    FrameRow& row = rows.emplace_back();
+    row.frame = csv.count(0);
+    row.stamp_s = csv.number(1);
+    std::size_t column = 2;
+    for (int* count : {&row.color_pixels, &row.color_points, &row.standing_points, &row.blobs,
+                       &row.observations, &row.tracks, &row.target_id}) {
+      *count = static_cast<int>(csv.integer(column++));
+    }
+    row.confidence = csv.number(9);
+    row.state = csv.text(10);
+    row.reason = csv.text(11);
+    row.robot = {{csv.number(12), csv.number(13)}, csv.number(14)};
   }
   return rows;
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <heel/apps/output/csv_file.hpp>
+#include <heel/mapping/floor_pose.hpp>
 
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
@@ -13,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +46,7 @@ struct FrameRow {
   double confidence = 0.0;  ///< Of the target, in [0, 1].
   std::string state;        ///< For instance "following", "ambiguous", "lost", "skipped".
   std::string reason;       ///< Why there is no target; empty if there is one.
+  FloorPose robot = {};     ///< The base frame in the frame of the results.
 };
 
 /// Where one person was at one moment: a row of truth.csv.
@@ -58,9 +61,10 @@ struct TruthRow {
 /// tracks.csv, frames.csv and timing.csv of a run, written as it goes on.
 class ResultFiles {
  public:
-  /// @param stages  Names of the stages that are timed; columns of timing.csv are "STAGE_ms".
+  /// @param stages  Names of the stages that are timed; columns of timing.csv are "STAGE_ms". None:
+  ///                there is no such file.
   /// @throws OutputError  if a file can't be written; so do the others.
-  ResultFiles(const Output& output, const std::vector<std::string>& stages);
+  explicit ResultFiles(const Output& output, const std::vector<std::string>& stages = {});
 
   void add(const TrackRow& row);
   void add(const FrameRow& row);
@@ -74,7 +78,7 @@ class ResultFiles {
  private:
   CsvWriter tracks_;
   CsvWriter frames_;
-  CsvWriter timing_;
+  std::optional<CsvWriter> timing_;
 };
 
 /// Writes summary.json and the like: indented, keys in the order in which they were added. Bytes
@@ -85,6 +89,10 @@ void writeJson(const OutputPath& file, const nlohmann::ordered_json& value);
 /// Reads tracks.csv.
 /// @throws std::runtime_error  with one sentence that names the file and the line.
 std::vector<TrackRow> readTracks(const std::filesystem::path& file);
+
+/// Reads frames.csv.
+/// @throws std::runtime_error  with one sentence that names the file and the line.
+std::vector<FrameRow> readFrames(const std::filesystem::path& file);
 
 /// Reads truth.csv: `stamp_s,frame,person,x_m,y_m,exact`.
 /// @throws std::runtime_error  with one sentence that names the file and the line.

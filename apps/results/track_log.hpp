@@ -6,6 +6,7 @@
 #pragma once
 
 #include <heel/apps/results/follow_log.hpp>
+#include <heel/apps/results/result_files.hpp>
 
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>
@@ -36,6 +37,10 @@ struct TrackSample {
   double color_share = kNotKnown;           ///< Of the picture's pixels: with the target's colours.
   std::vector<OtherTrack> others;
 };
+
+/// @param tracks  The rows of tracks.csv of this frame.
+/// @param pixels  Of a picture; 0: not known.
+TrackSample sampleOf(const FrameRow& frame, const std::vector<TrackRow>& tracks, double pixels);
 
 /// A whole recording.
 struct TrackLog {

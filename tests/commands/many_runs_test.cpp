@@ -110,6 +110,57 @@ TEST_F(ManyRuns, TellProgramsHowFarTheyAre) {
   EXPECT_GT(told, 10);
 }
 
+/// Each row without the track's number, and without what is no place.
+std::vector<std::string> placesIn(const std::string& table) {
+  std::istringstream lines(table);
+  std::vector<std::string> places;
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> fields;
+    std::istringstream in(line);
+    for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
+    places.push_back(fields[0] + " " + fields[2] + " " + fields[3].substr(0, 4) + " " +
+                     fields[4].substr(0, 4));
+  }
+  return places;
+}
+
+TEST_F(ManyRuns, OfPiecesAreJoinedToTheSameTracks) {
+  ASSERT_TRUE(succeeds(track("whole")));
+  const auto trackPiece = [this](const std::string& i) {
+    return track(i, {"--piece", i + "/3", "--overlap", "3"});
+  };
+  EXPECT_TRUE(findsNothing(trackPiece("1"))) << "somebody enters after 5.2 of 13 s";
+  ASSERT_TRUE(succeeds(trackPiece("2")));
+  ASSERT_TRUE(succeeds(trackPiece("3")));
+  const HeelRun run =
+      heel({"join", folder_ / "3", folder_ / "1", folder_ / "2", "--out", folder_ / "joined"});
+  EXPECT_TRUE(succeeds(run));
+  EXPECT_EQ(placesIn(textOf("joined/tracks.csv")), placesIn(textOf("whole/tracks.csv")));
+  const auto whole = nlohmann::json::parse(textOf("whole/summary.json"));
+  const auto joined = nlohmann::json::parse(textOf("joined/summary.json"));
+  for (const char* key :
+       {"recording", "frames", "frames_skipped", "frames_with_target", "camera"}) {
+    EXPECT_EQ(joined[key], whole[key]) << key;
+  }
+  EXPECT_THAT(textOf("joined/report.html"), HasSubstr("</html>"));
+}
+
+TEST_F(ManyRuns, OfPiecesThatDoNotBelongTogetherAreNotJoined) {
+  ASSERT_TRUE(succeeds(track("1", {"--piece", "1/2"})));
+  fs::copy(folder_ / "room", folder_ / "yard", fs::copy_options::recursive);
+  ASSERT_TRUE(succeeds(heel({"track", folder_ / "yard", "--model", folder_ / "person.yaml",
+                             "--no-film", "--piece", "2/2", "--out", folder_ / "2"})));
+  const auto join = [this](const std::string& second) {
+    return heel({"join", folder_ / "1", folder_ / second, "--out", folder_ / "joined"});
+  };
+  EXPECT_TRUE(failsWith(join("2"), {"its recording is \"yard\", that of"}));
+  EXPECT_TRUE(failsWith(join("room"), {"room/frames.csv"}));
+  EXPECT_TRUE(failsWith(join("1"), {"ends before the one that it is to follow"}));
+  EXPECT_FALSE(fs::exists(folder_ / "joined"));
+  EXPECT_EQ(track("x", {"--piece", "3/2"}).exit_code, 2);
+  EXPECT_EQ(track("x", {"--piece", "1/2", "--to", "3"}).exit_code, 2);
+}
+
 TEST_F(ManyRuns, BecomeOneTableAndOnePage) {
   fs::create_directories(folder_ / "runs");
   ASSERT_TRUE(succeeds(track("runs/kitchen")));

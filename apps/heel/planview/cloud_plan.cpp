@@ -148,10 +148,12 @@ CloudPlan planCloud(const std::filesystem::path& file, const CloudFile& cloud,
   PersonShape shape = model == nullptr ? PersonShape::inUnknownScene() : PersonShape();
   if (!plan.has_camera) shape.min_area_m2 = 0.0;
   const double cell_m2 = plan.view->cellSize() * plan.view->cellSize();
-  for (const WorldBlob& blob : plan.blobs) {
-    const bool is_large = plan.has_camera || blob.cells * cell_m2 >= kLeastFootprint_m2;
-    plan.is_person.push_back(is_large && hasPersonShape(blob, shape));
-  }
+  plan.is_person.resize(plan.blobs.size());
+  std::transform(
+      plan.blobs.begin(), plan.blobs.end(), plan.is_person.begin(), [&](const WorldBlob& blob) {
+        const bool is_large = plan.has_camera || blob.cells * cell_m2 >= kLeastFootprint_m2;
+        return is_large && hasPersonShape(blob, shape);
+      });
   for (const int cell : plan.view->occupied()) plan.blob_of_cell.push_back(finder.blobOf(cell));
   return plan;
 }

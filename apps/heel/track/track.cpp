@@ -15,6 +15,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -29,6 +30,7 @@ struct TrackOptions {
   std::filesystem::path out;
   std::filesystem::path bag;
   RecordingParams opening;
+  RecordingPiece piece;
   LogMapOptions map;
   std::vector<double> start_m;
   std::vector<double> bounds_m;
@@ -90,10 +92,15 @@ std::vector<Eigen::Vector2d> peopleOf(const Perception& perception) {
   return places;
 }
 
-void run(const TrackOptions& options) {
+void run(TrackOptions options) {
   const AppearanceModel model = loadAppearance(options.model);
-  const auto recording = openRecording(options.recording, options.opening);
+  auto recording = openRecording(options.recording, options.opening);
+  // Of all pieces the same: by how the whole begins.
   const CameraSetup setup = findCameraSetup(*openRecording(options.recording, options.opening));
+  if (options.piece.count > 1) {
+    options.opening.span = options.piece.spanOf(recording->info().duration_s);
+    recording = openRecording(options.recording, options.opening);
+  }
   for (const std::string& warning : setup.warnings) warn(warning);
   RobotPlaces robot(*recording, setup);
   std::vector<GeometricGate> gates;
@@ -116,7 +123,9 @@ void run(const TrackOptions& options) {
   }
   if (!gates.empty()) params.gate = allOf(std::move(gates));
   Perception perception(setup, model, params);
-  if (!options.start_m.empty()) perception.startAt({options.start_m[0], options.start_m[1]});
+  const bool is_begin = options.piece.number == 1;
+  if (is_begin && !options.start_m.empty())
+    perception.startAt({options.start_m[0], options.start_m[1]});
 
   MotionWatch watch(robot, setup);
   TrackOutput output(options.out, recording->info(), setup, output_params);
@@ -126,8 +135,10 @@ void run(const TrackOptions& options) {
   end.warnings = setup.warnings;
   const std::string lost_before = recording->info().lost;
   Frame frame;
+  std::size_t read = 0;
   StageTimes times_ms{};
   while (!isStopRequested() && recording->next(frame)) {
+    ++read;
     const auto place =
         on_map ? robot.at(frame.stamp_s, peopleOf(perception)) : robot.at(frame.stamp_s);
     if (!place) {
@@ -145,7 +156,7 @@ void run(const TrackOptions& options) {
     } catch (const std::invalid_argument& error) {
       end.skipped.push_back({frame.number, frame.name + ": " + error.what()});
     }
-    progress.show(frame.number);
+    progress.show(read);
   }
   end.complete = !isStopRequested();
   end.skipped.insert(end.skipped.end(), recording->skipped().begin(), recording->skipped().end());
@@ -175,6 +186,29 @@ void run(const TrackOptions& options) {
                        leftOutNote(end.skipped) + "; mostly, " + output.commonestReason() +
                        "; a person in other clothes or in another light has to be learned anew");
   }
+}
+
+void addPiece(CLI::App& verb, RecordingPiece& piece) {
+  const std::function<void(const std::string&)> set = [&piece](const std::string& text) {
+    int end = 0;
+    const bool is_read =
+        std::sscanf(text.c_str(), "%d/%d%n", &piece.number, &piece.count, &end) == 2 &&
+        static_cast<std::size_t>(end) == text.size();
+    if (is_read && piece.number >= 1 && piece.number <= piece.count) return;
+    throw CLI::ValidationError("--piece", "'" + text + "' is no piece; the second of three is 2/3");
+  };
+  CLI::Option* option =
+      verb.add_option_function("--piece", set,
+                               "read only this one of as many equally long pieces; see heel join")
+          ->option_text("I/N")
+          ->excludes("--from")
+          ->excludes("--to");
+  verb.add_option(
+          "--overlap", piece.overlap_s,
+          "a piece begins so long before its time: by then it is known again who is who [s]")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(option)
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -211,6 +245,7 @@ void addTrack(CLI::App& app) {
   verb->add_flag("--no-film", options->no_film, "draw no film and no stills");
   addResultBag(*verb, options->bag);
   addTimeSpan(*verb, options->opening.span);
+  addPiece(*verb, options->piece);
   addCameraTopics(*verb, options->opening.topics);
   addOdometryTopic(*verb, options->opening.topics);
   verb->callback([options] { run(*options); });

@@ -96,8 +96,7 @@ void TrackOutput::add(const Frame& frame, const FloorPose& robot, const Percepti
   ++states_[toText(step.target.status)];
   if (step.target.hasPlace()) ++frames_with_target_;
   if (!step.reason.empty()) ++reasons_[step.reason];
-  addRows(frame, perception, step);
-  addSample(frame, robot, perception, step);
+  addRows(frame, robot, perception, step);
   files_.addTiming(frame.number, {times_ms.begin(), times_ms.end()});
   if (film_ || bag_) {
     DrawnFrame& drawing = drawn_.of(frame, perception, step, robot);
@@ -117,7 +116,7 @@ void TrackOutput::add(const Frame& frame, const FloorPose& robot, const Percepti
   }
 }
 
-void TrackOutput::addRows(const Frame& frame, const Perception& perception,
+void TrackOutput::addRows(const Frame& frame, const FloorPose& robot, const Perception& perception,
                           const PerceptionStep& step) {
   FrameRow row;
   row.frame = frame.number;
@@ -131,10 +130,11 @@ void TrackOutput::addRows(const Frame& frame, const Perception& perception,
   row.confidence = step.target.confidence;
   row.state = toText(step.target.status);
   row.reason = step.reason;
+  row.robot = robot;
+  std::vector<TrackRow> tracks;
   for (const Track& track : perception.tracks()) {
     if (track.status == TrackStatus::kTentative) continue;
-    ++row.tracks;
-    TrackRow track_row;
+    TrackRow& track_row = tracks.emplace_back();
     track_row.stamp_s = frame.stamp_s;
     track_row.track_id = track.id;
     track_row.is_target = track.id == step.target.track_id;
@@ -145,29 +145,9 @@ void TrackOutput::addRows(const Frame& frame, const Perception& perception,
     track_row.person_probability = personProbability(perception, track);
     files_.add(track_row);
   }
+  row.tracks = static_cast<int>(tracks.size());
   files_.add(row);
-}
-
-void TrackOutput::addSample(const Frame& frame, const FloorPose& robot,
-                            const Perception& perception, const PerceptionStep& step) {
-  TrackSample& sample = log_.samples.emplace_back();
-  sample.stamp_s = frame.stamp_s;
-  sample.robot = robot;
-  sample.state = toText(step.target.status);
-  sample.reason = step.reason;
-  if (step.target.hasPlace()) {
-    sample.target_m = step.target.motion.position_m();
-    sample.confidence = step.target.confidence;
-  }
-  const double pixels = step.mask.empty() ? 0.0 : static_cast<double>(step.mask.total());
-  if (pixels > 0.0) sample.color_share = step.color_pixels / pixels;
-  for (const Track& track : perception.tracks()) {
-    if (track.status == TrackStatus::kTentative) continue;
-    if (sample.target_m && track.id == step.target.track_id) continue;
-    sample.others.push_back({track.id, track.motion.position_m(),
-                             track.status == TrackStatus::kConfirmed,
-                             personProbability(perception, track)});
-  }
+  log_.samples.push_back(sampleOf(row, tracks, static_cast<double>(step.mask.total())));
 }
 
 void TrackOutput::keepStill() {
@@ -185,6 +165,7 @@ void TrackOutput::commit(const TrackEnd& end) {
   summary["complete"] = end.complete;
   summary["recording"] = info_.name;
   summary["layout"] = info_.layout;
+  summary["person"] = log_.person;
   summary["duration_s"] = info_.duration_s;
   summary["frames"] = frames_;
   summary["frames_skipped"] = nlohmann::ordered_json::array();
@@ -200,7 +181,9 @@ void TrackOutput::commit(const TrackEnd& end) {
                        {"pitch_rad", mounting.pitch_rad},
                        {"roll_rad", mounting.roll_rad},
                        {"from", setup_.is_configured ? "configuration" : "floor"},
-                       {"depth_share", setup_.report.found_share}};
+                       {"depth_share", setup_.report.found_share},
+                       {"width", setup_.camera.left.width},
+                       {"height", setup_.camera.left.height}};
   summary["warnings"] = end.warnings;
 
   for (const Still& still : stills_) {

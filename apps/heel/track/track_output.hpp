@@ -82,9 +82,8 @@ class TrackOutput {
 
  private:
   bool moves() const { return !params_.frame.empty(); }
-  void addRows(const Frame& frame, const Perception& perception, const PerceptionStep& step);
-  void addSample(const Frame& frame, const FloorPose& robot, const Perception& perception,
-                 const PerceptionStep& step);
+  void addRows(const Frame& frame, const FloorPose& robot, const Perception& perception,
+               const PerceptionStep& step);
   void keepStill();
 
   Output output_;

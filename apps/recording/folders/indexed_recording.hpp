@@ -19,6 +19,9 @@ namespace heel {
 /// A recording whose frames and stamps are known when it is opened.
 class IndexedRecording : public Recording {
  public:
+  /// Leaves only the frames of a part; call it before the first is read.
+  void limitTo(const TimeSpan& span);
+
   bool next(Frame& frame) final;
 
   std::optional<RobotMotion> readMotion() const final;
@@ -41,6 +44,7 @@ class IndexedRecording : public Recording {
   std::filesystem::path path_;
   StampOrder order_;
   std::size_t next_index_ = 0;
+  std::size_t end_index_;
 };
 
 }  // namespace heel

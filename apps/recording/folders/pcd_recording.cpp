@@ -27,14 +27,16 @@ bool PcdRecording::fits(const fs::path& path) {
   return fs::is_directory(path) ? !filesIn(path, isPcdName).empty() : isPcdName(path);
 }
 
-std::unique_ptr<Recording> PcdRecording::open(const fs::path& path, const RecordingParams& params) {
+std::unique_ptr<IndexedRecording> PcdRecording::open(const fs::path& path,
+                                                     const RecordingParams& params) {
   RecordingInfo info;
   info.layout = kLayout;
   info.sensor = SensorKind::kCloud;
   if (!fs::is_directory(path)) {
     checkPcd(path);  // one file that is of no use is an error at once
     info.nominal_stamps = true;
-    return std::unique_ptr<Recording>(new PcdRecording(path, std::move(info), {0.0}, {path}));
+    return std::unique_ptr<IndexedRecording>(
+        new PcdRecording(path, std::move(info), {0.0}, {path}));
   }
 
   double rate_hz = params.nominal_rate_hz;
@@ -46,7 +48,7 @@ std::unique_ptr<Recording> PcdRecording::open(const fs::path& path, const Record
   }
   auto files = filesIn(path, isPcdName);
   auto stamps_s = stampsOfFiles(path / "times.txt", files, rate_hz, info.nominal_stamps);
-  return std::unique_ptr<Recording>(
+  return std::unique_ptr<IndexedRecording>(
       new PcdRecording(path, std::move(info), std::move(stamps_s), std::move(files)));
 }
 

@@ -27,8 +27,8 @@ class PcdRecording final : public IndexedRecording {
   static bool fits(const std::filesystem::path& path);
 
   /// @throws std::runtime_error  with one sentence that names the file and the reason.
-  static std::unique_ptr<Recording> open(const std::filesystem::path& path,
-                                         const RecordingParams& params);
+  static std::unique_ptr<IndexedRecording> open(const std::filesystem::path& path,
+                                                const RecordingParams& params);
 
  private:
   PcdRecording(const std::filesystem::path& path, RecordingInfo info, std::vector<double> stamps_s,

@@ -15,8 +15,8 @@ bool RgbdRecording::fits(const fs::path& folder) {
   return fs::exists(folder / "rgb.txt") || fs::exists(folder / "depth.txt");
 }
 
-std::unique_ptr<Recording> RgbdRecording::open(const fs::path& folder,
-                                               const RecordingParams& params) {
+std::unique_ptr<IndexedRecording> RgbdRecording::open(const fs::path& folder,
+                                                      const RecordingParams& params) {
   const auto colors = readStampedFiles(folder / "rgb.txt");
   const auto depths = readStampedFiles(folder / "depth.txt");
 
@@ -45,9 +45,9 @@ std::unique_ptr<Recording> RgbdRecording::open(const fs::path& folder,
     pairs[i].color = colors[i].path;
     if (nearest[i]) pairs[i].depth = depths[*nearest[i]].path;
   }
-  return std::unique_ptr<Recording>(new RgbdRecording(folder, std::move(info), std::move(stamps_s),
-                                                      std::move(pairs), *camera.depth_scale,
-                                                      params.max_stamp_difference_s));
+  return std::unique_ptr<IndexedRecording>(
+      new RgbdRecording(folder, std::move(info), std::move(stamps_s), std::move(pairs),
+                        *camera.depth_scale, params.max_stamp_difference_s));
 }
 
 RgbdRecording::RgbdRecording(const std::filesystem::path& path, RecordingInfo info,

@@ -27,8 +27,8 @@ class RgbdRecording final : public IndexedRecording {
   static bool fits(const std::filesystem::path& folder);
 
   /// @throws std::runtime_error  with one sentence that names the file and the reason.
-  static std::unique_ptr<Recording> open(const std::filesystem::path& folder,
-                                         const RecordingParams& params);
+  static std::unique_ptr<IndexedRecording> open(const std::filesystem::path& folder,
+                                                const RecordingParams& params);
 
  private:
   /// One colour image and the depth image of the same moment, if there is one.

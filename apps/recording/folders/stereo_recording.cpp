@@ -31,8 +31,8 @@ cv::Size imageSize(const std::vector<StereoPair>& pairs) {
 
 }  // namespace
 
-std::unique_ptr<Recording> StereoRecording::open(const fs::path& folder,
-                                                 const RecordingParams& params) {
+std::unique_ptr<IndexedRecording> StereoRecording::open(const fs::path& folder,
+                                                        const RecordingParams& params) {
   RecordingInfo info;
   info.layout = kLayout;
   info.sensor = SensorKind::kStereo;
@@ -46,7 +46,7 @@ std::unique_ptr<Recording> StereoRecording::open(const fs::path& folder,
   info.nominal_stamps = files.nominal_stamps;
   StereoRig rig = readStereoRig(folder, imageSize(files.pairs));
   info.camera = rig.camera();
-  return std::unique_ptr<Recording>(
+  return std::unique_ptr<IndexedRecording>(
       new StereoRecording(folder, std::move(info), std::move(files), std::move(rig)));
 }
 

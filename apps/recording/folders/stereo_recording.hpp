@@ -29,8 +29,8 @@ class StereoRecording final : public IndexedRecording {
   static bool fits(const std::filesystem::path& folder) { return hasStereoImages(folder); }
 
   /// @throws std::runtime_error  with one sentence that names the file and the reason.
-  static std::unique_ptr<Recording> open(const std::filesystem::path& folder,
-                                         const RecordingParams& params);
+  static std::unique_ptr<IndexedRecording> open(const std::filesystem::path& folder,
+                                                const RecordingParams& params);
 
  private:
   StereoRecording(const std::filesystem::path& path, RecordingInfo info, StereoFiles files,

@@ -59,8 +59,8 @@ class RgbdFolder : public testing::Test {
   }
 
   /// Reads all; the numbers of the frames that came.
-  std::vector<std::size_t> readAll() {
-    recording = openRecording(folder.path());
+  std::vector<std::size_t> readAll(const heel::RecordingParams& params = {}) {
+    recording = openRecording(folder.path(), params);
     std::vector<std::size_t> numbers;
     while (recording->next(frame)) {
       numbers.push_back(frame.number);
@@ -88,13 +88,33 @@ TEST_F(RgbdFolder, GivesEveryFrameWithItsStamp) {
 TEST_F(RgbdFolder, GivesThePartThatIsAskedFor) {
   heel::RecordingParams params;
   params.span = {0.2, 0.4};
-  recording = openRecording(folder.path(), params);
+  EXPECT_THAT(readAll(params), ElementsAre(2, 3));
   EXPECT_EQ(recording->info().frame_count, 2U);
-  ASSERT_TRUE(recording->next(frame));
-  EXPECT_EQ(frame.number, 2U);
-  ASSERT_TRUE(recording->next(frame));
-  EXPECT_EQ(frame.number, 3U);
-  EXPECT_FALSE(recording->next(frame));
+}
+
+TEST_F(RgbdFolder, ReadsNothingOutsideOfThePart) {
+  std::filesystem::remove(color(1));
+  std::filesystem::remove(color(4));
+  heel::RecordingParams params;
+  params.span = {0.2, 0.4};
+  EXPECT_THAT(readAll(params), ElementsAre(2, 3));
+  EXPECT_THAT(recording->skipped(), IsEmpty());
+  params.span = {0.7, 0.9};
+  EXPECT_THAT(readAll(params), IsEmpty());
+  EXPECT_EQ(recording->info().frame_count, 0U);
+}
+
+TEST(RecordingPiece, GoesBackIntoTheOneBefore) {
+  const auto span = [](int number, int count) {
+    return heel::RecordingPiece{number, count, 2.0}.spanOf(30.0);
+  };
+  EXPECT_TRUE(span(1, 1).isAll());
+  EXPECT_EQ(span(1, 3).from_s, 0.0);
+  EXPECT_EQ(span(1, 3).to_s, 10.0);
+  EXPECT_EQ(span(2, 3).from_s, 8.0);
+  EXPECT_EQ(span(2, 3).to_s, 20.0);
+  EXPECT_EQ(span(3, 3).from_s, 18.0);
+  EXPECT_TRUE(std::isinf(span(3, 3).to_s)) << "what comes while it is read belongs to it";
 }
 
 TEST_F(RgbdFolder, TellsWhatHoldsForTheWhole) {

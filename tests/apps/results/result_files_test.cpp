@@ -25,7 +25,8 @@ using testing::HasSubstr;
 void addTwoFrames(ResultFiles& files) {
   files.add(heel::TrackRow{0.2, 1, true, {1.25, -0.5}, {0.3, 0.0}, 12.5, "confirmed"});
   files.add(heel::TrackRow{0.2, 2, false, {4.0, 1.0 / 3.0}, {-0.3, -1e-9}, 3.0, "coasting", 0.25});
-  files.add(heel::FrameRow{1, 0.2, 900, 850, 800, 3, 2, 2, 1, 0.87, "following", ""});
+  files.add(heel::FrameRow{
+      1, 0.2, 900, 850, 800, 3, 2, 2, 1, 0.87, "following", "", {{1.5, -0.25}, 0.1}});
   files.add(heel::FrameRow{2, 0.4, 9, 8, 0, 0, 0, 1, 0, 0.0, "lost",
                            "8 points passed the colour, none the height"});
   files.addTiming(1, {1.5, 0.25});
@@ -45,10 +46,11 @@ TEST(ResultFiles, HaveTheDocumentedColumns) {
             "0.200000,2,0,4.0000,0.3333,-0.3000,0.0000,3.0000,coasting,0.2500\n");
   EXPECT_EQ(readText(folder / "a/b/frames.csv"),
             "frame,stamp_s,color_pixels,color_points,standing_points,blobs,"
-            "observations,tracks,target_id,confidence,state,reason\n"
-            "1,0.200000,900,850,800,3,2,2,1,0.8700,following,\n"
+            "observations,tracks,target_id,confidence,state,reason,"
+            "robot_x_m,robot_y_m,robot_yaw_rad\n"
+            "1,0.200000,900,850,800,3,2,2,1,0.8700,following,,1.5000,-0.2500,0.100000\n"
             "2,0.400000,9,8,0,0,0,1,0,0.0000,lost,"
-            "\"8 points passed the colour, none the height\"\n");
+            "\"8 points passed the colour, none the height\",0.0000,0.0000,0.000000\n");
   EXPECT_EQ(readText(folder / "a/b/timing.csv"),
             "frame,stereo_ms,filter_ms\n1,1.500,0.250\n2,1.000,0.500\n");
 }
