@@ -19,7 +19,7 @@ struct ImageExtent {
 };
 
 /// What the header of a PNG, JPEG, BMP, TIFF, PGM, PPM or PBM file says; nothing of other bytes.
-std::optional<ImageExtent> imageExtent(const std::uint8_t* bytes, std::size_t size);
+std::optional<ImageExtent> imageExtent(const std::uint8_t* data, std::size_t size);
 
 /// Whether an image may be decoded: a small file can hold a huge one.
 /// @param what  The image, in the errors: "left.png: the image".

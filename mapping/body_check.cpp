@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 namespace heel {
@@ -108,7 +109,7 @@ struct BodyCheck::Geometry {
   }
   fcl::Boxd column(const ObstacleLayer& layer) const {
     const double cell_m = layer.params().cell_size_m;
-    return fcl::Boxd(cell_m, cell_m, height_m());
+    return {cell_m, cell_m, height_m()};
   }
 
   /// Calls `use` with the body's shape, grown by a margin.
@@ -216,8 +217,8 @@ std::optional<std::size_t> BodyCheck::firstCollision(const std::vector<FloorPose
     const Eigen::Vector2d way = path[i + 1].position - path[i].position;
     const double turn = wrapped(path[i + 1].yaw_rad - path[i].yaw_rad);
     const double steps = std::ceil((way.norm() + std::abs(turn) * swing_m) / step_m);
-    for (double k = 1.0; k < steps; k += 1.0) {
-      const double part = k / steps;
+    for (std::int64_t k = 1; static_cast<double>(k) < steps; ++k) {
+      const double part = static_cast<double>(k) / steps;
       if (hits({path[i].position + part * way, path[i].yaw_rad + part * turn})) return i + 1;
     }
   }

@@ -55,8 +55,8 @@ class BodyCheck {
   ///               here. May be empty.
   /// @throws std::invalid_argument  if the body has no volume.
   BodyCheck(const RobotBody& body, const octomap::OcTree& walls);
-  BodyCheck(BodyCheck&&) noexcept;
-  BodyCheck& operator=(BodyCheck&&) noexcept;
+  BodyCheck(BodyCheck&& other) noexcept;
+  BodyCheck& operator=(BodyCheck&& other) noexcept;
   ~BodyCheck();
 
   const RobotBody& body() const;

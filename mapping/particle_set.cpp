@@ -81,7 +81,7 @@ void drawSystematic(const ParticleSet& from, std::size_t count, RandomNumbers& r
 
 std::size_t kldParticles(std::size_t bins, double error, double quantile) {
   if (bins < 2) return 1;
-  const double freedom = static_cast<double>(bins - 1);
+  const auto freedom = static_cast<double>(bins - 1);
   const double part = 2.0 / (9.0 * freedom);
   const double root = 1.0 - part + std::sqrt(part) * quantile;
   return static_cast<std::size_t>(std::ceil(freedom / (2.0 * error) * root * root * root));

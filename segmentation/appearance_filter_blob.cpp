@@ -98,6 +98,7 @@ AppearanceFilter<Blob>::AppearanceFilter(const AppearanceFilter& other) : Appear
 }
 
 AppearanceFilter<Blob>& AppearanceFilter<Blob>::operator=(const AppearanceFilter& other) {
+  if (this == &other) return *this;
   Base::operator=(other);  // with which both have the same lists
   removed_indices_ = pcl::make_shared<pcl::Indices>(*other.removed_indices_);
   if (fake_indices_) indices_ = pcl::make_shared<pcl::Indices>();

@@ -46,7 +46,7 @@ class AppearanceLearner {
 
   /// @throws std::invalid_argument  if nothing of the person, or of the room, has been added.
   AppearanceModel learn() const {
-    return AppearanceModel(params_, person_, room_, stature(), portrait());
+    return {params_, person_, room_, stature(), portrait()};
   }
 
   /// The mean of all looks so far; without colours if there was none.

@@ -77,8 +77,9 @@ class PlanView {
 
   /// Centre of a cell on the floor.
   Eigen::Vector2d center(int cell) const {
-    return {static_cast<double>(origin_m_) + (cell / width_ + 0.5) * cell_size_m_,
-            static_cast<double>(origin_m_) + (cell % width_ + 0.5) * cell_size_m_};
+    const int row = cell / width_, column = cell % width_;
+    return {static_cast<double>(origin_m_) + (row + 0.5) * cell_size_m_,
+            static_cast<double>(origin_m_) + (column + 0.5) * cell_size_m_};
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <heel/segmentation/stature.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace heel {
@@ -13,7 +14,7 @@ constexpr double kShareAbove = 0.02;
 constexpr std::size_t kMinFrames = 5;
 
 double quantile(std::vector<double>& values, double share) {
-  const auto n = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  const auto n = std::lround(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + n, values.end());
   return values[static_cast<std::size_t>(n)];
 }

@@ -55,7 +55,7 @@ const BagIndex* ChunkedBagReader::index() {
 /// The index tells the times of chunks; those of a topic are in the first and last that have it.
 void ChunkedBagReader::measure() {
   BagIndex index;
-  constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  constexpr auto kNone = static_cast<std::size_t>(-1);
   std::vector<std::size_t> first(topics_.size(), kNone), last(topics_.size(), kNone);
   for (std::size_t i = 0; i < chunks_.size(); ++i) {
     const Chunk& chunk = chunks_[i];
