@@ -20,7 +20,7 @@ constexpr float kMostHalf_px = 8.0F;
 /// The pixels whose middles are within `half` of `at`: from the first to one before the second.
 /// None of what is no number.
 cv::Range pixelsNear(float at, float half, int size) {
-  const float limit = static_cast<float>(size);
+  const auto limit = static_cast<float>(size);
   if (!(at - half < limit && at + half > 0.0F)) return {0, 0};
   return {static_cast<int>(std::ceil(std::clamp(at - half, 0.0F, limit))),
           static_cast<int>(std::ceil(std::clamp(at + half, 0.0F, limit)))};

@@ -121,6 +121,7 @@ SetupReport SetupCheck::report() const {
 bool looksSwapped(const cv::Mat& left, const cv::Mat& right, StereoMatcher& matcher) {
   cv::Mat disparity;
   const int as_given = matcher.match(left, right, disparity);
+  // NOLINTNEXTLINE(readability-suspicious-call-argument): that is the question.
   const int exchanged = matcher.match(right, left, disparity);
   return exchanged > kLeastConsistentShare * static_cast<double>(left.total()) &&
          exchanged > kMoreConsistent * as_given;

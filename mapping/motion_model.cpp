@@ -31,7 +31,7 @@ void moveParticles(const OdometryMotion& motion, const MotionModelParams& params
     const double turn_rad = heading_rad * random.normal();
     const double x = along.x() * ahead_m - along.y() * aside_m;
     const double y = along.y() * ahead_m + along.x() * aside_m;
-    const double yaw = static_cast<double>(particles.yaw_rad[i]);
+    const auto yaw = static_cast<double>(particles.yaw_rad[i]);
     const double c = std::cos(yaw + turn_rad / 2.0), s = std::sin(yaw + turn_rad / 2.0);
     particles.x_m[i] += static_cast<float>(c * x - s * y);
     particles.y_m[i] += static_cast<float>(s * x + c * y);

@@ -119,13 +119,14 @@ GridCell ObstacleLayer::worldCell(const Eigen::Vector2d& point) const {
           static_cast<int>(std::floor(point.y() / params_.cell_size_m))};
 }
 
-bool ObstacleLayer::inWindow(const GridCell& c) const {
-  return c.x >= corner_.x && c.y >= corner_.y && c.x < corner_.x + cells_per_edge_ &&
-         c.y < corner_.y + cells_per_edge_;
+bool ObstacleLayer::inWindow(const GridCell& world_cell) const {
+  return world_cell.x >= corner_.x && world_cell.y >= corner_.y &&
+         world_cell.x < corner_.x + cells_per_edge_ && world_cell.y < corner_.y + cells_per_edge_;
 }
 
-std::size_t ObstacleLayer::slot(const GridCell& c) const {
-  return window_.index({modulo(c.x, cells_per_edge_), modulo(c.y, cells_per_edge_)});
+std::size_t ObstacleLayer::slot(const GridCell& world_cell) const {
+  return window_.index(
+      {modulo(world_cell.x, cells_per_edge_), modulo(world_cell.y, cells_per_edge_)});
 }
 
 bool ObstacleLayer::leftOut(const Eigen::Vector2d& point) const {

@@ -32,7 +32,7 @@ PoseSearch::PoseSearch(const OccupancyGrid& map, const LikelihoodFieldParams& fi
       for (c.x = 0; c.x < map.width(); ++c.x) {
         if (map.at(c) != Occupancy::kFree) continue;
         const Eigen::Vector2d middle = map.center(c);
-        if (field_.distance_m(middle) >= clearance_m) free_m_.push_back(middle.cast<float>());
+        if (field_.distance_m(middle) >= clearance_m) free_m_.emplace_back(middle.cast<float>());
       }
     }
     if (!free_m_.empty()) break;

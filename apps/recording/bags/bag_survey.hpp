@@ -69,9 +69,9 @@ struct BagSurvey {
   std::optional<Eigen::Isometry3d> transformBetween(const std::string& to,
                                                     const std::string& from) const;
 
-  /// What of these topics is in the part, and tf, if `with_tf`.
+  /// What of the topics of these names is in the part, and tf, if `with_tf`.
   /// @param around_s  So much more before and after it.
-  BagQuery queryOf(std::vector<std::string> topics, bool with_tf, double around_s = 0.0) const;
+  BagQuery queryOf(std::vector<std::string> names, bool with_tf, double around_s = 0.0) const;
 
   /// "/scan (sensor_msgs/LaserScan), /tf (tf2_msgs/TFMessage)".
   std::string topicNames() const;
