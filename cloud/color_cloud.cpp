@@ -204,10 +204,9 @@ std::optional<PinholeCamera> fitPinhole(const ColorCloud& cloud) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const auto& p = cloud[i];
     if (!(p.z > 0.0F) || !std::isfinite(p.x) || !std::isfinite(p.y)) continue;
-    across.add(static_cast<double>(p.x) / static_cast<double>(p.z),
-               static_cast<double>(i % cloud.width));
-    down.add(static_cast<double>(p.y) / static_cast<double>(p.z),
-             static_cast<double>(i / cloud.width));
+    const auto column = i % cloud.width, row = i / cloud.width;
+    across.add(static_cast<double>(p.x) / static_cast<double>(p.z), static_cast<double>(column));
+    down.add(static_cast<double>(p.y) / static_cast<double>(p.z), static_cast<double>(row));
   }
   if (!across.isDetermined() || !down.isDetermined()) return std::nullopt;
   PinholeCamera camera;

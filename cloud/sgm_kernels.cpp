@@ -278,9 +278,10 @@ void backwardPass(const PathRow& row, int begin, int end, int uniqueness_percent
         (least_total * 100 + 99 - uniqueness_percent) / (100 - uniqueness_percent);
     const auto limit = static_cast<std::int16_t>(std::min<int>(rivals_below, INT16_MAX));
     std::int16_t rivals = 0;
-    for (int i = 0; i < D; ++i) rivals = static_cast<std::int16_t>(rivals + (total[i] < limit));
+    for (int i = 0; i < D; ++i)
+      rivals = static_cast<std::int16_t>(rivals + (total[i] < limit ? 1 : 0));
     for (int i = std::max(d - 1, 0); i <= std::min(d + 1, D - 1); ++i) {
-      rivals = static_cast<std::int16_t>(rivals - (total[i] < limit));
+      rivals = static_cast<std::int16_t>(rivals - (total[i] < limit ? 1 : 0));
     }
     Winner& winner = winners[x];
     winner.total = least_total;

@@ -36,8 +36,8 @@ class StereoMatcher {
   /// @throws std::invalid_argument  if a parameter is out of its range.
   explicit StereoMatcher(const StereoMatcherParams& params = {});
   ~StereoMatcher();
-  StereoMatcher(StereoMatcher&&) noexcept;
-  StereoMatcher& operator=(StereoMatcher&&) noexcept;
+  StereoMatcher(StereoMatcher&& other) noexcept;
+  StereoMatcher& operator=(StereoMatcher&& other) noexcept;
 
   const StereoMatcherParams& params() const { return params_; }
 

@@ -28,7 +28,7 @@ struct MapImageParams {
 ///         is truncated, is no picture.
 /// @throws std::invalid_argument  unless 0 <= free_thresh <= occupied_thresh <= 1 and the edge is
 ///         positive.
-OccupancyGrid gridFromImage(const std::filesystem::path& image, double cell_size_m,
+OccupancyGrid gridFromImage(const std::filesystem::path& file, double cell_size_m,
                             const MapImageParams& params = {});
 
 /// Reads a map_server pair; the image's path is relative to the YAML file. Only the mode "trinary"

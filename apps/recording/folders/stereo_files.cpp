@@ -81,6 +81,7 @@ std::vector<StereoPair> pairByName(const Sides& sides) {
     pairs[file.stem().native().substr(sides.right.prefix)].right = file;
   }
   std::vector<StereoPair> list;
+  list.reserve(pairs.size());
   for (auto& [name, pair] : pairs) list.push_back(std::move(pair));
   return list;
 }
