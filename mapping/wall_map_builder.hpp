@@ -38,8 +38,8 @@ class WallMapBuilder {
   /// @throws std::invalid_argument  unless the cell's edge is positive.
   explicit WallMapBuilder(double cell_size_m = 0.05);
   ~WallMapBuilder();
-  WallMapBuilder(WallMapBuilder&&) noexcept;
-  WallMapBuilder& operator=(WallMapBuilder&&) noexcept;
+  WallMapBuilder(WallMapBuilder&& other) noexcept;
+  WallMapBuilder& operator=(WallMapBuilder&& other) noexcept;
 
   /// @throws std::invalid_argument  if the solid is not finite, has a negative size, or reaches
   ///         further than the tree (1.6 km at the default cell).

@@ -45,9 +45,7 @@ class AppearanceLearner {
   const std::vector<ColorHistogram>& person() const { return person_; }
 
   /// @throws std::invalid_argument  if nothing of the person, or of the room, has been added.
-  AppearanceModel learn() const {
-    return {params_, person_, room_, stature(), portrait()};
-  }
+  AppearanceModel learn() const { return {params_, person_, room_, stature(), portrait()}; }
 
   /// The mean of all looks so far; without colours if there was none.
   BodyDescription portrait() const { return portrait_.mean(); }

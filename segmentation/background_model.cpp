@@ -43,11 +43,11 @@ void extractRow(int width, float gain, const float* __restrict depth_m,
                 std::uint8_t* __restrict mask) {
   for (int u = 0; u < width; ++u) {
     const float now = disparityOf(depth_m[u]);
-    const int front = now - disparity[u] > disparity_tolerance[u];
+    const auto front = static_cast<int>(now - disparity[u] > disparity_tolerance[u]);
     // Disparity decides alone where both the background's and this frame's are known.
     const int decided = static_cast<int>(now > 0.0F) & static_cast<int>(disparity[u] > 0.0F);
     const float change = static_cast<float>(gray[u]) - gain * intensity[u];
-    const int differs = std::abs(change) > intensity_tolerance[u];
+    const auto differs = static_cast<int>(std::abs(change) > intensity_tolerance[u]);
     changed[u] = static_cast<std::uint8_t>(differs);
     const int shown = front | (differs & (1 - decided));
     mask[u] = static_cast<std::uint8_t>(shown * (front + 2 * differs));

@@ -142,7 +142,7 @@ void BodyDescriber::finish(BodyDescription& out) {
 
 void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDescription& out) {
   begin(out);
-  const double top_m = static_cast<double>(kEnds_m.back());
+  const auto top_m = static_cast<double>(kEnds_m.back());
   const cv::Rect body =
       boardIn(view, blob.position_m, params_.radius_m, static_cast<double>(kEnds_m.front()), top_m);
   const cv::Rect board =
