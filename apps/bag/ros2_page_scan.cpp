@@ -37,6 +37,7 @@ std::optional<std::int64_t> integer(std::uint64_t type, const std::uint8_t*& at,
   const std::size_t size = type < 5 ? type : 2 * type - 4;  // 1, 2, 3, 4, 6, 8
   if (static_cast<std::size_t>(end - at) < size) return std::nullopt;
   const auto shift = static_cast<unsigned>(64 - 8 * size);
+  // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): a size is not 0.
   const auto value = static_cast<std::int64_t>(bigEndian(at, size) << shift) >> shift;
   at += size;
   return value;
