@@ -135,6 +135,8 @@ def compare_pieces(uncut, joined):
     """Tables may differ where the overlap was too short to find out who is who."""
     same = moments = 0
     for table in sorted(joined.glob("track/*/tracks.csv")):
+        if not (joined / "pieces" / table.parent.name / "2_2").is_dir():
+            fail(f"{table.parent.name} is not cut into two pieces")
         one, other = target_places(uncut / table.relative_to(joined)), target_places(table)
         moments += len(one)
         same += sum((one[t] is None) == (other.get(t) is None) and
