@@ -32,9 +32,10 @@ std::optional<std::uint64_t> varint(const std::uint8_t*& at, const std::uint8_t*
 /// Takes an integer of a record; absent if the type is another.
 std::optional<std::int64_t> integer(std::uint64_t type, const std::uint8_t*& at,
                                     const std::uint8_t* end) {
+  constexpr std::size_t kSizes[] = {0, 1, 2, 3, 4, 6, 8};
   if (type == 8 || type == 9) return type == 9 ? 1 : 0;
   if (type < 1 || type > 6) return std::nullopt;
-  const std::size_t size = type < 5 ? type : 2 * type - 4;  // 1, 2, 3, 4, 6, 8
+  const std::size_t size = kSizes[type];
   if (static_cast<std::size_t>(end - at) < size) return std::nullopt;
   const auto shift = static_cast<unsigned>(64 - 8 * size);
   // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): a size is not 0.

@@ -15,15 +15,14 @@ namespace heel {
 std::string stateOfInputs(const std::vector<std::filesystem::path>& inputs);
 
 /// The facts of this process so far, a JSON object on one line:
-///
-/// | key | holds |
-/// | --- | --- |
-/// | `heel` | the version |
-/// | `call` | the words of the call |
-/// | `inputs` | when the run began, of each: `path`, `bytes`, and `changed_ns`, when it was last
-/// written to | | `host`, `cores` | the machine's name, and how many processors it has | | `began`
-/// | UTC, as 2026-11-23T08:07:03Z | | `wall_s`, `cpu_s` | time since then, and of the processors |
-/// | `peak_memory_mib` | the most memory that was in use at a time |
+///  - `heel`: the version;
+///  - `call`: its words;
+///  - `inputs`: of each, when the run began, `path`, `bytes`, and `changed_ns`, when it was last
+///    written to;
+///  - `host`, `cores`: the machine's name, and how many processors it has;
+///  - `began`: UTC, as 2026-11-23T08:07:03Z;
+///  - `wall_s`, `cpu_s`: the time since then, and that of the processors;
+///  - `peak_memory_mib`: the most memory that was in use at a time.
 std::string factsOfThisRun(const std::string& inputs);
 
 /// Whether this process was called as that run was, and would read the same. How it is done (with

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace heel {
@@ -19,8 +18,6 @@ inline constexpr double kSameTime_s = 1e-6;
 struct TimeSpan {
   double from_s = 0.0;                                    ///< From here on.
   double to_s = std::numeric_limits<double>::infinity();  ///< Up to here; both ends are read.
-
-  bool isAll() const { return from_s <= 0.0 && std::isinf(to_s); }
 };
 
 /// One of the pieces, all as long, that a recording is cut into.

@@ -4,10 +4,12 @@
 #include <heel/apps/results/track_pieces.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <set>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -76,17 +78,17 @@ Seam join(TrackTables& whole, TrackTables next) {
     number_of = sameTracks(tracksAt(whole, last.stamp_s), tracksAt(next, last.stamp_s));
   }
   int highest = highestNumber(whole);
-  for (TrackRow row : next.tracks) {
+  for (TrackRow& row : next.tracks) {
     if (row.stamp_s <= last.stamp_s) continue;
     const auto [place, is_new] = number_of.try_emplace(row.track_id, highest + 1);
     if (is_new) ++highest;
     row.track_id = place->second;
-    whole.tracks.push_back(row);
+    whole.tracks.push_back(std::move(row));
   }
   for (auto row = begin; row != next.frames.end(); ++row) {
     row->frame = static_cast<std::size_t>(number(row->frame) + seam.shift);
     if (row->target_id != 0) row->target_id = number_of[row->target_id];
-    whole.frames.push_back(*row);
+    whole.frames.push_back(std::move(*row));
   }
   return seam;
 }

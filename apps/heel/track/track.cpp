@@ -189,17 +189,17 @@ void run(TrackOptions options) {
 }
 
 void addPiece(CLI::App& verb, RecordingPiece& piece) {
-  const std::function<void(const std::string&)> set = [&piece](const std::string& text) {
-    int end = 0;
-    const bool is_read =
-        std::sscanf(text.c_str(), "%d/%d%n", &piece.number, &piece.count, &end) == 2 &&
-        static_cast<std::size_t>(end) == text.size();
-    if (is_read && piece.number >= 1 && piece.number <= piece.count) return;
-    throw CLI::ValidationError("--piece", "'" + text + "' is no piece; the second of three is 2/3");
+  const std::function<void(const std::vector<int>&)> set = [&piece](const std::vector<int>& given) {
+    piece.number = given[0];
+    piece.count = given[1];
+    if (piece.number >= 1 && piece.number <= piece.count) return;
+    throw CLI::ValidationError("--piece", "the second of three is 2/3");
   };
   CLI::Option* option =
       verb.add_option_function("--piece", set,
                                "read only this one of as many equally long pieces; see heel join")
+          ->delimiter('/')
+          ->expected(2)
           ->option_text("I/N")
           ->excludes("--from")
           ->excludes("--to");
