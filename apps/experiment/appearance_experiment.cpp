@@ -11,6 +11,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <map>
 #include <optional>
 #include <utility>
@@ -86,6 +89,24 @@ PairTest comparePair(const SimulatedFrames& recording, std::size_t target, std::
   return test;
 }
 
+/// "#rrggbb".
+std::string hexOf(const Rgb& color) {
+  std::array<int, 3> level{};
+  for (int c = 0; c < 3; ++c) {
+    level[static_cast<std::size_t>(c)] =
+        static_cast<int>(std::lround(255.0F * toDisplay(color[c])));
+  }
+  std::array<char, 8> text{};
+  std::snprintf(text.data(), text.size(), "#%02x%02x%02x", level[0] & 0xFF, level[1] & 0xFF,
+                level[2] & 0xFF);
+  return text.data();
+}
+
+std::array<std::string, 4> colorsOf(const Outfit& outfit) {
+  return {hexOf(outfit.top.front.color), hexOf(outfit.trousers.front.color), hexOf(outfit.hair),
+          hexOf(outfit.skin)};
+}
+
 /// Runs one wardrobe; keeps what the models share.
 class Experiment {
  public:
@@ -99,7 +120,6 @@ class Experiment {
 
   WardrobeRuns run() {
     result_.seed = wardrobe_.seed;
-    result_.similar = wardrobe_.similar;
     std::vector<std::string> names;
     for (const ScenePerson& person : wardrobe_.people) names.push_back(person.name);
     for (const OfferedModel& model : params_.models) {
@@ -138,9 +158,8 @@ class Experiment {
           record(rooms_.acquisition(wardrobe_.people[i], params_.empty_s, span.seed), span);
       SimulatedLesson lesson =
           takeLesson({&empty, &person}, params_.models, params_.empty_s, params_.person_s);
-      const ScenePerson& learned = wardrobe_.people[i];
-      result_.acquired.push_back(
-          {learned.name, learned.outfit, lesson.result.person_frames, lesson.result.end});
+      result_.acquired.push_back({wardrobe_.people[i].name, colorsOf(wardrobe_.people[i].outfit),
+                                  lesson.result.person_frames, toText(lesson.result.end)});
       lessons_.push_back(std::move(lesson.lessons));
       done(0.4 * static_cast<double>(i + 1) / static_cast<double>(size_));
     }

@@ -9,10 +9,10 @@
 #include <heel/apps/experiment/confusion_matrix.hpp>
 #include <heel/apps/experiment/offered_models.hpp>
 #include <heel/apps/experiment/random_wardrobe.hpp>
-#include <heel/apps/follower/acquisition.hpp>
 #include <heel/apps/follower/perception.hpp>
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -64,15 +64,18 @@ struct ModelRuns {
 /// Somebody, and on what their models rest.
 struct Acquired {
   std::string person;
-  Outfit outfit;
-  int frames = 0;  ///< That show the person.
-  AcquisitionEnd end = AcquisitionEnd::kNotYet;
+  std::array<std::string, 4>
+      colors;       ///< Of top, trousers, hair and skin, as scene files have them.
+  int frames = 0;   ///< That show the person.
+  std::string end;  ///< How learning ended, in words.
 };
+
+/// The place of the person whose clothes are much like the first one's; see Wardrobe.
+constexpr std::size_t kLikeTheFirst = 1;
 
 /// All runs over one wardrobe.
 struct WardrobeRuns {
   std::uint64_t seed = 0;
-  std::array<int, 2> similar = {0, 1};
   std::vector<Acquired> acquired;
   std::vector<ModelRuns> models;
 };

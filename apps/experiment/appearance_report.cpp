@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/experiment/appearance_report.hpp>
+#include <heel/apps/experiment/appearance_tables.hpp>
 #include <heel/apps/experiment/confusion_picture.hpp>
 #include <heel/apps/film/video_writer.hpp>
-#include <heel/apps/output/csv_file.hpp>
 #include <heel/apps/results/result_files.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include <array>
-#include <cmath>
-#include <cstdio>
 
 namespace heel {
 namespace {
@@ -28,9 +26,8 @@ AppearanceRow sumUp(const std::vector<WardrobeRuns>& wardrobes, std::size_t mode
   row.rule = rule;
   for (const WardrobeRuns& wardrobe : wardrobes) {
     const ModelRuns& runs = wardrobe.models[model];
-    const auto left_out = static_cast<std::size_t>(wardrobe.similar[1]);
     const ConfusionCount all = runs.matrix.count(rule, min_share);
-    const ConfusionCount without = runs.matrix.count(rule, min_share, left_out);
+    const ConfusionCount without = runs.matrix.count(rule, min_share, kLikeTheFirst);
     ++row.wardrobes;
     row.all.add(all);
     row.without_pair.add(without);
@@ -61,98 +58,6 @@ nlohmann::ordered_json toJson(const Proportion& proportion) {
 nlohmann::ordered_json toJson(const ConfusionCount& count) {
   return {{"false_negatives", toJson(count.false_negatives)},
           {"false_positives", toJson(count.false_positives)}};
-}
-
-/// "#rrggbb", as scene files have it.
-std::string hexOf(const Rgb& color) {
-  std::array<int, 3> level{};
-  for (int c = 0; c < 3; ++c) {
-    level[static_cast<std::size_t>(c)] =
-        static_cast<int>(std::lround(255.0F * toDisplay(color[c])));
-  }
-  std::array<char, 8> text{};
-  std::snprintf(text.data(), text.size(), "#%02x%02x%02x", level[0] & 0xFF, level[1] & 0xFF,
-                level[2] & 0xFF);
-  return text.data();
-}
-
-void writePeople(const OutputPath& file, const std::vector<WardrobeRuns>& wardrobes) {
-  CsvWriter csv(file, {"wardrobe", "person", "top", "trousers", "hair", "skin", "learned_frames",
-                       "learning_ended"});
-  for (const WardrobeRuns& wardrobe : wardrobes) {
-    for (const Acquired& someone : wardrobe.acquired) {
-      csv.integer(static_cast<std::int64_t>(wardrobe.seed))
-          .text(someone.person)
-          .text(hexOf(someone.outfit.top.front.color))
-          .text(hexOf(someone.outfit.trousers.front.color))
-          .text(hexOf(someone.outfit.hair))
-          .text(hexOf(someone.outfit.skin))
-          .integer(someone.frames)
-          .text(toText(someone.end))
-          .endRow();
-    }
-  }
-  csv.close();
-}
-
-void writeRuns(const OutputPath& file, const std::vector<WardrobeRuns>& wardrobes,
-               double min_share) {
-  CsvWriter csv(file,
-                {"wardrobe", "model", "model_of", "person", "similar_pair", "frames_in_view",
-                 "frames_followed", "frames_blob", "frames_elsewhere", "appearance", "detected"});
-  for (const WardrobeRuns& wardrobe : wardrobes) {
-    const auto inPair = [&](std::size_t i) {
-      return static_cast<int>(i) == wardrobe.similar[0] ||
-             static_cast<int>(i) == wardrobe.similar[1];
-    };
-    for (const ModelRuns& runs : wardrobe.models) {
-      const auto& people = runs.matrix.people();
-      for (std::size_t i = 0; i < people.size(); ++i) {
-        for (std::size_t j = 0; j < people.size(); ++j) {
-          const DetectionRun& run = runs.matrix.at(i, j);
-          csv.integer(static_cast<std::int64_t>(wardrobe.seed))
-              .text(runs.model)
-              .text(people[i])
-              .text(people[j])
-              .flag(i != j && inPair(i) && inPair(j))
-              .integer(run.frames_in_view)
-              .integer(run.followed)
-              .integer(run.blob)
-              .integer(run.elsewhere)
-              .number(run.appearance(), 3)
-              .flag(runs.matrix.detected(i, j, DetectionRule::kFollowed, min_share))
-              .endRow();
-        }
-      }
-    }
-  }
-  csv.close();
-}
-
-void writePairs(const OutputPath& file, const std::vector<WardrobeRuns>& wardrobes) {
-  CsvWriter csv(file, {"wardrobe", "model", "target", "other", "frames", "target_appearance",
-                       "other_appearance", "target_blob_score", "other_blob_score",
-                       "followed_target", "followed_other", "target_higher"});
-  for (const WardrobeRuns& wardrobe : wardrobes) {
-    for (const ModelRuns& runs : wardrobe.models) {
-      for (const PairTest& pair : runs.pairs) {
-        csv.integer(static_cast<std::int64_t>(wardrobe.seed))
-            .text(runs.model)
-            .text(runs.matrix.people()[pair.target])
-            .text(runs.matrix.people()[pair.other])
-            .integer(pair.frames)
-            .number(pair.target_appearance, 3)
-            .number(pair.other_appearance, 3)
-            .number(pair.target_blob_score, 1)
-            .number(pair.other_blob_score, 1)
-            .integer(pair.followed_target)
-            .integer(pair.followed_other)
-            .flag(pair.targetScoresHigher())
-            .endRow();
-      }
-    }
-  }
-  csv.close();
 }
 
 /// What a cell of the picture shows, see writeAppearanceFiles().
@@ -205,12 +110,10 @@ std::vector<AppearanceRow> appearanceTable(const std::vector<WardrobeRuns>& ward
 }
 
 void writeAppearanceFiles(const Output& output, const std::string& folder,
-                          const std::vector<WardrobeRuns>& wardrobes, double min_share) {
-  if (wardrobes.empty()) return;
-  if (!wardrobes.front().acquired.empty())
-    writePeople(output / (folder + "/people.csv"), wardrobes);
-  writeRuns(output / (folder + "/runs.csv"), wardrobes, min_share);
-  writePairs(output / (folder + "/pairs.csv"), wardrobes);
+                          const std::vector<WardrobeRuns>& measured, double min_share) {
+  if (measured.empty()) return;
+  writeAppearanceTables(output, folder, measured, min_share);
+  const auto wardrobes = readAppearanceTables((output / folder).written);
   nlohmann::ordered_json summary;
   summary["wardrobes"] = wardrobes.size();
   summary["min_share"] = min_share;

@@ -34,13 +34,12 @@ struct AppearanceRow {
 std::vector<AppearanceRow> appearanceTable(const std::vector<WardrobeRuns>& wardrobes,
                                            double min_share);
 
-/// people.csv (what each wears, and how they were learned; of simulated people), runs.csv (one line
-/// a run), pairs.csv (one a two-people test), summary.json and confusion.png: of
-/// one wardrobe the share of the time in which each was followed, of several the share of the
-/// wardrobes in which each was detected.
+/// The tables (see writeAppearanceTables()), and what follows from them: summary.json and
+/// confusion.png: of one wardrobe the share of the time in which each was followed, of several the
+/// share of the wardrobes in which each was detected.
 /// @param folder  Of the output: they go there.
 /// @throws OutputError  as CsvWriter.
 void writeAppearanceFiles(const Output& output, const std::string& folder,
-                          const std::vector<WardrobeRuns>& wardrobes, double min_share);
+                          const std::vector<WardrobeRuns>& measured, double min_share);
 
 }  // namespace heel

@@ -7,18 +7,16 @@
 
 #include <heel/apps/simulation/scene.hpp>
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <vector>
 
 namespace heel {
 
-/// People whose tops are of one colour each; two of them wear tops of nearly the same.
+/// People whose tops are of one colour each; the first two wear tops of nearly the same.
 struct Wardrobe {
   std::uint64_t seed = 0;
-  std::vector<ScenePerson> people;      ///< Without place and path.
-  std::array<int, 2> similar = {0, 1};  ///< The pair whose tops are alike.
+  std::vector<ScenePerson> people;  ///< Without place and path.
 };
 
 /// Clothes like those of a laboratory: black and charcoal for the similar pair, then navy, crimson

@@ -261,10 +261,18 @@ TEST_F(JoinedHomes, AreTheSameHoweverTheyWereCut) {
               HasSubstr("heel experiment follow --episodes 3 --seed 5 --no-table1 --limit 0.3"));
 }
 
+TEST_F(JoinedHomes, TellOfSeedsThatAreMissing) {
+  ASSERT_TRUE(succeeds(make("first", 5, 1)));
+  ASSERT_TRUE(succeeds(make("later", 8, 1)));
+  const HeelRun run = join({"first", "later"}, "joined");
+  EXPECT_TRUE(run.succeeded());
+  EXPECT_THAT(run.err, HasSubstr("heel: no part has the seeds 6 to 7"));
+}
+
 TEST_F(JoinedHomes, MustBeOfOneExperiment) {
   ASSERT_TRUE(succeeds(make("first", 5, 1)));
   ASSERT_TRUE(succeeds(make("rough", 6, 1, {"--rough", "latency"})));
-  EXPECT_TRUE(failsWith(join({"first", "first"}, "out"), {"the same run", "Episode 5"}));
+  EXPECT_TRUE(failsWith(join({"first", "first"}, "out"), {"the same run", "seed 5"}));
   EXPECT_TRUE(failsWith(join({"first", "rough"}, "out"), {"rough", "other options"}));
   writeText(folder_ / "other/summary.json", R"({"complete": true})");
   EXPECT_TRUE(failsWith(join({"other"}, "out"), {"no complete results of this experiment"}));

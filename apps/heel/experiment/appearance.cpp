@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/experiment/appearance_report.hpp>
+#include <heel/apps/experiment/appearance_tables.hpp>
 #include <heel/apps/experiment/people_matrix_experiment.hpp>
 #include <heel/apps/heel/experiment/experiment_commands.hpp>
+#include <heel/apps/heel/experiment/joined_parts.hpp>
 #include <heel/apps/heel/shared/arguments.hpp>
 #include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/run_end.hpp>
@@ -17,10 +19,14 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace heel {
 namespace {
+
+constexpr const char* kLaboratory = "laboratory";
+constexpr const char* kRandom = "random";
 
 struct AppearanceOptions {
   int wardrobes = 20;
@@ -28,6 +34,8 @@ struct AppearanceOptions {
   std::filesystem::path out;
   std::filesystem::path people;
   bool people_only = false;
+  bool laboratory = true;
+  std::vector<std::filesystem::path> join;
   std::string models;
   std::string light;
   AppearanceExperimentParams params;
@@ -101,24 +109,68 @@ void runPeople(const AppearanceOptions& options, const std::optional<Output>& ou
   if (output) writeAppearanceFiles(*output, "people", {runs}, min_share);
 }
 
-void runSimulated(const AppearanceOptions& options, const std::optional<Output>& output) {
+/// The laboratory's wardrobe and the random ones, or what is wanted of them.
+struct SimulatedResults {
+  std::vector<WardrobeRuns> laboratory, random;
+};
+
+SimulatedResults runSimulated(const AppearanceOptions& options) {
   constexpr std::size_t kSteps = 100;
-  const auto all = static_cast<std::size_t>(options.wardrobes) + 1;
-  ProgressBar progress("appearance", kSteps * all);
-  std::vector<WardrobeRuns> results;
-  for (std::size_t i = 0; i < all; ++i) {
-    const Wardrobe wardrobe = i == 0 ? laboratoryWardrobe() : randomWardrobe(options.seed + i - 1);
-    results.push_back(runAppearanceExperiment(wardrobe, options.params, [&](double share) {
+  const auto random = static_cast<std::size_t>(options.wardrobes);
+  ProgressBar progress("appearance", kSteps * (random + (options.laboratory ? 1 : 0)));
+  std::size_t done = 0;
+  const auto runOf = [&](const Wardrobe& wardrobe) {
+    const auto shown = [&](double share) {
       endIfStopped();
-      progress.show(kSteps * i + static_cast<std::size_t>(kSteps * share));
-    }));
+      progress.show(done + static_cast<std::size_t>(kSteps * share));
+    };
+    WardrobeRuns runs = runAppearanceExperiment(wardrobe, options.params, shown);
+    done += kSteps;
+    return runs;
+  };
+  SimulatedResults results;
+  if (options.laboratory) results.laboratory.push_back(runOf(laboratoryWardrobe()));
+  for (std::size_t i = 0; i < random; ++i) {
+    results.random.push_back(runOf(randomWardrobe(options.seed + i)));
   }
-  const std::vector<WardrobeRuns> random(results.begin() + 1, results.end());
-  printLaboratory(results.front(), options.params.min_share);
-  if (!random.empty()) printRandom(random, options.params.min_share);
+  return results;
+}
+
+/// Those of other calls, in the order of their seeds.
+SimulatedResults joinedWardrobes(const std::vector<std::filesystem::path>& parts) {
+  SimulatedResults results;
+  const auto add = [](const std::filesystem::path& tables, std::vector<WardrobeRuns>& to) {
+    if (!std::filesystem::exists(tables)) return;
+    for (WardrobeRuns& runs : readAppearanceTables(tables)) to.push_back(std::move(runs));
+  };
+  for (const std::filesystem::path& part : parts) {
+    add(part / kLaboratory, results.laboratory);
+    add(part / kRandom, results.random);
+  }
+  std::stable_sort(results.random.begin(), results.random.end(),
+                   [](const WardrobeRuns& a, const WardrobeRuns& b) { return a.seed < b.seed; });
+  for (const std::vector<WardrobeRuns>* runs : {&results.laboratory, &results.random}) {
+    std::vector<std::uint64_t> seeds;
+    for (const WardrobeRuns& of : *runs) seeds.push_back(of.seed);
+    checkSeeds(seeds);
+  }
+  return results;
+}
+
+void show(const SimulatedResults& results, double min_share, const std::optional<Output>& output) {
+  if (!results.laboratory.empty()) printLaboratory(results.laboratory.front(), min_share);
+  if (!results.random.empty()) printRandom(results.random, min_share);
   if (!output) return;
-  writeAppearanceFiles(*output, "laboratory", {results.front()}, options.params.min_share);
-  if (!random.empty()) writeAppearanceFiles(*output, "random", random, options.params.min_share);
+  writeAppearanceFiles(*output, kLaboratory, results.laboratory, min_share);
+  writeAppearanceFiles(*output, kRandom, results.random, min_share);
+}
+
+/// What all runs share, as options.
+std::string sharedBy(const AppearanceOptions& options) {
+  std::string shared = " --min-share " + CLI::detail::to_string(options.params.min_share);
+  if (!options.models.empty()) shared += " --models " + options.models;
+  if (!options.light.empty()) shared += " --light " + options.light;
+  return shared;
 }
 
 void keepModels(std::vector<OfferedModel>& models, const std::string& text) {
@@ -133,9 +185,24 @@ void keepModels(std::vector<OfferedModel>& models, const std::string& text) {
 void run(AppearanceOptions& options) {
   keepModels(options.params.models, options.models);
   options.params.drawn_light = options.light == "drawn";
-  std::optional<Output> output = experimentOutput("appearance", options.out, {options.people});
-  if (!options.people_only) runSimulated(options, output);
+  const bool is_joined = !options.join.empty();
+  if (options.people.empty() && !is_joined && !options.laboratory && options.wardrobes == 0) {
+    throw std::invalid_argument("--no-laboratory, and --wardrobes 0: nothing is left to do");
+  }
+  std::vector<std::filesystem::path> inputs = options.join;
+  inputs.push_back(options.people);
+  std::optional<Output> output = experimentOutput("appearance", options.out, inputs);
+  const std::string shared = sharedBy(options);
+  if (is_joined && sharedOptions(options.join) != shared) {
+    throw std::invalid_argument("the parts were made with" + sharedOptions(options.join) +
+                                ": say so here, too");
+  }
+  SimulatedResults results;
+  if (!options.people_only)
+    results = is_joined ? joinedWardrobes(options.join) : runSimulated(options);
+  show(results, options.params.min_share, output);
   if (!options.people.empty()) runPeople(options, output);
+  if (output) writePartSummary(*output, shared, results.laboratory.size() + results.random.size());
   endExperiment(output);
 }
 
@@ -150,6 +217,9 @@ void addAppearanceExperiment(CLI::App& verb) {
   experiment->add_option("--wardrobes", options->wardrobes, "random wardrobes besides the paper's")
       ->check(CLI::Range(0, 10000))
       ->capture_default_str();
+  experiment->add_flag_callback(
+      "--no-laboratory", [options] { options->laboratory = false; },
+      "leave out the paper's wardrobe: the random ones only");
   experiment->add_option("--seed", options->seed, "of the first random wardrobe")
       ->capture_default_str();
   experiment
@@ -165,6 +235,11 @@ void addAppearanceExperiment(CLI::App& verb) {
   experiment->add_option("--models", options->models,
                          "only models whose names, as the tables have them, hold this text");
   addLight(*experiment, options->light);
+  experiment
+      ->add_option("--join", options->join,
+                   "make no runs: join the results of other calls, with other seeds, to one")
+      ->option_text("FOLDER...")
+      ->excludes(people);
   experiment->add_option("--out", options->out, "folder for tables and pictures");
   experiment->callback([options] { run(*options); });
 }

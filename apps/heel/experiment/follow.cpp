@@ -3,14 +3,12 @@
 
 #include <heel/apps/experiment/follow_experiment.hpp>
 #include <heel/apps/heel/experiment/experiment_commands.hpp>
+#include <heel/apps/heel/experiment/joined_parts.hpp>
 #include <heel/apps/heel/shared/arguments.hpp>
 #include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/run_end.hpp>
-#include <heel/apps/results/result_files.hpp>
-#include <heel/cloud/whole_file.hpp>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -25,7 +23,6 @@ namespace heel {
 namespace {
 
 constexpr const char* kEpisodes = "episodes.csv";
-constexpr const char* kSummary = "summary.json";
 
 struct FollowExperimentOptions {
   std::filesystem::path out;
@@ -46,7 +43,7 @@ void printRow(const FollowEpisode& episode) {
 }
 
 /// What all runs of an experiment share, as options.
-std::string sharedOptions(const FollowExperimentOptions& options) {
+std::string sharedBy(const FollowExperimentOptions& options) {
   std::string shared;
   if (options.params.limit_s != FollowExperimentParams().limit_s) {
     shared += " --limit " + CLI::detail::to_string(options.params.limit_s);
@@ -70,41 +67,24 @@ FollowExperiment runAll(FollowExperimentOptions& options) {
         printRow(episode);
         progress.show(++count);
       });
-  const std::string shared = sharedOptions(options) + " --out again";
+  const std::string shared = sharedBy(options) + " --out again";
   for (FollowEpisode& episode : experiment.episodes) episode.command += shared;
   return experiment;
 }
 
 /// The episodes of results of this experiment, in the order of their seeds.
-/// @param shared  Out: what their runs share, as options.
-FollowExperiment joined(const std::vector<std::filesystem::path>& parts, std::string& shared) {
+FollowExperiment joinedEpisodes(const std::vector<std::filesystem::path>& parts) {
   FollowExperiment experiment;
   experiment.plans = experimentPlans();
-  for (const std::filesystem::path& part : parts) {
-    const std::filesystem::path file = part / kSummary;
-    const auto summary = nlohmann::json::parse(readWholeFile(file), nullptr, false);
-    if (!summary.is_object() || !summary.contains("shared") || !summary["shared"].is_string() ||
-        summary.value("complete", nlohmann::json()) != true) {
-      throw std::runtime_error(file.string() +
-                               ": these are no complete results of this experiment");
-    }
-    const auto of_part = summary["shared"].get<std::string>();
-    if (&part != &parts.front() && of_part != shared) {
-      throw std::runtime_error(part.string() + ": was made with other options (" + of_part +
-                               ") than " + parts.front().string() + " (" + shared + ")");
-    }
-    shared = of_part;
-    readEpisodesCsv(part / kEpisodes, experiment);
-  }
+  for (const std::filesystem::path& part : parts) readEpisodesCsv(part / kEpisodes, experiment);
   auto& episodes = experiment.episodes;
   std::stable_sort(episodes.begin(), episodes.end(),
                    [](const FollowEpisode& a, const FollowEpisode& b) { return a.seed < b.seed; });
-  const auto twice = std::adjacent_find(
-      episodes.begin(), episodes.end(),
-      [](const FollowEpisode& a, const FollowEpisode& b) { return a.seed == b.seed; });
-  if (twice != episodes.end() || experiment.table1.size() > 6) {
-    throw std::runtime_error("two of the parts hold the same run" +
-                             (twice == episodes.end() ? "s" : ": " + twice->name));
+  std::vector<std::uint64_t> seeds;
+  for (const FollowEpisode& episode : episodes) seeds.push_back(episode.seed);
+  checkSeeds(seeds);
+  if (experiment.table1.size() > 6) {
+    throw std::runtime_error("two of the parts hold the paper's three experiments");
   }
   return experiment;
 }
@@ -124,11 +104,11 @@ void run(FollowExperimentOptions& options) {
   std::vector<std::filesystem::path> inputs = options.join;
   if (!options.config.empty()) inputs.push_back(robotFile(options.config));
   std::optional<Output> output = experimentOutput("follow", options.out, inputs);
-  std::string shared = sharedOptions(options);
-  FollowExperiment experiment =
-      options.join.empty() ? runAll(options) : joined(options.join, shared);
+  const bool is_joined = !options.join.empty();
+  const std::string shared = is_joined ? sharedOptions(options.join) : sharedBy(options);
+  FollowExperiment experiment = is_joined ? joinedEpisodes(options.join) : runAll(options);
   writeEpisodesCsv(*output / kEpisodes, experiment);
-  if (options.join.empty()) {
+  if (!is_joined) {
     // What is shown follows from the table, be it made at once or joined.
     experiment.table1.clear();
     experiment.episodes.clear();
@@ -144,9 +124,7 @@ void run(FollowExperimentOptions& options) {
       all.episodes, all.reached, all.with_contact, 100.0 * all.wrongShare(),
       all.elapsed_s > 0.0 ? 100.0 * all.seek_s / all.elapsed_s : 0.0);
   writeFollowExperimentPage(*output / "report.html", experiment);
-  writeJson(*output / kSummary, {{"complete", !isStopRequested()},
-                                 {"episodes", experiment.episodes.size()},
-                                 {"shared", shared}});
+  writePartSummary(*output, shared, experiment.episodes.size());
   endExperiment(output);
 }
 

@@ -4,8 +4,10 @@
 #include "tests/support/temp_folder.hpp"
 #include <heel/apps/experiment/appearance_experiment.hpp>
 #include <heel/apps/experiment/appearance_report.hpp>
+#include <heel/apps/experiment/appearance_tables.hpp>
 #include <heel/apps/experiment/simulated_frames.hpp>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
@@ -43,12 +45,11 @@ TEST(RandomWardrobe, HasOnePairInNearlyTheSameTops) {
     const auto colorOf = [&](int i) {
       return wardrobe.people[static_cast<std::size_t>(i)].outfit.top.front.color;
     };
-    const auto& [a, b] = wardrobe.similar;
-    EXPECT_LE(farthestChannel(colorOf(a), colorOf(b)), 0.2);
-    EXPECT_TRUE((colorOf(a) != colorOf(b)).any());
+    EXPECT_LE(farthestChannel(colorOf(0), colorOf(1)), 0.2);
+    EXPECT_TRUE((colorOf(0) != colorOf(1)).any());
     for (int i = 2; i < 5; ++i) {  // Drawn without putting back.
       for (int j = 0; j < i; ++j) {
-        if (j == b) continue;
+        if (j == 1) continue;
         EXPECT_TRUE((colorOf(i) != colorOf(j)).any());
       }
     }
@@ -89,6 +90,52 @@ TEST(AppearanceExperiment, TellsCrimsonFromNavyAndWritesItDown) {
   }
   const std::string table = test::readText(folder / "a/runs.csv");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 5);  // A header and four runs.
+}
+
+/// Three people, and two models that detect as the numbers have it.
+WardrobeRuns drawnRuns(std::uint64_t seed) {
+  WardrobeRuns runs;
+  runs.seed = seed;
+  for (const char* model : {"one, with a comma", "another"}) {
+    ConfusionMatrix matrix({"anna", "bert", "cleo"});
+    for (std::size_t i = 0; i < 9; ++i) {
+      const int n = static_cast<int>((seed * 7 + i * 5) % 11);
+      matrix.at(i / 3, i % 3) = {20, n, n + 2, 1, 20.0 / (n + 3.0)};
+    }
+    const PairTest pair = {0, 2, 30, 1.0 / 3.0, 0.25, 12.5, 3.5, 7, 1};
+    runs.models.push_back({model, matrix, {pair}});
+  }
+  runs.acquired = {{"anna", {"#112233", "#000000", "#ffffff", "#aabbcc"}, 40, "enough"}};
+  return runs;
+}
+
+TEST(AppearanceTables, AreReadAsTheyWereWritten) {
+  const test::TempFolder folder;
+  Output output({"experiment appearance", OutputKind::kFolder, folder.path(), {}});
+  writeAppearanceTables(output, "once", {drawnRuns(4), drawnRuns(5)}, 0.25);
+  const auto read = readAppearanceTables((output / "once").written);
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(read[1].models[1].matrix.at(1, 2).followed,
+            drawnRuns(5).models[1].matrix.at(1, 2).followed);
+  writeAppearanceTables(output, "twice", read, 0.25);
+  output.commit();
+  for (const char* name : {"people.csv", "runs.csv", "pairs.csv"}) {
+    EXPECT_EQ(test::readText(folder / "once" / name), test::readText(folder / "twice" / name))
+        << name;
+  }
+}
+
+TEST(AppearanceTables, TellWhichRunsAreMissing) {
+  const test::TempFolder folder;
+  Output output({"experiment appearance", OutputKind::kFolder, folder.path(), {}});
+  writeAppearanceTables(output, "a", {drawnRuns(4)}, 0.25);
+  output.commit();
+  std::string table = test::readText(folder / "a/runs.csv");
+  table.erase(table.rfind('\n', table.size() - 2) + 1);
+  test::writeText(folder / "a/runs.csv", table);
+  EXPECT_THAT([&] { readAppearanceTables(folder / "a"); },
+              testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr(
+                  "a/runs.csv: wardrobe 4, another: not everyone's model against everyone")));
 }
 
 TEST(WardrobeRooms, HaveTheLightThatIsAskedFor) {
