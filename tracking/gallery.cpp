@@ -16,7 +16,7 @@ namespace {
 constexpr float kUnseenShare = 0.1F;
 constexpr double kMostWeight = 30.0;  // Independent looks; an older one fades as new ones come.
 constexpr double kFirstWeight = 3.0;  // What is known beforehand counts for so many.
-// What makes kLookGain's slope the one between gamma distributions with these means.
+// Makes a misfit's slope of 1 the one between gamma distributions with these means.
 constexpr double kMisfitShape = 1.0 / (1.0 / kMisfit - 1.0 / kOthersMisfit);
 
 }  // namespace
@@ -109,14 +109,14 @@ double Gallery::likeness(const Person& person) {
       // Only against them: things of their colours may fit as well.
       const double against =
           kMisfitShape * (misfit * person.rate_gain[column] - person.log_rate_gain[column]);
-      sum += kLikenessOffset + std::max(likeness, kWorstLikeness) -
+      sum += kLikenessOffset + likeness -
              std::clamp(against, 0.0, -std::log(params_.misleading_share));
     }
     if (sum <= best) continue;
     best = sum;
     best_misfit_.swap(misfit_);
   }
-  return kLookGain * best;
+  return best;
 }
 
 Evidence Gallery::logLikelihood(const Observation& seen) {
@@ -139,8 +139,8 @@ Evidence Gallery::logLikelihood(const Observation& seen) {
     const double sigma = looks_.stature_sigma_m;
     const double apart = (*seen.stature_m - *looks_.stature_m) / sigma;
     const double usual = (*seen.stature_m - 1.7) / std::hypot(0.1, sigma);
-    evidence[kTarget] += kLookGain * (0.5 * (usual * usual - apart * apart) +
-                                      std::log(std::hypot(0.1, sigma) / sigma));
+    evidence[kTarget] +=
+        0.5 * (usual * usual - apart * apart) + std::log(std::hypot(0.1, sigma) / sigma);
   }
   for (int h = kTarget; h < kHypotheses; ++h) {
     if (!std::isfinite(evidence[h])) continue;

@@ -42,15 +42,13 @@ inline constexpr int kHypotheses = kFirstOther + kMostOthers;
 /// A value a hypothesis.
 using Evidence = Eigen::Array<double, kHypotheses, 1>;
 
-/// A look's log odds is kLookGain * sum over its parts of (likeness + kLikenessOffset), where
+/// A look's log odds is the sum over its parts of (likeness + kLikenessOffset), where
 /// likeness = kRarityShare * KL(look || anybody) - KL(look || person), in the light that fits best.
 /// Sure looks at a person teach how well they usually fit, which adds what kMisfit says.
-/// The gain and the offset were learned by logistic regression on people of real recordings, see
+/// The share and the offset were learned by logistic regression on people of real recordings, see
 /// docs/results.md: another description of bodies needs others.
-inline constexpr double kLookGain = 0.9;  ///< Less than 1: a body's parts are not independent.
 /// A part whose likeness is minus this says nothing.
 inline constexpr double kLikenessOffset = 0.38;
-inline constexpr double kWorstLikeness = -1.5;  ///< No part says more against a person [nat].
 /// Mean misfit, KL(look || person), of the looks at a person and at somebody else, over all parts
 /// and lights: what is expected before a person was looked at. Whoever usually fits better than
 /// that is not taken for them where they fit no better than others do.
