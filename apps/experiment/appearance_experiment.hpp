@@ -64,10 +64,9 @@ struct ModelRuns {
 /// Somebody, and on what their models rest.
 struct Acquired {
   std::string person;
-  std::array<std::string, 4>
-      colors;       ///< Of top, trousers, hair and skin, as scene files have them.
-  int frames = 0;   ///< That show the person.
-  std::string end;  ///< How learning ended, in words.
+  std::array<std::string, 4> colors;  ///< Of top, trousers, hair and skin: "#rrggbb".
+  int frames = 0;                     ///< That show the person.
+  std::string end;                    ///< How learning ended, in words.
 };
 
 /// The place of the person whose clothes are much like the first one's; see Wardrobe.

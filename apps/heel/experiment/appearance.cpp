@@ -136,12 +136,23 @@ SimulatedResults runSimulated(const AppearanceOptions& options) {
   return results;
 }
 
+bool hasSameModels(const WardrobeRuns& a, const WardrobeRuns& b) {
+  return std::equal(a.models.begin(), a.models.end(), b.models.begin(), b.models.end(),
+                    [](const ModelRuns& x, const ModelRuns& y) { return x.model == y.model; });
+}
+
 /// Those of other calls, in the order of their seeds.
 SimulatedResults joinedWardrobes(const std::vector<std::filesystem::path>& parts) {
   SimulatedResults results;
   const auto add = [](const std::filesystem::path& tables, std::vector<WardrobeRuns>& to) {
     if (!std::filesystem::exists(tables)) return;
-    for (WardrobeRuns& runs : readAppearanceTables(tables)) to.push_back(std::move(runs));
+    for (WardrobeRuns& runs : readAppearanceTables(tables)) {
+      if (!to.empty() && !hasSameModels(runs, to.front())) {
+        throw std::runtime_error(tables.string() +
+                                 ": was made with other models than the first part");
+      }
+      to.push_back(std::move(runs));
+    }
   };
   for (const std::filesystem::path& part : parts) {
     add(part / kLaboratory, results.laboratory);
