@@ -212,7 +212,8 @@ void SearchMap::sumUp() {
   }
 }
 
-std::optional<SearchView> SearchMap::nextView(const FloorPose& camera) {
+std::optional<SearchView> SearchMap::nextView(const FloorPose& camera,
+                                              FunctionRef<bool(const Eigen::Vector2d&)> is_open) {
   if (walked_m_.empty()) return std::nullopt;
   floor_.walkingDistances(floor_.nearestFree(camera.position), way_m_, way_open_);
   // First the place, by all that is in view around it: who goes to a room looks all around in it.
@@ -220,18 +221,23 @@ std::optional<SearchView> SearchMap::nextView(const FloorPose& camera) {
   const auto way_s = [&](std::size_t view) {
     return static_cast<double>(way_m_[index(view_cells_[view])]) / params_.limits.max_speed_mps;
   };
-  std::size_t best = 0;
-  double best_rate = 0.0;
+  rates_.assign(view_cells_.size(), 0.0);
+  by_rate_.clear();
   for (std::size_t view = 0; view < view_cells_.size(); ++view) {
     if (!std::isfinite(way_s(view))) continue;
     const Bearings around = chancesAround(view);
     const double chance = std::accumulate(around.begin(), around.end(), 0.0);
-    const double rate = chance / (way_s(view) + around_s);
-    if (!(rate > best_rate)) continue;
-    best = view;
-    best_rate = rate;
+    rates_[view] = chance / (way_s(view) + around_s);
+    if (rates_[view] > 0.0) by_rate_.push_back(view);
   }
-  if (best_rate == 0.0) return std::nullopt;
+  if (by_rate_.empty()) return std::nullopt;
+  std::sort(by_rate_.begin(), by_rate_.end(), [this](std::size_t a, std::size_t b) {
+    return rates_[a] != rates_[b] ? rates_[a] > rates_[b] : a < b;
+  });
+  const auto open = std::find_if(by_rate_.begin(), by_rate_.end(), [&](std::size_t view) {
+    return is_open(floor_.center(view_cells_[view]));
+  });
+  const std::size_t best = open == by_rate_.end() ? by_rate_.front() : *open;
   return bestLook(best, way_s(best), camera.yaw_rad);
 }
 

@@ -87,7 +87,13 @@ class SearchMap {
   /// The place from which there is most to see per time, getting there and turning once around
   /// included, and the look from it that promises most. None before start(), or where no chance is
   /// left within reach. Ask again after each look.
-  std::optional<SearchView> nextView(const FloorPose& camera);
+  /// @param is_open  Whether a way leads to a place now; places without one come last: what stands
+  ///                 in the way may be gone by then.
+  std::optional<SearchView> nextView(const FloorPose& camera,
+                                     FunctionRef<bool(const Eigen::Vector2d&)> is_open);
+  std::optional<SearchView> nextView(const FloorPose& camera) {
+    return nextView(camera, [](const Eigen::Vector2d&) { return true; });
+  }
 
  private:
   static constexpr std::size_t kHeadings = kWays.size();
@@ -121,7 +127,9 @@ class SearchMap {
   int reach_cells_ = 0;           ///< Half the edge of a window around a view.
   std::vector<int> view_cells_;   ///< Places to look from.
   std::vector<bool> is_visible_;  ///< Of the cells in the window around each view, row by row.
-  std::vector<float> way_m_;      ///< Of the robot; memory of nextView().
+  std::vector<float> way_m_;      ///< Of the robot; memory of nextView(), as the next are.
+  std::vector<double> rates_;     ///< Chance per time, by view.
+  std::vector<std::size_t> by_rate_;
   CoarseFloor::Open way_open_;
 };
 

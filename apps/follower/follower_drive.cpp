@@ -127,7 +127,11 @@ void Follower::seek() {
 // Goes where the chance to see the person is best, and looks there.
 void Follower::search() {
   if (looksAtSuspect()) return;
-  if (search_.choose(dt_s_, step_.robot.pose, is_there_)) local_planner_.reset();
+  const auto is_open = [this](const Vector2d& place) {
+    planner_.plan(step_.robot.pose.position, place, plan_);
+    return plan_.found();
+  };
+  if (search_.choose(dt_s_, step_.robot.pose, is_there_, is_open)) local_planner_.reset();
   is_there_ = false;
   const std::optional<SearchView>& view = search_.view();
   if (!view) return;

@@ -20,11 +20,12 @@ void PersonSearch::lose(const MovingPerson& last, double unseen_s) {
   is_over_ = false;
 }
 
-bool PersonSearch::choose(double elapsed_s, const FloorPose& robot, bool is_there) {
+bool PersonSearch::choose(double elapsed_s, const FloorPose& robot, bool is_there,
+                          FunctionRef<bool(const Eigen::Vector2d&)> is_open) {
   searched_s_ += elapsed_s;
   view_age_s_ += elapsed_s;
   if (view_ && !is_there && view_age_s_ <= params_.new_view_s) return false;
-  view_ = map_.nextView(robot);
+  view_ = map_.nextView(robot, is_open);
   view_age_s_ = 0.0;
   is_over_ = !view_;
   return true;

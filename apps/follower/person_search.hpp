@@ -39,8 +39,9 @@ class PersonSearch {
   }
 
   /// Chooses what to look at, if the last choice is old or the robot `is_there`; takes from the
-  /// budget. @return whether there is a new choice.
-  bool choose(double elapsed_s, const FloorPose& robot, bool is_there);
+  /// budget. @param is_open  See SearchMap::nextView(). @return whether there is a new choice.
+  bool choose(double elapsed_s, const FloorPose& robot, bool is_there,
+              FunctionRef<bool(const Eigen::Vector2d&)> is_open);
   /// The choice; nothing if nothing is left to look at.
   const std::optional<SearchView>& view() const { return view_; }
   /// Another choice, next time.

@@ -195,6 +195,23 @@ TEST(SearchMap, LooksWhereItHasNotLooked) {
   EXPECT_LT(std::cos(view->camera.yaw_rad), -0.9);
 }
 
+TEST(SearchMap, GoesWhereTheWayIsOpenFirst) {
+  SearchMap map = threeRooms();
+  map.start(kMiddle + Eigen::Vector2d(0.8, 0.0), {1.0, 0.0});
+  map.spread(4.0);
+  const FloorPose robot{kMiddle, 1.57};
+  const auto likeliest = map.nextView(robot);
+  ASSERT_TRUE(likeliest);
+  const auto is_left = [](const Eigen::Vector2d& place) { return place.x() < kMiddle.x() - 1.0; };
+  const auto open = map.nextView(robot, is_left);
+  ASSERT_TRUE(open);
+  EXPECT_TRUE(is_left(open->camera.position));
+  EXPECT_LT(open->chance, likeliest->chance);
+  const auto nothing_open = map.nextView(robot, [](const Eigen::Vector2d&) { return false; });
+  ASSERT_TRUE(nothing_open);
+  EXPECT_EQ(nothing_open->camera.position, likeliest->camera.position);
+}
+
 TEST(SearchMap, FindsSomebodyWhoHidesByLookingWhereItSays) {
   // Somebody stands in a corner of the left room, out of sight; the robot goes from view to view.
   SearchMap map = threeRooms();
