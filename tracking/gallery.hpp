@@ -45,8 +45,8 @@ using Evidence = Eigen::Array<double, kHypotheses, 1>;
 /// A look's log odds is the sum over its parts of (likeness + kLikenessOffset), where
 /// likeness = kRarityShare * KL(look || anybody) - KL(look || person), in the light that fits best.
 /// Sure looks at a person teach how well they usually fit, which adds what kMisfit says.
-/// The share and the offset were learned by logistic regression on people of real recordings, see
-/// docs/results.md: another description of bodies needs others.
+/// The offset was learned by logistic regression on people of real recordings, see
+/// docs/results.md: another description of bodies needs another.
 /// A part whose likeness is minus this says nothing.
 inline constexpr double kLikenessOffset = 0.38;
 /// Mean misfit, KL(look || person), of the looks at a person and at somebody else, over all parts

@@ -192,6 +192,7 @@ def main():
         broken = make_recordings(heel, work, options.recordings)
         (work / "config.yaml").write_text(json.dumps({
             "recordings": ["recordings/*"], "learn": {"anna": "recordings/r001"},
+            "homes": {"number": 3, "at_once": 2, "options": "--limit 0.3"},
             "heel": shlex.quote(str(heel)), "limit_s": 600}))
         out, reference = work / "batch", work / "reference"
         began = time.monotonic()
