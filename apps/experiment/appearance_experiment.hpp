@@ -69,9 +69,6 @@ struct Acquired {
   std::string end;                    ///< How learning ended, in words.
 };
 
-/// The place of the person whose clothes are much like the first one's; see Wardrobe.
-constexpr std::size_t kLikeTheFirst = 1;
-
 /// All runs over one wardrobe.
 struct WardrobeRuns {
   std::uint64_t seed = 0;

@@ -5,9 +5,7 @@
 #include <heel/apps/output/csv_file.hpp>
 
 #include <algorithm>
-#include <map>
 #include <stdexcept>
-#include <utility>
 
 namespace heel {
 namespace {
@@ -128,30 +126,32 @@ ConfusionMatrix matrixOf(const std::vector<RunRow>& rows, const std::string& wha
   return matrix;
 }
 
-using RunsOfModel = std::pair<std::uint64_t, std::string>;  ///< Wardrobe and model.
-
 std::vector<WardrobeRuns> readRuns(const std::filesystem::path& file) {
-  std::vector<RunsOfModel> order;
-  std::map<RunsOfModel, std::vector<RunRow>> rows;
-  CsvReader csv(file, runsColumns());
-  while (csv.next()) {
-    RunsOfModel of(static_cast<std::uint64_t>(csv.integer(0)), csv.text(1));
-    RunRow row{csv.text(2), csv.text(3), {}};
-    row.run.frames_in_view = static_cast<int>(csv.integer(5));
-    row.run.followed = static_cast<int>(csv.integer(6));
-    row.run.blob = static_cast<int>(csv.integer(7));
-    row.run.elsewhere = static_cast<int>(csv.integer(8));
-    row.run.appearance_sum = csv.number(9) * row.run.frames_in_view;
-    if (rows.count(of) == 0) order.push_back(of);
-    rows[std::move(of)].push_back(std::move(row));
-  }
   std::vector<WardrobeRuns> wardrobes;
-  for (const RunsOfModel& of : order) {
-    const auto& [seed, model] = of;
+  std::vector<RunRow> rows;  // of one model in one wardrobe
+  std::uint64_t seed = 0;
+  std::string model;
+  const auto endModel = [&] {
+    if (rows.empty()) return;
     if (wardrobes.empty() || wardrobes.back().seed != seed) wardrobes.emplace_back().seed = seed;
     const std::string what = file.string() + ": wardrobe " + std::to_string(seed) + ", " + model;
-    wardrobes.back().models.push_back({model, matrixOf(rows[of], what), {}});
+    wardrobes.back().models.push_back({model, matrixOf(rows, what), {}});
+    rows.clear();
+  };
+  CsvReader csv(file, runsColumns());
+  while (csv.next()) {
+    const auto of_seed = static_cast<std::uint64_t>(csv.integer(0));
+    if (of_seed != seed || csv.text(1) != model) endModel();
+    seed = of_seed;
+    model = csv.text(1);
+    DetectionRun& run = rows.emplace_back(RunRow{csv.text(2), csv.text(3), {}}).run;
+    run.frames_in_view = static_cast<int>(csv.integer(5));
+    run.followed = static_cast<int>(csv.integer(6));
+    run.blob = static_cast<int>(csv.integer(7));
+    run.elsewhere = static_cast<int>(csv.integer(8));
+    run.appearance_sum = csv.number(9) * run.frames_in_view;
   }
+  endModel();
   return wardrobes;
 }
 

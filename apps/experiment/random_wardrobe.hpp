@@ -19,6 +19,9 @@ struct Wardrobe {
   std::vector<ScenePerson> people;  ///< Without place and path.
 };
 
+/// The place of the person whose top is like the first one's.
+constexpr std::size_t kLikeTheFirst = 1;
+
 /// Clothes like those of a laboratory: black and charcoal for the similar pair, then navy, crimson
 /// and white.
 Wardrobe laboratoryWardrobe();

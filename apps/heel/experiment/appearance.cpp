@@ -158,13 +158,11 @@ SimulatedResults joinedWardrobes(const std::vector<std::filesystem::path>& parts
     add(part / kLaboratory, results.laboratory);
     add(part / kRandom, results.random);
   }
-  std::stable_sort(results.random.begin(), results.random.end(),
-                   [](const WardrobeRuns& a, const WardrobeRuns& b) { return a.seed < b.seed; });
-  for (const std::vector<WardrobeRuns>* runs : {&results.laboratory, &results.random}) {
-    std::vector<std::uint64_t> seeds;
-    for (const WardrobeRuns& of : *runs) seeds.push_back(of.seed);
-    checkSeeds(seeds);
+  if (results.laboratory.empty() && results.random.empty()) {
+    throw std::runtime_error("--join: no part holds a wardrobe");
   }
+  sortBySeed(results.laboratory);
+  sortBySeed(results.random);
   return results;
 }
 

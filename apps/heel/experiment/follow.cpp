@@ -77,12 +77,7 @@ FollowExperiment joinedEpisodes(const std::vector<std::filesystem::path>& parts)
   FollowExperiment experiment;
   experiment.plans = experimentPlans();
   for (const std::filesystem::path& part : parts) readEpisodesCsv(part / kEpisodes, experiment);
-  auto& episodes = experiment.episodes;
-  std::stable_sort(episodes.begin(), episodes.end(),
-                   [](const FollowEpisode& a, const FollowEpisode& b) { return a.seed < b.seed; });
-  std::vector<std::uint64_t> seeds;
-  for (const FollowEpisode& episode : episodes) seeds.push_back(episode.seed);
-  checkSeeds(seeds);
+  sortBySeed(experiment.episodes);
   if (experiment.table1.size() > 6) {
     throw std::runtime_error("two of the parts hold the paper's three experiments");
   }

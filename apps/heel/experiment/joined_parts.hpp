@@ -8,6 +8,7 @@
 
 #include <heel/apps/output/output.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -26,5 +27,15 @@ void writePartSummary(const Output& output, const std::string& shared, std::size
 /// @param seeds  Of all parts, sorted.
 /// @throws std::runtime_error  if one is there twice.
 void checkSeeds(const std::vector<std::uint64_t>& seeds);
+
+/// Puts the runs of all parts in the order of their `seed`, and checks these.
+template <typename Run>
+void sortBySeed(std::vector<Run>& runs) {
+  std::stable_sort(runs.begin(), runs.end(),
+                   [](const Run& a, const Run& b) { return a.seed < b.seed; });
+  std::vector<std::uint64_t> seeds;
+  for (const Run& run : runs) seeds.push_back(run.seed);
+  checkSeeds(seeds);
+}
 
 }  // namespace heel
