@@ -7,7 +7,7 @@
 
 #include <heel/apps/experiment/closed_loop.hpp>
 #include <heel/apps/experiment/robot_config.hpp>
-#include <heel/apps/pages/follow_experiment_page.hpp>
+#include <heel/apps/results/follow_episodes.hpp>
 
 #include <cstdint>
 #include <filesystem>

@@ -134,6 +134,7 @@ const PerceptionStep& Perception::step(const Frame& frame, const RobotPlace& rob
   finished(Stage::kPlanView);
 
   if (legs != nullptr) addLegs(*legs);
+  describeBodies(frame, robot.pose);
   track(robot, legs, !frame.image_bgr.empty());
   finished(Stage::kTracking);
   return step_;
@@ -230,6 +231,7 @@ void Perception::keepStanding() {
 void Perception::findCandidates(const Frame& frame, const FloorPose& robot) {
   step_.observations.clear();
   step_.blob_of_observation.clear();
+  const DepthSight sight(depth_m_, camera_.left, T_base_camera_.inverse());
   for (std::size_t i = 0; i < step_.blobs.size(); ++i) {
     const WorldBlob& blob = step_.blobs[i];
     if (!isCandidate(blob, params_.candidates)) continue;
@@ -240,15 +242,6 @@ void Perception::findCandidates(const Frame& frame, const FloorPose& robot) {
     const Eigen::Matrix2d R = Eigen::Rotation2Dd(robot.yaw_rad).toRotationMatrix();
     seen.covariance_m2 = R * depthCovariance(blob.position_m) * R.transpose();
     step_.blob_of_observation.push_back(static_cast<int>(i));
-  }
-  if (looks_.size() < step_.observations.size()) looks_.resize(step_.observations.size());
-  const DepthSight sight(depth_m_, camera_.left, T_base_camera_.inverse());
-  for (std::size_t k = 0; k < step_.observations.size(); ++k) {
-    const WorldBlob& blob = step_.blobs[static_cast<std::size_t>(step_.blob_of_observation[k])];
-    Observation& seen = step_.observations[k];
-    describe(blob, frame, looks_[k]);
-    seen.look = &looks_[k].colors;
-    seen.stature_m = looks_[k].stature_m;
     if (frame.image_bgr.empty()) continue;
     const Eigen::Vector2d ray = blob.position_m - T_base_camera_.translation().head<2>();
     const Eigen::Vector2d side_m = kBeside_m * Eigen::Vector2d(-ray.y(), ray.x()).normalized();
@@ -286,6 +279,24 @@ void Perception::addLegs(const LaserBodies& legs) {
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!has_looks_[i]) step_.observations.push_back(bodies[i]);
+  }
+}
+
+// Whom only the laser found is looked at, too: other clothes than the target's say who it is not.
+void Perception::describeBodies(const Frame& frame, const FloorPose& robot) {
+  if (looks_.size() < step_.observations.size()) looks_.resize(step_.observations.size());
+  const std::size_t blobs = step_.blob_of_observation.size();
+  for (std::size_t k = 0; k < step_.observations.size(); ++k) {
+    Observation& seen = step_.observations[k];
+    WorldBlob body;
+    if (k < blobs) {
+      body = step_.blobs[static_cast<std::size_t>(step_.blob_of_observation[k])];
+    } else {
+      body.position_m = robot.inverse() * seen.position_m;
+    }
+    describe(body, frame, looks_[k]);
+    if (looks_[k].colors.sum() > 0.0F) seen.look = &looks_[k].colors;
+    seen.stature_m = looks_[k].stature_m;
   }
 }
 

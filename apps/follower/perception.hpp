@@ -118,6 +118,7 @@ class Perception {
   void keepStanding();
   void findCandidates(const Frame& frame, const FloorPose& robot);
   void addLegs(const LaserBodies& legs);
+  void describeBodies(const Frame& frame, const FloorPose& robot);
   void track(const RobotPlace& robot, const LaserBodies* legs, bool has_image);
   void describe(const WorldBlob& blob, const Frame& frame, BodyDescription& out);
   Eigen::Matrix2d depthCovariance(const Eigen::Vector2d& position_m) const;

@@ -6,52 +6,11 @@
 #pragma once
 
 #include <heel/apps/output/output.hpp>
-#include <heel/apps/results/follow_summary.hpp>
+#include <heel/apps/results/follow_episodes.hpp>
 
-#include <filesystem>
 #include <string>
-#include <vector>
 
 namespace heel {
-
-/// One run of an experiment.
-struct FollowEpisode {
-  std::string name;  ///< "Experiment 1" in Table 1; else what tells it from the others.
-  unsigned long seed = 0;
-  std::string plan;
-  FollowSummary summary;
-  std::string cause;    ///< Of a failure, in a few words; empty if the person was reached.
-  std::string command;  ///< The command line that repeats it.
-};
-
-/// All that `heel experiment follow` found.
-struct FollowExperiment {
-  std::string title = "Person following";
-  std::vector<std::string> plans;       ///< In the order in which they are shown: "paper", ...
-  std::vector<FollowEpisode> table1;    ///< The paper's experiments with each of the plans.
-  std::vector<FollowEpisode> episodes;  ///< At random, with any of the plans.
-  double max_speed_mps = 0.3;
-  std::string command;
-};
-
-/// Whether an episode counts as failed: the person was not reached, or the robot touched something,
-/// or somebody else was followed for a hundredth of the time or more.
-bool isFailure(const FollowEpisode& episode);
-
-/// Figures of all episodes with one plan.
-struct EpisodeCounts {
-  int episodes = 0;
-  int reached = 0;
-  int with_contact = 0;  ///< By the robot.
-  int contacts_by_robot = 0;
-  int contacts_by_people = 0;
-  double elapsed_s = 0.0;
-  double seek_s = 0.0;
-  double wrong_person_s = 0.0;
-  double distance_m = 0.0;
-  double wrongShare() const { return elapsed_s > 0.0 ? wrong_person_s / elapsed_s : 0.0; }
-};
-EpisodeCounts countEpisodes(const std::vector<FollowEpisode>& episodes, const std::string& plan);
 
 /// The whole page, well-formed as XML too, without an address of anything outside of it.
 std::string followExperimentPage(const FollowExperiment& experiment);
@@ -59,13 +18,5 @@ std::string followExperimentPage(const FollowExperiment& experiment);
 /// Writes followExperimentPage() to a file.
 /// @throws OutputError  as OutputFile.
 void writeFollowExperimentPage(const OutputPath& file, const FollowExperiment& experiment);
-
-/// Writes a row for each of the episodes, those of Table 1 first.
-/// @throws OutputError  as OutputFile.
-void writeEpisodesCsv(const OutputPath& file, const FollowExperiment& experiment);
-
-/// Adds the episodes of such a table: all that the page shows of them.
-/// @throws std::runtime_error  as CsvReader.
-void readEpisodesCsv(const std::filesystem::path& file, FollowExperiment& experiment);
 
 }  // namespace heel

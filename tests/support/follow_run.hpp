@@ -6,7 +6,7 @@
 #pragma once
 
 #include <heel/apps/film/follow_video.hpp>
-#include <heel/apps/pages/follow_experiment_page.hpp>
+#include <heel/apps/results/follow_episodes.hpp>
 #include <heel/apps/results/follow_log.hpp>
 
 namespace heel::test {

@@ -27,6 +27,7 @@ namespace {
 
 constexpr const char* kLaboratory = "laboratory";
 constexpr const char* kRandom = "random";
+constexpr const char* kPeople = "people";
 
 struct AppearanceOptions {
   int wardrobes = 20;
@@ -106,7 +107,7 @@ void runPeople(const AppearanceOptions& options, const std::optional<Output>& ou
     std::printf("  %-32s FN %-10s FP %s\n", row.name.c_str(),
                 counted(row.all.false_negatives).c_str(), counted(row.all.false_positives).c_str());
   }
-  if (output) writeAppearanceFiles(*output, "people", {runs}, min_share);
+  if (output) writeAppearanceFiles(*output, kPeople, {runs}, min_share);
 }
 
 /// The laboratory's wardrobe and the random ones, or what is wanted of them.
@@ -155,6 +156,9 @@ SimulatedResults joinedWardrobes(const std::vector<std::filesystem::path>& parts
     }
   };
   for (const std::filesystem::path& part : parts) {
+    if (std::filesystem::exists(part / kPeople)) {
+      throw std::runtime_error((part / kPeople).string() + ": results of --people are not joined");
+    }
     add(part / kLaboratory, results.laboratory);
     add(part / kRandom, results.random);
   }

@@ -180,6 +180,22 @@ TEST(Perception, TheLaserGoesOnWithWhomTheCameraKnew) {
   }
 }
 
+TEST(Perception, LooksAtWhomOnlyTheLaserFound) {
+  Perception perception = perceptionOf();
+  const LaserBodies legs = legsAt({{2.6, -0.4}});
+  for (int i = 0; i < 4; ++i) {
+    perception.step(ColoredStage().person(2.5, -0.4).frame(0.1 * i), {}, &legs);
+  }
+  for (int i = 4; i < 14; ++i) {  // Somebody in green stands where the target stood.
+    const auto& step =
+        perception.step(ColoredStage().person(2.5, -0.4, kGreen).frame(0.1 * i), {}, &legs);
+    ASSERT_EQ(step.observations.size(), 1U);
+    ASSERT_TRUE(step.blob_of_observation.empty());
+    ASSERT_NE(step.observations[0].look, nullptr);
+    EXPECT_TRUE(i < 13 || !step.target.hasPlace());
+  }
+}
+
 TEST(Perception, WhoHasNoLegsIsHardlyAPerson) {
   const auto thing = [](const std::vector<Eigen::Vector2d>& legs_m) {
     const LaserBodies legs = legsAt(legs_m);
