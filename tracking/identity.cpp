@@ -157,9 +157,11 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
     const double same = (1.0 - missed) * track.density_per_m2;
     const double other = missed * (clutter + params_.newcomer_density_per_m2);
     const double other_share = other / (same + other);
-    belief.log_place = mix(belief.log_place, priorOf(seen.position_m, stamp_s), other_share);
+    const Evidence own = belief.log_place + belief.log_free + belief.log_views;
     belief.log_views *= 1.0 - other_share;
     belief.log_free *= 1.0 - other_share;
+    belief.log_place = mix(own, priorOf(seen.position_m, stamp_s), other_share) -
+                       belief.log_free - belief.log_views;
   }
   // However long it lasts, nothing is surer than that: who sat for an hour may get up.
   belief.log_place -= belief.log_place.maxCoeff();
