@@ -8,34 +8,24 @@
 
 #include <heel/mapping/floor_pose.hpp>
 #include <heel/mapping/laser_scan.hpp>
+#include <heel/planning/possible_ways.hpp>
+#include <heel/planning/recent_sight.hpp>
 #include <heel/planning/trajectory.hpp>
 
 #include <Eigen/Core>
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
 namespace heel {
 
 /// How late the robot acts, and how much room it keeps.
 struct LastGateParams {
-  DriveLimits limits;        ///< The robot's; it brakes as fast as it accelerates.
-  FloorPose T_base_scanner;  ///< Where the laser scanner is, in the base frame.
+  DriveLimits limits;  ///< The robot's; it brakes as fast as it accelerates.
   /// A command acts on the wheels at most so long after it was sent, or at any time before [s].
   double wheels_latency_s = 0.0;
   /// Room that is left to what was seen: two standard deviations of a laser's ranges.
   double margin_m = 0.02;
-  /// What no sensor looks at any more is known for so long: longer than a robot takes to turn
-  /// about, shorter than people stay. A user's choice.
-  double remembers_s = 4.0;
-  /// So many of a picture's points in a cell of 5 cm are a thing; fewer are errors of the stereo.
-  int min_points = 6;
-  Eigen::Vector2d camera_m = Eigen::Vector2d::Zero();  ///< Where the camera is, in the base frame.
-  /// A picture renews what is within this angle of straight ahead.
-  double camera_half_view_rad = 0.0;
-  double camera_nearest_m = 0.45;  ///< A picture renews what is further from the camera than this.
-  double camera_range_m = 2.0;     ///< A picture renews what is nearer to the camera than this.
+  RecentSightParams sight;
 };
 
 /// Why a velocity is let through, or not all of it.
@@ -96,7 +86,7 @@ class LastGate {
 
   /// Distance from a place to the nearest thing that was seen, as far as things are kept: a planner
   /// that asks for it plans nothing that the gate holds back. [m]
-  double clearance(const Eigen::Vector2d& place) const;
+  double clearance(const Eigen::Vector2d& place) const { return sight_.clearance(place); }
 
   /// @param now    Where the base was by the last odometry, and its speed.
   /// @param age_s  How old that is.
@@ -105,86 +95,27 @@ class LastGate {
                      double now_s);
 
  private:
-  struct Thing {
-    Eigen::Vector2d place;  // in the odometry's frame
-    double seen_s;
-    bool by_laser;
-    bool is_sure;  // by the laser, or in two pictures one after the other
-    Eigen::Vector2d velocity;
-  };
   struct Near {
     Eigen::Vector2d place;
     double away_m;  // from the robot's middle
     Eigen::Vector2d velocity;
   };
-  /// A box that the robot's middle does not leave for a while: along a way from a place, and aside.
-  struct Piece {
-    Eigen::Vector2d from, way;
-    double first_m, last_m, aside_m;
-    double turned_rad;            // the heading is off the way by no more than this
-    double driven_m;              // no more, since the last odometry
-    double time_s;                // at its end, since then
-    bool moves, advances, backs;  // maybe
-  };
-  struct Obeyed {
-    double until_s;
-    VelocityCommand least, most;
-  };
-  struct Look {
-    Eigen::Vector2d scanner = Eigen::Vector2d::Zero();
-    Eigen::Matrix2d turn = Eigen::Matrix2d::Identity();  // from the odometry's axes to its own
-    double stamp_s = 0.0;
-    LaserScan scan;
-  };
-  struct Sent {
-    double stamp_s;
-    VelocityCommand velocity;
-  };
-  struct Cell {
-    std::uint16_t points = 0;
-    bool is_sure = false;
-    Eigen::Vector2f nearest = Eigen::Vector2f::Zero();
-  };
 
-  static double beamTo(const Look& look, const Eigen::Vector2d& at);
-  static bool endsBeyond(const Look& look, double beam, double away_m);
-  static bool sees(const Look& look, const Eigen::Vector2d& thing);
-  bool isSeen(const Eigen::Vector2d& place, double short_m, double now_s);
-  static bool sawFree(const Look& look, const Eigen::Vector2d& place, double short_m);
-  static Eigen::Vector2d velocityOf(const Eigen::Vector2d& place, const Look& before, double dt_s);
-  void keep(const Thing& thing);
   void approach(const Eigen::Vector2d& robot, double reach_m, double then_s, double now_s);
-  static bool recedes(const Piece& piece, double along_m, double aside_m);
-  bool isFree() const;
+  static bool recedes(const WayPiece& piece, double along_m, double aside_m);
+  bool isFree(const std::vector<WayPiece>& pieces) const;
   bool isRimSeen(const Eigen::Vector2d& start, const Eigen::Vector2d& middle,
                  const Eigen::Vector2d& front, double body_m, double stood_m, double now_s);
-  double besideView(const LaserScan& scan) const;
   double rimStep() const;
-  bool isSeenAhead(const Eigen::Vector2d& start, double now_s);
-  Obeyed obeyed(double time_s, const Sent* planned) const;
-  double fastestSent(double then_s) const;
-  void believe(const VelocityCommand& measured, double at_s);
-  void layOut(const VelocityCommand& velocity, const FloorPose& from, double then_s, double now_s);
+  bool isSeenAhead(const std::vector<WayPiece>& pieces, const Eigen::Vector2d& start, double now_s);
   GateReason judge(const VelocityCommand& velocity, const FloorPose& from, double then_s,
                    double now_s);
 
   LastGateParams params_;
-  double reach_m_;  // what is further away can't be touched before the robot stands
-  std::vector<Thing> things_;
-  std::vector<Near> near_;
-  double allow_m_ = 0.0;  // how near what it does not touch may come
-  std::vector<Piece> pieces_;
-  std::array<Look, 20> looks_;  // a ring; looks_[newest_] is the last
-  std::size_t newest_ = 0;
-  double beside_m_ = 0.0;      // see besideView()
-  std::size_t saw_ = 0;        // the look that saw the last place that was asked for
-  std::array<Sent, 32> sent_;  // a ring
-  std::size_t sent_newest_ = 0;
-  std::vector<Cell> cells_;
-  double points_s_;
-  VelocityCommand least_, most_;  // between these the commands should have brought the speed,
-  double believed_s_;             // and when
-  VelocityCommand slow_, fast_;   // and between these it is, by the odometry too
+  RecentSight sight_;
+  PossibleWays ways_;
+  std::vector<Near> near_;  // what can be touched
+  double allow_m_ = 0.0;    // how near what it does not touch may come
 };
 
 }  // namespace heel

@@ -160,8 +160,8 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
     const Evidence own = belief.log_place + belief.log_free + belief.log_views;
     belief.log_views *= 1.0 - other_share;
     belief.log_free *= 1.0 - other_share;
-    belief.log_place = mix(own, priorOf(seen.position_m, stamp_s), other_share) -
-                       belief.log_free - belief.log_views;
+    belief.log_place = mix(own, priorOf(seen.position_m, stamp_s), other_share) - belief.log_free -
+                       belief.log_views;
   }
   // However long it lasts, nothing is surer than that: who sat for an hour may get up.
   belief.log_place -= belief.log_place.maxCoeff();

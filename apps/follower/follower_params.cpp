@@ -63,13 +63,13 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   params.search.map.limits = robot.drive;
   LastGateParams& gate = params.last_gate;
   gate.limits = robot.drive;
-  gate.T_base_scanner = robot.T_base_scanner;
+  gate.sight.T_base_scanner = robot.T_base_scanner;
   gate.wheels_latency_s = robot.wheels_latency_s;
-  gate.camera_m = robot.camera.T_base_camera.translation().head<2>();
-  gate.camera_half_view_rad = 0.9 * robot.halfView_rad();  // things at the rim are half seen
-  gate.camera_nearest_m = params.obstacle_points.nearest_m;
-  gate.min_points = params.obstacles.min_points;
-  gate.camera_range_m = params.obstacle_points.max_range_m;
+  gate.sight.camera_m = robot.camera.T_base_camera.translation().head<2>();
+  gate.sight.camera_half_view_rad = 0.9 * robot.halfView_rad();  // things at the rim are half seen
+  gate.sight.camera_nearest_m = params.obstacle_points.nearest_m;
+  gate.sight.min_points = params.obstacles.min_points;
+  gate.sight.camera_range_m = params.obstacle_points.max_range_m;
   if (const double half_rad = robot.halfView_rad(); half_rad > 0.0) {
     // A narrow camera sees no more than it does; a wide one sees badly at its rims.
     double& field_rad = params.search.map.field_of_view_rad;

@@ -24,9 +24,9 @@ constexpr double kPi = 3.14159265358979;
 
 LastGateParams usual() {
   LastGateParams params;
-  params.T_base_scanner.position = {0.1, 0.0};
-  params.camera_m = {0.05, 0.0};
-  params.camera_half_view_rad = 0.5;
+  params.sight.T_base_scanner.position = {0.1, 0.0};
+  params.sight.camera_m = {0.05, 0.0};
+  params.sight.camera_half_view_rad = 0.5;
   return params;
 }
 
@@ -237,10 +237,9 @@ TEST(LastGate, StopsOnWhatIsNotANumber) {
 }
 
 TEST(LastGate, RefusesBadParameters) {
-  for (double LastGateParams::*field : {&LastGateParams::wheels_latency_s,
-                                        &LastGateParams::margin_m, &LastGateParams::remembers_s}) {
-    LastGateParams params = usual();
-    params.*field = -0.1;
+  LastGateParams late = usual(), near = usual(), forgetful = usual();
+  late.wheels_latency_s = near.margin_m = forgetful.sight.remembers_s = -0.1;
+  for (const LastGateParams& params : {late, near, forgetful}) {
     EXPECT_THROW(LastGate{params}, std::invalid_argument);
   }
 }

@@ -52,7 +52,7 @@ void World::draw(std::mt19937_64& random) {
   limits.max_speed_mps = between(0.2, 1.0);
   limits.max_reverse_mps = limits.max_speed_mps;
   limits.max_acceleration_mps2 = between(0.3, 1.5);
-  params.T_base_scanner.position = {0.1, 0.0};
+  params.sight.T_base_scanner.position = {0.1, 0.0};
   const bool is_late = share() < 0.7;
   scan_ticks = is_late ? static_cast<int>(between(0.0, kTicks)) : 0;
   odometry_ticks = is_late ? static_cast<int>(between(0.0, kTicks)) : 0;
@@ -72,7 +72,7 @@ void World::draw(std::mt19937_64& random) {
 }
 
 void World::scan(const FloorPose& base, LaserScan& out) {
-  const FloorPose scanner = base * params.T_base_scanner;
+  const FloorPose scanner = base * params.sight.T_base_scanner;
   const double view_rad = looks_round ? 2.0 * M_PI : 220.0 / 180.0 * M_PI;
   out.first_rad = -0.5 * view_rad;
   out.step_rad = view_rad / kBeams;

@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <heel/planning/recent_sight.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace heel {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kNotYet = -std::numeric_limits<double>::infinity();
+constexpr double kCell_m = 0.05;       // Of the camera's points,
+constexpr int kCells = 48;             // so many on each side of a square about the robot.
+constexpr double kSame_m = 0.1;        // So far apart two pictures may see one thing.
+constexpr double kSurface_m = 0.05;    // So far behind a beam's end is the thing that it hit.
+constexpr double kWalks_mps = 1.2;     // Nobody walks faster.
+constexpr double kOldestLook_s = 1.0;  // Of a look from which to reckon who walks.
+constexpr double kRounding_rad = 1e-9;
+
+}  // namespace
+
+RecentSight::RecentSight(const RecentSightParams& params, double range_m)
+    : params_(params), range_m_(range_m), cells_(kCells * kCells), points_s_(kNotYet) {
+  for (const double value :
+       {params.remembers_s, params.camera_half_view_rad, params.camera_nearest_m,
+        params.camera_range_m, params.min_points - 1.0}) {
+    if (!(value >= 0.0) || !std::isfinite(value)) {
+      throw std::invalid_argument("RecentSightParams: a parameter is out of its range");
+    }
+  }
+  things_.reserve(kMostThings);
+  for (Look& look : looks_) look.stamp_s = kNotYet;
+}
+
+// How many beams after the first a place is; the greatest is one before the first.
+double RecentSight::beamTo(const Look& look, const Vector2d& at) {
+  constexpr double kTurn_rad = 2.0 * M_PI;
+  const double sign = look.scan.step_rad < 0.0 ? -1.0 : 1.0;
+  double angle = sign * (std::atan2(at.y(), at.x()) - look.scan.first_rad);
+  angle -= kTurn_rad * std::floor(angle / kTurn_rad);
+  return angle / (sign * look.scan.step_rad);
+}
+
+// Whether a beam ends beyond a distance.
+bool RecentSight::endsBeyond(const Look& look, double beam, double away_m) {
+  const double turn = std::round(2.0 * M_PI / std::abs(look.scan.step_rad));
+  if (beam >= turn) beam -= turn;
+  if (!(beam < static_cast<double>(look.scan.ranges_m.size()))) return false;
+  const auto range_m = static_cast<double>(look.scan.ranges_m[static_cast<std::size_t>(beam)]);
+  return range_m > 0.0 && range_m > away_m;  // Not where it is not a number.
+}
+
+// Whether the beam next to a thing goes through it, or ends at it.
+bool RecentSight::sees(const Look& look, const Vector2d& thing) {
+  const Vector2d at = look.turn * (thing - look.scanner);
+  return endsBeyond(look, std::round(beamTo(look, at)), at.norm() - kSurface_m);
+}
+
+// Whether a look has seen that a place is free: both beams beside it end no nearer than `short_m`
+// before it.
+bool RecentSight::sawFree(const Look& look, const Vector2d& place, double short_m) {
+  const Vector2d at = look.turn * (place - look.scanner);
+  const double beam = std::floor(beamTo(look, at)), away_m = at.norm() - short_m;
+  return endsBeyond(look, beam, away_m) && endsBeyond(look, beam + 1.0, away_m);
+}
+
+// Of the ring of looks, the one that saw the last place is asked first.
+bool RecentSight::isSeen(const Vector2d& place, double short_m, double now_s) {
+  const auto sawIt = [&](const Look& look) {
+    return now_s - look.stamp_s <= params_.remembers_s && sawFree(look, place, short_m);
+  };
+  if (sawIt(looks_[saw_])) return true;
+  for (std::size_t i = 0; i < looks_.size(); ++i) {
+    saw_ = (newest_ + looks_.size() - i) % looks_.size();
+    if (sawIt(looks_[saw_])) return true;
+  }
+  return false;
+}
+
+// How what is seen at a place has come there. Where the look before saw nothing, something came,
+// from the nearest that it saw; else it stands.
+Vector2d RecentSight::velocityOf(const Vector2d& place, const Look& before, double dt_s) {
+  if (!(dt_s <= kOldestLook_s) || !sawFree(before, place, -kSurface_m)) return Vector2d::Zero();
+  const Vector2d at = before.turn * (place - before.scanner);
+  const double reach_m = kWalks_mps * dt_s;
+  Vector2d came = Vector2d::Zero();
+  double least2 = reach_m * reach_m;
+  for (std::size_t i = 0; i < before.scan.ranges_m.size(); ++i) {
+    const auto range_m = static_cast<double>(before.scan.ranges_m[i]);
+    if (!(std::abs(range_m - at.norm()) < reach_m)) continue;
+    const double angle = before.scan.angle(i);
+    const Vector2d by = at - range_m * Vector2d(std::cos(angle), std::sin(angle));
+    if (by.squaredNorm() >= least2) continue;
+    least2 = by.squaredNorm();
+    came = by;
+  }
+  return before.turn.transpose() * came / dt_s;
+}
+
+void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double stamp_s) {
+  if (!(stamp_s > looks_[newest_].stamp_s) || scan.step_rad == 0.0) return;
+  // As many looks as there is room for, evenly over the time that they are known.
+  const double apart_s = params_.remembers_s / static_cast<double>(looks_.size() - 1);
+  const Look& before = looks_[(newest_ + looks_.size() - 1) % looks_.size()];
+  if (looks_[newest_].stamp_s - before.stamp_s >= apart_s) newest_ = (newest_ + 1) % looks_.size();
+  Look& look = looks_[newest_];
+  const FloorPose scanner = base * params_.T_base_scanner;
+  look.scanner = scanner.position;
+  look.turn = Eigen::Rotation2Dd(-scanner.yaw_rad).toRotationMatrix();
+  look.stamp_s = stamp_s;
+  look.scan.first_rad = scan.first_rad;
+  look.scan.step_rad = scan.step_rad;
+  look.scan.ranges_m.assign(scan.ranges_m.begin(), scan.ranges_m.end());
+  things_.erase(std::remove_if(things_.begin(), things_.end(),
+                               [&](const SeenThing& thing) {
+                                 return stamp_s - thing.seen_s > params_.remembers_s ||
+                                        (thing.by_laser && sees(look, thing.place));
+                               }),
+                things_.end());
+  const Look& earlier = looks_[(newest_ + looks_.size() - 1) % looks_.size()];
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    const auto range_m = static_cast<double>(scan.ranges_m[i]);
+    if (!(range_m > 0.0 && range_m < range_m_)) continue;
+    const double angle = scan.angle(i);
+    const Vector2d place = scanner * Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
+    keep({place, stamp_s, true, true, velocityOf(place, earlier, stamp_s - earlier.stamp_s)});
+  }
+}
+
+void RecentSight::addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& base,
+                            double stamp_s) {
+  if (!(stamp_s > points_s_)) return;
+  points_s_ = stamp_s;
+  const FloorPose T_base_world = base.inverse();
+  const auto isInView = [&](const Vector2d& place) {
+    const Vector2d at = T_base_world * place - params_.camera_m;
+    return std::abs(std::atan2(at.y(), at.x())) < params_.camera_half_view_rad &&
+           at.norm() > params_.camera_nearest_m && at.norm() < params_.camera_range_m;
+  };
+  std::fill(cells_.begin(), cells_.end(), Cell{});
+  for (const Eigen::Vector3f& point : points) {
+    const Eigen::Vector2f at = point.head<2>();
+    const Eigen::Vector2d cell = at.cast<double>().array() / kCell_m + kCells / 2.0;
+    if (!((cell.array() >= 0.0).all() && (cell.array() < kCells).all())) continue;  // NaN too
+    Cell& c =
+        cells_[static_cast<std::size_t>(cell.y()) * kCells + static_cast<std::size_t>(cell.x())];
+    if (c.points == 0 || at.norm() < c.nearest.norm()) c.nearest = at;
+    ++c.points;
+  }
+  const auto placeOf = [&](const Cell& c) { return base * Vector2d(c.nearest.cast<double>()); };
+  for (Cell& cell : cells_) {
+    if (cell.points < params_.min_points) continue;
+    cell.is_sure = std::any_of(things_.begin(), things_.end(), [&](const SeenThing& thing) {
+      return !thing.by_laser && (thing.place - placeOf(cell)).norm() < kSame_m;
+    });
+  }
+  things_.erase(std::remove_if(things_.begin(), things_.end(),
+                               [&](const SeenThing& thing) {
+                                 return !thing.by_laser &&
+                                        (!thing.is_sure || isInView(thing.place));
+                               }),
+                things_.end());
+  for (const Cell& cell : cells_) {
+    if (cell.points < params_.min_points) continue;
+    keep({placeOf(cell), stamp_s, false, cell.is_sure, Vector2d::Zero()});
+  }
+}
+
+// Where there is no room for more, the oldest goes.
+void RecentSight::keep(const SeenThing& thing) {
+  if (things_.size() >= kMostThings)
+    things_.erase(things_.begin(), things_.begin() + kMostThings / 4);
+  things_.push_back(thing);
+}
+
+double RecentSight::clearance(const Vector2d& place) const {
+  double least2 = std::numeric_limits<double>::infinity();
+  for (const SeenThing& thing : things_)
+    least2 = std::min(least2, (thing.place - place).squaredNorm());
+  return std::sqrt(least2);
+}
+
+double RecentSight::besideView(double body_m) const {
+  const LaserScan& scan = looks_[newest_].scan;
+  if (scan.ranges_m.empty()) return 0.0;
+  const double yaw_rad = params_.T_base_scanner.yaw_rad;
+  const double first_rad = yaw_rad + scan.first_rad;
+  const double last_rad = yaw_rad + scan.angle(scan.ranges_m.size()) - scan.step_rad;
+  const double half_rad = std::min(std::abs(first_rad), std::abs(last_rad));
+  if (half_rad + 2.0 * std::abs(scan.step_rad) >= M_PI) return 0.0;
+  const double ahead_m =
+      params_.T_base_scanner.position.x() + body_m / std::tan(std::max(half_rad, kRounding_rad));
+  const double within_m = std::clamp(ahead_m, 0.0, body_m);
+  return body_m - std::sqrt(body_m * body_m - within_m * within_m);
+}
+
+}  // namespace heel

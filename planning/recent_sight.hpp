@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// What a robot's sensors have seen lately: things, and where there are none.
+#pragma once
+
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/laser_scan.hpp>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace heel {
+
+/// Where the sensors are, and for how long what they saw is known.
+struct RecentSightParams {
+  FloorPose T_base_scanner;  ///< Where the laser scanner is, in the base frame.
+  /// What no sensor looks at any more is known for so long: longer than a robot takes to turn
+  /// about, shorter than people stay. A user's choice.
+  double remembers_s = 4.0;
+  /// So many of a picture's points in a cell of 5 cm are a thing; fewer are errors of the stereo.
+  int min_points = 6;
+  Eigen::Vector2d camera_m = Eigen::Vector2d::Zero();  ///< Where the camera is, in the base frame.
+  /// A picture renews what is within this angle of straight ahead.
+  double camera_half_view_rad = 0.0;
+  double camera_nearest_m = 0.45;  ///< A picture renews what is further from the camera than this.
+  double camera_range_m = 2.0;     ///< A picture renews what is nearer to the camera than this.
+};
+
+/// A point of what was seen.
+struct SeenThing {
+  Eigen::Vector2d place;
+  double seen_s;
+  bool by_laser;
+  bool is_sure;              ///< By the laser, or in two pictures one after the other.
+  Eigen::Vector2d velocity;  ///< As if it walked on; zero if it stood there in the look before.
+};
+
+/// Remembers the newest scans, and the points that scans and pictures saw. All poses are of the
+/// base in one frame that does not jump, the odometry's. Nothing is allocated once as many things
+/// have been seen as ever will be.
+class RecentSight {
+ public:
+  static constexpr std::size_t kMostThings = 4096;
+
+  /// @param range_m  What a scan sees further away is left out.
+  /// @throws std::invalid_argument  if a parameter is out of its range.
+  RecentSight(const RecentSightParams& params, double range_m);
+
+  /// See LastGate::addScan().
+  void addScan(const LaserScan& scan, const FloorPose& base, double stamp_s);
+
+  /// See LastGate::addPoints().
+  void addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& base, double stamp_s);
+
+  /// At most kMostThings, of which some may be older than is remembered.
+  const std::vector<SeenThing>& things() const { return things_; }
+
+  /// Distance from a place to the nearest of them [m].
+  double clearance(const Eigen::Vector2d& place) const;
+
+  /// Whether a scan that is remembered has seen that a place is free: both beams beside it end no
+  /// nearer than `short_m` before it.
+  bool isSeen(const Eigen::Vector2d& place, double short_m, double now_s);
+
+  /// What a robot that stands can not see of its way straight on: the strips along both sides of
+  /// the body of this radius, so wide, as far ahead as its scanner's first and last beam leave
+  /// them [m].
+  double besideView(double body_m) const;
+
+ private:
+  struct Look {
+    Eigen::Vector2d scanner = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d turn = Eigen::Matrix2d::Identity();  // from the odometry's axes to its own
+    double stamp_s = 0.0;
+    LaserScan scan;
+  };
+  struct Cell {
+    std::uint16_t points = 0;
+    bool is_sure = false;
+    Eigen::Vector2f nearest = Eigen::Vector2f::Zero();
+  };
+  static double beamTo(const Look& look, const Eigen::Vector2d& at);
+  static bool endsBeyond(const Look& look, double beam, double away_m);
+  static bool sees(const Look& look, const Eigen::Vector2d& thing);
+  static bool sawFree(const Look& look, const Eigen::Vector2d& place, double short_m);
+  static Eigen::Vector2d velocityOf(const Eigen::Vector2d& place, const Look& before, double dt_s);
+  void keep(const SeenThing& thing);
+
+  RecentSightParams params_;
+  double range_m_;
+  std::vector<SeenThing> things_;
+  std::array<Look, 20> looks_;  // a ring; looks_[newest_] is the last
+  std::size_t newest_ = 0;
+  std::size_t saw_ = 0;  // the look that saw the last place that was asked for
+  std::vector<Cell> cells_;
+  double points_s_;
+};
+
+}  // namespace heel
