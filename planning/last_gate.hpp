@@ -25,7 +25,7 @@ struct LastGateParams {
   double wheels_latency_s = 0.0;
   /// Room that is left to what was seen: two standard deviations of a laser's ranges.
   double margin_m = 0.02;
-  RecentSightParams sight;
+  RecentSightParams sight;  ///< What its sensors see, and for how long that is known.
 };
 
 /// Why a velocity is let through, or not all of it.
@@ -75,13 +75,8 @@ class LastGate {
   /// @throws std::invalid_argument  if a parameter is out of its range.
   explicit LastGate(const LastGateParams& params);
 
-  /// @param base     Where the base was at `stamp_s`, when the scan was measured.
-  /// A scan that is not later than the last is left out.
+  /// As those of RecentSight.
   void addScan(const LaserScan& scan, const FloorPose& base, double stamp_s);
-
-  /// What is out of the view of the next picture is known on if two pictures have seen it: one
-  /// alone may be an error of the stereo. All of a picture's points that are in the robot's way, in
-  /// the base frame of `stamp_s` [m].
   void addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& base, double stamp_s);
 
   /// Distance from a place to the nearest thing that was seen, as far as things are kept: a planner

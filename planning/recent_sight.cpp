@@ -173,15 +173,17 @@ void RecentSight::addPoints(const std::vector<Eigen::Vector3f>& points, const Fl
 
 // Where there is no room for more, the oldest goes.
 void RecentSight::keep(const SeenThing& thing) {
-  if (things_.size() >= kMostThings)
+  if (things_.size() >= kMostThings) {
     things_.erase(things_.begin(), things_.begin() + kMostThings / 4);
+  }
   things_.push_back(thing);
 }
 
 double RecentSight::clearance(const Vector2d& place) const {
   double least2 = std::numeric_limits<double>::infinity();
-  for (const SeenThing& thing : things_)
+  for (const SeenThing& thing : things_) {
     least2 = std::min(least2, (thing.place - place).squaredNorm());
+  }
   return std::sqrt(least2);
 }
 

@@ -52,10 +52,13 @@ class RecentSight {
   /// @throws std::invalid_argument  if a parameter is out of its range.
   RecentSight(const RecentSightParams& params, double range_m);
 
-  /// See LastGate::addScan().
+  /// @param base     Where the base was at `stamp_s`, when the scan was measured.
+  /// A scan that is not later than the last is left out.
   void addScan(const LaserScan& scan, const FloorPose& base, double stamp_s);
 
-  /// See LastGate::addPoints().
+  /// What is out of the view of the next picture is known on if two pictures have seen it: one
+  /// alone may be an error of the stereo. All of a picture's points that are in the robot's way, in
+  /// the base frame of `stamp_s` [m].
   void addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& base, double stamp_s);
 
   /// At most kMostThings, of which some may be older than is remembered.

@@ -286,13 +286,14 @@ void Perception::addLegs(const LaserBodies& legs) {
 void Perception::describeBodies(const Frame& frame, const FloorPose& robot) {
   if (looks_.size() < step_.observations.size()) looks_.resize(step_.observations.size());
   const std::size_t blobs = step_.blob_of_observation.size();
+  const FloorPose T_base_world = robot.inverse();
   for (std::size_t k = 0; k < step_.observations.size(); ++k) {
     Observation& seen = step_.observations[k];
     WorldBlob body;
     if (k < blobs) {
       body = step_.blobs[static_cast<std::size_t>(step_.blob_of_observation[k])];
     } else {
-      body.position_m = robot.inverse() * seen.position_m;
+      body.position_m = T_base_world * seen.position_m;
     }
     describe(body, frame, looks_[k]);
     if (looks_[k].colors.sum() > 0.0F) seen.look = &looks_[k].colors;
