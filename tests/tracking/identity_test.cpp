@@ -520,6 +520,18 @@ TEST(Identity, WhoLeavesATrackMayBeAnother) {
   EXPECT_LT(home.identity.probabilities(1).sum(), 0.1) << "it is empty";
 }
 
+TEST(Identity, WhateverWasSeenBeforeDoesNotCountForAnother) {
+  Home home;
+  home.walk({1, {0, 0}, &kRed}, 12.0);
+  ASSERT_GT(home.target(1), 0.99);
+  home.density_per_m2 = 0.1;  // Nor is it surely where it was expected.
+  home.see({{1, {12, 0}, nullptr, false}}, 3);
+  home.see({{1, {12, 0}, &kBlue}});
+  home.density_per_m2 = 5.0;
+  home.walk({1, {12, 0}, &kBlue}, 0.2);
+  EXPECT_LT(home.target(1), 0.5) << "in other clothes";
+}
+
 TEST(Identity, TheSameInputMakesTheSameBelief) {
   Home a, b;
   for (int frame = 0; frame < 100; ++frame) {
