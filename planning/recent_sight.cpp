@@ -27,7 +27,7 @@ constexpr double kRounding_rad = 1e-9;
 RecentSight::RecentSight(const RecentSightParams& params, double range_m)
     : params_(params), range_m_(range_m), cells_(kCells * kCells), points_s_(kNotYet) {
   for (const double value :
-       {params.remembers_s, params.camera_half_view_rad, params.camera_nearest_m,
+       {params.remembers_s, params.camera_half_view.minCoeff(), params.camera_nearest_m,
         params.camera_range_m, params.min_points - 1.0}) {
     if (!(value >= 0.0) || !std::isfinite(value)) {
       throw std::invalid_argument("RecentSightParams: a parameter is out of its range");
@@ -128,8 +128,18 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
     if (!(range_m > 0.0 && range_m < range_m_)) continue;
     const double angle = scan.angle(i);
     const Vector2d place = scanner * Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
-    keep({place, stamp_s, true, true, velocityOf(place, earlier, stamp_s - earlier.stamp_s)});
+    keep({place, 0.0, stamp_s, true, true, velocityOf(place, earlier, stamp_s - earlier.stamp_s)});
   }
+}
+
+// Whether a picture shows the place at the thing's height: what is low leaves it early.
+bool RecentSight::isInPicture(const SeenThing& thing, const FloorPose& T_base_world) const {
+  const Vector2d at = T_base_world * thing.place;
+  const Eigen::Vector3d seen =
+      params_.T_base_camera.inverse() * Eigen::Vector3d(at.x(), at.y(), thing.height_m);
+  const double away_m = (at - params_.T_base_camera.translation().head<2>()).norm();
+  return seen.z() > params_.camera_nearest_m && away_m < params_.camera_range_m &&
+         (seen.head<2>().array().abs() < params_.camera_half_view * seen.z()).all();
 }
 
 void RecentSight::addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& base,
@@ -137,11 +147,6 @@ void RecentSight::addPoints(const std::vector<Eigen::Vector3f>& points, const Fl
   if (!(stamp_s > points_s_)) return;
   points_s_ = stamp_s;
   const FloorPose T_base_world = base.inverse();
-  const auto isInView = [&](const Vector2d& place) {
-    const Vector2d at = T_base_world * place - params_.camera_m;
-    return std::abs(std::atan2(at.y(), at.x())) < params_.camera_half_view_rad &&
-           at.norm() > params_.camera_nearest_m && at.norm() < params_.camera_range_m;
-  };
   std::fill(cells_.begin(), cells_.end(), Cell{});
   for (const Eigen::Vector3f& point : points) {
     const Eigen::Vector2f at = point.head<2>();
@@ -150,6 +155,7 @@ void RecentSight::addPoints(const std::vector<Eigen::Vector3f>& points, const Fl
     Cell& c =
         cells_[static_cast<std::size_t>(cell.y()) * kCells + static_cast<std::size_t>(cell.x())];
     if (c.points == 0 || at.norm() < c.nearest.norm()) c.nearest = at;
+    c.highest_m = std::max(c.highest_m, point.z());
     ++c.points;
   }
   const auto placeOf = [&](const Cell& c) { return base * Vector2d(c.nearest.cast<double>()); };
@@ -162,12 +168,13 @@ void RecentSight::addPoints(const std::vector<Eigen::Vector3f>& points, const Fl
   things_.erase(std::remove_if(things_.begin(), things_.end(),
                                [&](const SeenThing& thing) {
                                  return !thing.by_laser &&
-                                        (!thing.is_sure || isInView(thing.place));
+                                        (!thing.is_sure || isInPicture(thing, T_base_world));
                                }),
                 things_.end());
   for (const Cell& cell : cells_) {
     if (cell.points < params_.min_points) continue;
-    keep({placeOf(cell), stamp_s, false, cell.is_sure, Vector2d::Zero()});
+    keep({placeOf(cell), static_cast<double>(cell.highest_m), stamp_s, false, cell.is_sure,
+          Vector2d::Zero()});
   }
 }
 

@@ -9,6 +9,7 @@
 #include <heel/mapping/laser_scan.hpp>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <array>
 #include <cstddef>
@@ -25,9 +26,9 @@ struct RecentSightParams {
   double remembers_s = 4.0;
   /// So many of a picture's points in a cell of 5 cm are a thing; fewer are errors of the stereo.
   int min_points = 6;
-  Eigen::Vector2d camera_m = Eigen::Vector2d::Zero();  ///< Where the camera is, in the base frame.
-  /// A picture renews what is within this angle of straight ahead.
-  double camera_half_view_rad = 0.0;
+  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();  ///< z is the line of sight.
+  /// A picture renews what is within these tangents of the line of sight, across and up.
+  Eigen::Array2d camera_half_view = Eigen::Array2d::Zero();
   double camera_nearest_m = 0.45;  ///< A picture renews what is further from the camera than this.
   double camera_range_m = 2.0;     ///< A picture renews what is nearer to the camera than this.
 };
@@ -35,6 +36,7 @@ struct RecentSightParams {
 /// A point of what was seen.
 struct SeenThing {
   Eigen::Vector2d place;
+  double height_m;  ///< Of the highest that a picture saw there; 0 by the laser.
   double seen_s;
   bool by_laser;
   bool is_sure;              ///< By the laser, or in two pictures one after the other.
@@ -87,11 +89,13 @@ class RecentSight {
     std::uint16_t points = 0;
     bool is_sure = false;
     Eigen::Vector2f nearest = Eigen::Vector2f::Zero();
+    float highest_m = 0.0F;
   };
   static double beamTo(const Look& look, const Eigen::Vector2d& at);
   static bool endsBeyond(const Look& look, double beam, double away_m);
   static bool sees(const Look& look, const Eigen::Vector2d& thing);
   static bool sawFree(const Look& look, const Eigen::Vector2d& place, double short_m);
+  bool isInPicture(const SeenThing& thing, const FloorPose& T_base_world) const;
   static Eigen::Vector2d velocityOf(const Eigen::Vector2d& place, const Look& before, double dt_s);
   void keep(const SeenThing& thing);
 

@@ -140,8 +140,29 @@ void BodyDescriber::finish(BodyDescription& out) {
   out.stature_m = heights_.height_m();
 }
 
+// Who stands nearer to the camera by more than a body's radius.
+void BodyDescriber::findInFront(const BodyView& view, const Eigen::Vector2d& position_m) {
+  in_front_.clear();
+  const Eigen::Vector2d eye = view.T_base_camera.translation().head<2>();
+  const double away_m = (position_m - eye).norm();
+  for (const Eigen::Vector2d& person : view.people) {
+    const Eigen::Vector2d at = person - eye;
+    if (at.norm() + params_.radius_m < away_m) in_front_.emplace_back(at.cast<float>());
+  }
+}
+
+bool BodyDescriber::isHidden(const Eigen::Vector2f& ray) const {
+  const auto reach2 =
+      static_cast<float>(params_.radius_m * params_.radius_m) * ray.squaredNorm();
+  return std::any_of(in_front_.begin(), in_front_.end(), [&](const Eigen::Vector2f& at) {
+    const float aside = ray.x() * at.y() - ray.y() * at.x();
+    return ray.dot(at) > 0.0F && aside * aside < reach2;
+  });
+}
+
 void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDescription& out) {
   begin(out);
+  findInFront(view, blob.position_m);
   const auto top_m = static_cast<double>(kEnds_m.back());
   const cv::Rect body =
       boardIn(view, blob.position_m, params_.radius_m, static_cast<double>(kEnds_m.front()), top_m);
@@ -177,7 +198,7 @@ void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDe
         if (!view.depth_is_masked) heights_.add(static_cast<double>(height_m), v);
       } else if (board.contains(cv::Point(u, v))) {
         const float along = ray.head<2>().dot(towards);
-        if (along <= 0.0F) continue;
+        if (along <= 0.0F || isHidden(ray.head<2>())) continue;
         height_m = eye.z() + towards.squaredNorm() / along * ray.z();
       } else {
         continue;

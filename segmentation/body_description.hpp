@@ -29,6 +29,8 @@ struct BodyView {
   /// Depth is known only where the colour filter passed. Pixels without one are then taken from an
   /// upright board about the place, so that what has other colours is seen, too.
   bool depth_is_masked = false;
+  /// Places of people, in the base frame: what they hide of such a board is not counted [m].
+  std::vector<Eigen::Vector2d> people;
 };
 
 /// One look at a body, or the mean of many.
@@ -89,11 +91,14 @@ class BodyDescriber {
 
  private:
   void begin(BodyDescription& out);
+  void findInFront(const BodyView& view, const Eigen::Vector2d& position_m);
+  bool isHidden(const Eigen::Vector2f& ray) const;
   void add(int stripe, std::uint8_t b, std::uint8_t g, std::uint8_t r, BodyDescription& out);
   void finish(BodyDescription& out);
 
   BodyDescriberParams params_;
-  std::vector<int> seen_;  // pixels a stripe
+  std::vector<int> seen_;                  // pixels a stripe
+  std::vector<Eigen::Vector2f> in_front_;  // from the camera: people who may hide the body
   StatureSample heights_;
   Eigen::ArrayXf smoothed_;
 };

@@ -65,8 +65,11 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   gate.limits = robot.drive;
   gate.sight.T_base_scanner = robot.T_base_scanner;
   gate.wheels_latency_s = robot.wheels_latency_s;
-  gate.sight.camera_m = robot.camera.T_base_camera.translation().head<2>();
-  gate.sight.camera_half_view_rad = 0.9 * robot.halfView_rad();  // things at the rim are half seen
+  gate.sight.T_base_camera = robot.camera.T_base_camera;
+  const PinholeCamera& left = robot.camera.camera.left;
+  if (left.fx > 0.0 && left.fy > 0.0) {  // Things at the rim are half seen.
+    gate.sight.camera_half_view = 0.45 * Eigen::Array2d(left.width / left.fx, left.height / left.fy);
+  }
   gate.sight.camera_nearest_m = params.obstacle_points.nearest_m;
   gate.sight.min_points = params.obstacles.min_points;
   gate.sight.camera_range_m = params.obstacle_points.max_range_m;

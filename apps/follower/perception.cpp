@@ -103,6 +103,7 @@ Perception::Perception(const CameraSetup& setup, const AppearanceModel& model,
                                                                : PlanViewCamera().focal_length_px}),
       finder_(params.blobs),
       describer_(params.body),
+      view_{{}, {}, setup.camera.left, setup.T_base_camera, setup.sensor == SensorKind::kStereo, {}},
       tracker_(params.target, params.tracker, gateOf(params), looksOf(model)) {
   for (const AppearanceBand& band : bands_) {
     height_crops_.emplace_back(HeightCropParams{band.body.min_height_m, band.body.max_height_m});
@@ -287,6 +288,14 @@ void Perception::describeBodies(const Frame& frame, const FloorPose& robot) {
   if (looks_.size() < step_.observations.size()) looks_.resize(step_.observations.size());
   const std::size_t blobs = step_.blob_of_observation.size();
   const FloorPose T_base_world = robot.inverse();
+  view_.image_bgr = frame.image_bgr;
+  view_.depth_m = depth_m_;
+  view_.people.clear();
+  for (const Track& track : tracks()) {
+    const Evidence who = identity().probabilities(track.id);
+    const bool is_somebody = who.sum() - who[kThing] > 0.5;
+    if (is_somebody) view_.people.push_back(T_base_world * track.motion.position_m());
+  }
   for (std::size_t k = 0; k < step_.observations.size(); ++k) {
     Observation& seen = step_.observations[k];
     WorldBlob body;
@@ -303,9 +312,7 @@ void Perception::describeBodies(const Frame& frame, const FloorPose& robot) {
 
 void Perception::describe(const WorldBlob& blob, const Frame& frame, BodyDescription& out) {
   if (frame.image_bgr.empty()) return describer_.describe(*step_.cloud, blob.position_m, out);
-  const BodyView view{frame.image_bgr, depth_m_, camera_.left, T_base_camera_,
-                      sensor_ == SensorKind::kStereo};
-  describer_.describe(view, blob, out);
+  describer_.describe(view_, blob, out);
 }
 
 // A disparity's error is the same everywhere, so depth's grows with the square of the distance.

@@ -22,11 +22,19 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kPi = 3.14159265358979;
 
+/// Of a camera that looks straight ahead.
+Eigen::Isometry3d cameraAhead(const Eigen::Vector3d& at) {
+  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
+  T_base_camera.translation() = at;
+  T_base_camera.linear() << 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0;
+  return T_base_camera;
+}
+
 LastGateParams usual() {
   LastGateParams params;
   params.sight.T_base_scanner.position = {0.1, 0.0};
-  params.sight.camera_m = {0.05, 0.0};
-  params.sight.camera_half_view_rad = 0.5;
+  params.sight.T_base_camera = cameraAhead({0.05, 0.0, 0.8});
+  params.sight.camera_half_view = {0.5, 0.4};
   return params;
 }
 
@@ -224,6 +232,18 @@ TEST(LastGate, KnowsATableThatLeftThePicture) {
   EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.3).reason, GateReason::kThing);
   at.gate.addPoints({}, near.pose, 10.4);  // One picture alone may be wrong.
   EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.4).reason, GateReason::kFree);
+}
+
+TEST(LastGate, KnowsAChestThatIsBelowThePicture) {
+  Gate at(9.0);
+  const std::vector<Eigen::Vector3f> chest(20, Eigen::Vector3f(1.0F, 0.0F, 0.3F));
+  at.gate.addPoints(chest, {}, 9.9);
+  at.gate.addPoints(chest, {}, 10.0);
+  const DriveState near{{{0.65, 0.0}, 0.0}, {0.3, 0.0}};
+  at.gate.addPoints({}, {{0.4, 0.0}, 0.0}, 10.1);  // From there the picture ends 0.58 m up,
+  EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.1).reason, GateReason::kThing);
+  at.gate.addPoints({}, {{-0.5, 0.0}, 0.0}, 10.2);  // and 0.22 m from there.
+  EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.2).reason, GateReason::kFree);
 }
 
 TEST(LastGate, StopsOnWhatIsNotANumber) {
