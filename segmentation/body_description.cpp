@@ -152,8 +152,7 @@ void BodyDescriber::findInFront(const BodyView& view, const Eigen::Vector2d& pos
 }
 
 bool BodyDescriber::isHidden(const Eigen::Vector2f& ray) const {
-  const auto reach2 =
-      static_cast<float>(params_.radius_m * params_.radius_m) * ray.squaredNorm();
+  const auto reach2 = static_cast<float>(params_.radius_m * params_.radius_m) * ray.squaredNorm();
   return std::any_of(in_front_.begin(), in_front_.end(), [&](const Eigen::Vector2f& at) {
     const float aside = ray.x() * at.y() - ray.y() * at.x();
     return ray.dot(at) > 0.0F && aside * aside < reach2;

@@ -20,8 +20,7 @@ constexpr double kMissed = 0.1;         // Of the looks at somebody in full view
 constexpr double kCoastMemory_s = 1.0;  // Hidden somebody may have gone elsewhere in this time.
 constexpr double kRoom_m2 = 20.0;       // Where somebody who is away may be.
 constexpr double kAwayMemory_s = 10.0;  // Time in which where they were seen last is forgotten.
-constexpr double kSure = 0.98;          // Looks at somebody of whom we are so sure are learned,
-constexpr double kLearnedLook = 0.1;    // for so many independent ones.
+constexpr double kSure = 0.98;          // Looks at somebody of whom we are so sure are learned.
 constexpr double kSureStranger = 0.9;   // A stranger with this probability is met
 constexpr double kMetLooks = 1.5;       // after so many independent looks,
 constexpr double kUnlike = -5.0;        // if looks or the target elsewhere tell them apart.
@@ -29,7 +28,7 @@ constexpr double kMet = -4.0;           // Who was met is no stranger, nor anybo
 constexpr double kTold = -7.0;          // Who is told to be the target may be another.
 constexpr double kSurest = 12.0;        // Logarithm of the greatest odds of places and ways.
 constexpr double kOtherView = 0.5;      // A look with so much news begins another view;
-constexpr double kMostLooks = 10.0;     // so many of the last ones make its mean.
+constexpr double kMostLooks = 10.0;     // so many of the last ones make its mean, or are learned.
 constexpr double kMistaken = -4.6;      // Of a hundred identities that seem sure one is wrong.
 constexpr double kAlone_m = 1.0;        // Nobody nearer: then a look is theirs alone.
 
@@ -397,8 +396,9 @@ void Identity::remember(const std::vector<Track>& tracks,
       const bool is_unlike = belief.logLooks()[kTarget] < kUnlike;
       const bool is_stranger = belief.probability[kStranger] > kSureStranger;
       if ((is_another || is_unlike) && is_stranger && belief.looks > kMetLooks) meet(belief);
-    } else if (belief.probability[best] > kSure) {
-      gallery_.addLookAt(best, seen, kLearnedLook);
+    } else if (belief.probability[best] > kSure && belief.view.count < kMostLooks) {
+      // All looks from one side together teach what that view is worth, however long it lasts.
+      gallery_.addLookAt(best, seen, belief.view.weight / kMostLooks);
     }
   }
 }

@@ -68,7 +68,8 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   gate.sight.T_base_camera = robot.camera.T_base_camera;
   const PinholeCamera& left = robot.camera.camera.left;
   if (left.fx > 0.0 && left.fy > 0.0) {  // Things at the rim are half seen.
-    gate.sight.camera_half_view = 0.45 * Eigen::Array2d(left.width / left.fx, left.height / left.fy);
+    gate.sight.camera_half_view =
+        0.45 * Eigen::Array2d(left.width / left.fx, left.height / left.fy);
   }
   gate.sight.camera_nearest_m = params.obstacle_points.nearest_m;
   gate.sight.min_points = params.obstacles.min_points;

@@ -103,7 +103,8 @@ Perception::Perception(const CameraSetup& setup, const AppearanceModel& model,
                                                                : PlanViewCamera().focal_length_px}),
       finder_(params.blobs),
       describer_(params.body),
-      view_{{}, {}, setup.camera.left, setup.T_base_camera, setup.sensor == SensorKind::kStereo, {}},
+      view_{{}, {}, setup.camera.left, setup.T_base_camera, setup.sensor == SensorKind::kStereo,
+            {}},
       tracker_(params.target, params.tracker, gateOf(params), looksOf(model)) {
   for (const AppearanceBand& band : bands_) {
     height_crops_.emplace_back(HeightCropParams{band.body.min_height_m, band.body.max_height_m});

@@ -143,7 +143,7 @@ class Perception {
   PlanView plan_view_;
   WorldBlobFinder finder_;
   BodyDescriber describer_;
-  BodyView view_;  // of the frame at hand
+  BodyView view_;                       // of the frame at hand
   std::vector<BodyDescription> looks_;  // of the observations
   // Of what the camera and the laser saw: what may be one person, the nearest first.
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs_;
