@@ -85,6 +85,19 @@ TEST(BodyDescriber, SeesPixelsWithoutDepthOnTheBoardWhereDepthIsMasked) {
   EXPECT_NEAR(stage.describe().colors.col(4).sum(), 1.0F, 1e-4F);
 }
 
+TEST(BodyDescriber, CountsNothingThatSomebodyInFrontHides) {
+  Stage stage;
+  stage.view.depth_is_masked = true;
+  const auto seen = [&](const Eigen::Vector2d& person) {
+    stage.view.people = {person};
+    return stage.paint(0.1, 1.9, {40, 30, 180}, false).describe().colors.col(4).sum();
+  };
+  EXPECT_EQ(seen({1.0, 0.0}), 0.0F);
+  EXPECT_NEAR(seen({1.0, 0.5}), 1.0F, 1e-4F) << "beside it";
+  EXPECT_NEAR(seen({3.0, 0.0}), 1.0F, 1e-4F) << "behind it";
+  EXPECT_NEAR(seen({1.9, 0.1}), 1.0F, 1e-4F) << "itself";
+}
+
 TEST(BodyDescriber, DescribesTheNamedPointsOfACloudOnly) {
   ColorCloud cloud;
   pcl::Indices red;

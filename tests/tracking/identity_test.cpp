@@ -287,6 +287,18 @@ TEST(Identity, WhoeverStandsStillIsNoMoreKnownInMoreFrames) {
   EXPECT_NEAR(log_odds(slow), log_odds(fast), 0.02 * std::abs(log_odds(fast)));
 }
 
+TEST(Identity, LearnsWhatItSeesFromOneSideOnce) {
+  const auto fits = [](int looks) {  // How well the target fits after so many looks at their side.
+    Home home;
+    home.walk({1, {0.0, 0.0}, &kRed}, 4.0);
+    home.see({{1, {4.0, 0.0}, &kPink}}, looks);
+    EXPECT_GT(home.target(1), 0.98);
+    return home.identity.looks()[0][kTarget];
+  };
+  EXPECT_GT(fits(15), fits(1) + 0.05);
+  EXPECT_NEAR(fits(75), fits(15), 1e-9);
+}
+
 TEST(Identity, LooksThatSayNothingLeaveTheBelief) {
   Home home;
   const Eigen::ArrayXXf nothing = Eigen::ArrayXXf::Zero(test::kColors, 2);
