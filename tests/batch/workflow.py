@@ -168,7 +168,11 @@ def on_slurm(work, nodes, dice, whole_s):
         time.sleep(3.0 + dice.uniform(0.0, 0.3 * whole_s))
         if nodes > 1:
             subprocess.run([cluster, "kill", folder, "n1"], check=True)
-        told = child.communicate()[0]
+        try:
+            told = child.communicate(timeout=120.0 + 20.0 * whole_s)[0]
+        except subprocess.TimeoutExpired:
+            child.kill()
+            fail("the workflow on Slurm does not end")
         if child.returncode != 0:
             fail(f"snakemake on Slurm failed:\n{told[-4000:]}")
     finally:
