@@ -45,9 +45,11 @@ void addResume(CLI::App& verb) {
       "--resume", "do nothing if --out holds the complete results of this very call already");
   verb.parse_complete_callback([&verb, resume] {
     const CLI::Option* out = verb.get_option("--out");
+    const CLI::Option* bag = verb.get_option_no_throw("--bag");
     if (resume->empty() || out->empty()) return;
     const auto place = out->as<std::string>();
     if (!isDoneAlready(place)) return;
+    if (bag != nullptr && !bag->empty() && !isDoneAlready(bag->as<std::string>())) return;
     std::printf("%s is complete already\n", place.c_str());
     throw CLI::Success();
   });

@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <fstream>
 #include <iomanip>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
@@ -78,6 +79,7 @@ struct Manifest {
   std::string by;
   bool complete = true;
   Names names;
+  std::map<fs::path, std::uintmax_t> bytes;  // of the files, as far as they were written down
   std::string facts;
 };
 
@@ -90,7 +92,10 @@ Manifest readManifest(const fs::path& file) {
   std::getline(in, text);  // for people
   in >> std::quoted(manifest.by) >> text;
   manifest.complete = text == kComplete;
-  while ((in >> std::ws).peek() == '"' && in >> std::quoted(text)) manifest.names.insert(text);
+  while ((in >> std::ws).peek() == '"' && in >> std::quoted(text)) {
+    manifest.names.insert(text);
+    if (in.peek() == ' ') in >> manifest.bytes[text];
+  }
   std::getline(in, manifest.facts);
   return manifest;
 }
@@ -265,7 +270,13 @@ void Output::writeManifest(std::FILE* file, const Names& names, bool complete) c
   std::ostringstream text;
   text << "# Files that 'heel " << plan_.by << "' made: it replaces and removes no others.\n"
        << std::quoted(plan_.by) << ' ' << (complete ? kComplete : "incomplete") << '\n';
-  for (const fs::path& name : names) text << std::quoted(name.string()) << '\n';
+  for (const fs::path& name : names) {
+    text << std::quoted(name.string());
+    std::error_code gone;
+    const std::uintmax_t bytes = fs::file_size(staging_ / name, gone);
+    if (!gone) text << ' ' << bytes;
+    text << '\n';
+  }
   text << factsOfThisRun(inputs_) << '\n';
   if (std::fputs(text.str().c_str(), file) < 0 || std::fflush(file) != 0) {
     failToWrite(manifest_, lastError());
@@ -399,9 +410,11 @@ bool isDoneAlready(const fs::path& place) {
   const Manifest manifest = readManifest(manifestOf(target, is_folder));
   const fs::path home = is_folder ? target : target.parent_path();
   return !manifest.by.empty() && manifest.complete && !manifest.names.empty() &&
-         std::all_of(manifest.names.begin(), manifest.names.end(),
-                     [&home](const fs::path& name) { return isThere(home / name); }) &&
-         wouldRepeat(manifest.facts);
+         std::all_of(manifest.bytes.begin(), manifest.bytes.end(),
+                     [&](const auto& file) {
+                       return fs::file_size(home / file.first, ignored) == file.second;
+                     }) &&
+         manifest.bytes.size() == manifest.names.size() && wouldRepeat(manifest.facts);
 }
 
 OutputFile::OutputFile(OutputPath path)

@@ -62,11 +62,27 @@ TEST_F(ManyRuns, AreMadeAgainWhenTheCallOrAnInputIsAnotherOrAResultIsGone) {
   EXPECT_FALSE(isMadeAgain({"--from", "0.1", "--resume"}));
   fs::remove(folder_ / "out/tracks.csv");
   EXPECT_TRUE(isMadeAgain({"--from", "0.1", "--resume"}));
+  writeText(folder_ / "out/tracks.csv", "");
+  EXPECT_TRUE(isMadeAgain({"--from", "0.1", "--resume"}));
   writeText(folder_ / "room/notes.txt", "new");
   EXPECT_TRUE(isMadeAgain({"--from", "0.1", "--resume"}));
   const std::string manifest = textOf("out/.heel");
   writeText(folder_ / "out/.heel", manifest.substr(0, manifest.size() / 2));
   EXPECT_TRUE(isMadeAgain({"--from", "0.1", "--resume"}));
+}
+
+TEST_F(ManyRuns, AreMadeAgainWhenTheirBagIsGone) {
+  const std::string bag = folder_ / "out.bag";
+  const auto isDone = [&] {
+    const HeelRun run = track("out", {"--bag", bag, "--resume"});
+    EXPECT_TRUE(succeeds(run));
+    return run.out.find("is complete already") != std::string::npos;
+  };
+  EXPECT_FALSE(isDone());
+  EXPECT_TRUE(isDone());
+  fs::remove(bag);
+  EXPECT_FALSE(isDone());
+  EXPECT_TRUE(isDone());
 }
 
 TEST_F(ManyRuns, OfWhatIsOneFileAreResumedToo) {
