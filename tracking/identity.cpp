@@ -156,6 +156,7 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
     const double same = (1.0 - missed) * track.density_per_m2;
     const double other = missed * (clutter + params_.newcomer_density_per_m2);
     const double other_share = other / (same + other);
+    doubt(belief, other_share);
     const Evidence own = belief.log_place + belief.log_free + belief.log_views;
     belief.log_views *= 1.0 - other_share;
     belief.log_free *= 1.0 - other_share;
@@ -180,7 +181,7 @@ void Identity::takeLook(Belief& belief, const Observation& seen, const Evidence&
   const Eigen::Vector2d ray_m = seen.position_m - eye_m;
   const double way_m =
       std::max((seen.position_m - view.place_m).norm(), (ray_m - view.ray_m).norm());
-  const bool is_first = belief.looks == 0.0;
+  const bool is_first = view.weight == 0.0;
   const double news =
       is_first ? 1.0 : newsOf(stamp_s - view.since_s, way_m > restRadiusOf(seen) ? way_m : 0.0);
   if (is_first || news > kOtherView) {
@@ -239,6 +240,13 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
   }
 }
 
+/// A portrait is of one body: it begins anew where this may be another than before.
+void Identity::doubt(Belief& belief, double other_share) {
+  if (other_share < std::exp(kMistaken)) return;
+  belief.looks = 0.0;
+  belief.sum.setZero();
+}
+
 /// Of bodies that meet nobody can say for sure which observation is whose.
 void Identity::mixSwaps(const std::vector<Swap>& swaps) {
   for (const Swap& swap : swaps) {
@@ -246,6 +254,7 @@ void Identity::mixSwaps(const std::vector<Swap>& swaps) {
     Belief* b = find(swap.track_b);
     if (a == nullptr || b == nullptr) continue;
     const double q = swap.probability;
+    for (Belief* belief : {a, b}) doubt(*belief, q);
     const Evidence of_a = a->log_place + a->log_free + a->log_views;
     const Evidence of_b = b->log_place + b->log_free + b->log_views;
     const Evidence views_a = a->log_views;

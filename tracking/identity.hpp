@@ -104,8 +104,8 @@ class Identity {
     double born_s = 0.0;                                ///< Seen first,
     double seen_s = 0.0;                                ///< and last.
     View view;
-    double looks = 0.0;    ///< Independent ones so far.
-    Eigen::ArrayXXf sum;   ///< Of all looks.
+    double looks = 0.0;    ///< Independent ones, and the sum of all, since it was surely
+    Eigen::ArrayXXf sum;   ///< the same body.
     double present = 1.0;  ///< Probability that whoever it is still is there.
     bool is_alive = true;
 
@@ -121,6 +121,7 @@ class Identity {
   void takePlace(Belief& belief, const Track& track, const Observation& seen, double stamp_s);
   void takeLook(Belief& belief, const Observation& seen, const Evidence& look,
                 const Eigen::Vector2d& eye_m, double stamp_s);
+  static void doubt(Belief& belief, double other_share);
   void mixSwaps(const std::vector<Swap>& swaps);
   void weighTogether();
   void weigh(bool is_left, std::vector<Evidence>& marginals);

@@ -544,6 +544,22 @@ TEST(Identity, WhateverWasSeenBeforeDoesNotCountForAnother) {
   EXPECT_LT(home.target(1), 0.5) << "in other clothes";
 }
 
+TEST(Identity, APortraitOfSomebodyNewHasNoLooksAtWhoWasOnTheirTrackBefore) {
+  Home home;
+  home.walk({1, {0, 0}, &kRed}, 12.0);
+  home.swaps = {{1, 2, 0.6}};
+  home.see({{1, {12, 0}, &kBlue}, {2, {12, 0.5}, &kRed}});
+  home.swaps.clear();
+  home.walk({1, {12, 0}, &kBlue}, 6.0);  // The target has gone, and somebody else goes on.
+  ASSERT_GT(home.probability(1, kFirstOther), 0.9) << "is met";
+  home.sight = Sight::kOutside;
+  home.see({{1, {18, 0}, nullptr, false}}, 20);
+  home.sight = Sight::kUnknown;
+  home.walk({3, {12, 1}, &kRed}, 2.0);
+  EXPECT_GT(home.target(3), 0.9);
+  EXPECT_LT(home.probability(3, kFirstOther), 0.05);
+}
+
 TEST(Identity, TheSameInputMakesTheSameBelief) {
   Home a, b;
   for (int frame = 0; frame < 100; ++frame) {
