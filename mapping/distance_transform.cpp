@@ -11,16 +11,19 @@
 namespace heel {
 namespace {
 
-/// Further than any cell, and small enough that its square is still an int.
-constexpr int kNone = 1 << 15;
+constexpr int kNone = 1 << 30;  ///< Further than any cell.
 
-int floorDiv(int a, int b) { return a / b - (a % b != 0 && (a < 0) != (b < 0) ? 1 : 0); }
+std::int64_t squared(std::int64_t x) { return x * x; }
+
+std::int64_t floorDiv(std::int64_t a, std::int64_t b) {
+  return a / b - (a % b != 0 && (a < 0) != (b < 0) ? 1 : 0);
+}
 
 }  // namespace
 
 void DistanceTransform::compute(const std::vector<std::uint8_t>& occupied, int width, int height,
                                 double cell_size_m, std::vector<float>& distance_m) {
-  if (width <= 0 || height <= 0 || width >= kNone / 2 || height >= kNone / 2 ||
+  if (width <= 0 || height <= 0 || width >= kNone || height >= kNone ||
       occupied.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
     throw std::invalid_argument("a distance transform needs width x height cells");
   }
@@ -48,17 +51,15 @@ void DistanceTransform::compute(const std::vector<std::uint8_t>& occupied, int w
     int last = -1;  // of the columns that are nearest somewhere in this row
     for (int x = 0; x < width; ++x) {
       if (g[x] >= kNone) continue;
-      const auto squared = [&](int at, int site) {
-        return (at - site) * (at - site) + g[site] * g[site];
-      };
+      const auto apart = [g](int at, int site) { return squared(at - site) + squared(g[site]); };
       const auto top = [&] { return static_cast<std::size_t>(last); };
-      while (last >= 0 && squared(from_[top()], site_[top()]) > squared(from_[top()], x)) --last;
+      while (last >= 0 && apart(from_[top()], site_[top()]) > apart(from_[top()], x)) --last;
       int from = 0;
       if (last >= 0) {
         const int other = site_[top()];
-        from = 1 +
-               floorDiv(x * x - other * other + g[x] * g[x] - g[other] * g[other], 2 * (x - other));
-        if (from >= width) continue;
+        const std::int64_t begins = 1 + floorDiv(apart(0, x) - apart(0, other), 2 * (x - other));
+        if (begins >= width) continue;
+        from = static_cast<int>(begins);
       }
       ++last;
       site_[top()] = x;
@@ -71,8 +72,7 @@ void DistanceTransform::compute(const std::vector<std::uint8_t>& occupied, int w
     for (int x = width - 1; x >= 0; --x) {
       const auto nearest = static_cast<std::size_t>(last);
       const int site = site_[nearest];
-      const int squared = (x - site) * (x - site) + g[site] * g[site];
-      out[x] = cell * std::sqrt(static_cast<float>(squared));
+      out[x] = cell * std::sqrt(static_cast<float>(squared(x - site) + squared(g[site])));
       if (x == from_[nearest]) --last;
     }
   }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// How far each cell of a window is from the nearest occupied one.
+/// How far each cell of a grid is from the nearest occupied one.
 #pragma once
 
 #include <cstdint>

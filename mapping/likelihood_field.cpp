@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <heel/mapping/distance_transform.hpp>
 #include <heel/mapping/likelihood_field.hpp>
-
-#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <array>
@@ -41,20 +40,18 @@ LikelihoodField::LikelihoodField(const OccupancyGrid& map, const LikelihoodField
   if (!(params.hit_share > 0.0) || !(params.hit_share < 1.0)) {
     throw std::invalid_argument("LikelihoodField: hit_share must be between 0 and 1");
   }
-  cv::Mat elsewhere(map.height(), map.width(), CV_8UC1);
+  std::vector<std::uint8_t> surface(map.cells().size());
   for (GridCell c; c.y < map.height(); ++c.y) {
-    for (c.x = 0; c.x < map.width(); ++c.x) {
-      elsewhere.at<std::uint8_t>(c.y, c.x) = isSurface(map, c) ? 0 : 255;
-    }
+    for (c.x = 0; c.x < map.width(); ++c.x) surface[map.index(c)] = isSurface(map, c) ? 1 : 0;
   }
-  cv::Mat cells;
-  cv::distanceTransform(elsewhere, cells, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+  std::vector<float> cells;
+  DistanceTransform().compute(surface, map.width(), map.height(), 1.0, cells);
   const auto size = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   distance_m_.assign(size, static_cast<float>(params.far_m));
   log_likelihood_.assign(size, static_cast<float>(logLikelihoodAt(params.far_m)));
   for (GridCell c; c.y < map.height(); ++c.y) {
     for (c.x = 0; c.x < map.width(); ++c.x) {
-      const double to_rim_m = (cells.at<float>(c.y, c.x) - 0.5) * cell_size_m_;
+      const double to_rim_m = (cells[map.index(c)] - 0.5) * cell_size_m_;
       const double d = std::clamp(to_rim_m, 0.0, params.far_m);
       const std::size_t i = static_cast<std::size_t>(c.y + 1) * static_cast<std::size_t>(width_) +
                             static_cast<std::size_t>(c.x + 1);

@@ -34,4 +34,23 @@ Occupancy OccupancyGrid::at(const Eigen::Vector2d& point) const {
   return contains(cell) ? at(cell) : Occupancy::kUnknown;
 }
 
+bool OccupancyGrid::isOccupiedWithin(const Eigen::Vector2d& point, double radius_m) const {
+  const Eigen::Array2d p = (point - origin_m_) / cell_size_m_;
+  const double radius = radius_m / cell_size_m_;
+  const Eigen::Array2d size(width_, height_);
+  // Not of what is far outside, nor of what is no number: neither is an index.
+  if (!((p + radius >= 0.0).all() && (p - radius <= size).all())) return false;
+  const Eigen::Array2i low = (p - radius).floor().max(0.0).cast<int>();
+  const Eigen::Array2i high = (p + radius).min(size - 1.0).cast<int>();
+  for (int y = low.y(); y <= high.y(); ++y) {
+    for (int x = low.x(); x <= high.x(); ++x) {
+      if (at(GridCell{x, y}) != Occupancy::kOccupied) continue;
+      const Eigen::Array2d corner(x, y);
+      const Eigen::Array2d nearest = p.max(corner).min(corner + 1.0);
+      if ((p - nearest).matrix().norm() <= radius) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace heel

@@ -46,7 +46,6 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
       params_(fittedTo(robot, params)),
       walls_(walls ? std::move(walls) : throw std::invalid_argument("Follower: there is no map")),
       floor_(walls_->floorGrid({0.05, robot.height_m})),
-      to_walls_(floor_, 1.0),
       watch_(robot.camera, params_.watch),
       localization_(walls_->floorGrid(HeightBand::around(robot.scanner_height_m)),
                     robot.T_base_scanner, params_.localization),
@@ -207,7 +206,7 @@ void Follower::notePeople() {
 }
 
 bool Follower::isMapped(const Vector2d& place) const {
-  return to_walls_.at(place) <= params_.mapped_within_m;
+  return floor_.isOccupiedWithin(place, params_.mapped_within_m);
 }
 
 // Who walks is avoided as a person; what the camera saw of them would be in the way where they

@@ -8,7 +8,6 @@
 #include <heel/apps/follower/follower_params.hpp>
 #include <heel/apps/follower/motion_history.hpp>
 #include <heel/apps/follower/sensor_watch.hpp>
-#include <heel/mapping/wall_distance.hpp>
 #include <heel/mapping/wall_map.hpp>
 #include <heel/planning/clearance_map.hpp>
 #include <heel/planning/following_plan.hpp>
@@ -119,7 +118,6 @@ class Follower {
   FollowerParams params_;
   std::shared_ptr<const WallMap> walls_;
   OccupancyGrid floor_;
-  WallDistance to_walls_;
 
   SensorWatch watch_;
   MotionHistory motion_;  // by odometry, on the steady clock

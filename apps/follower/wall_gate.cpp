@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/follower/wall_gate.hpp>
-#include <heel/mapping/wall_distance.hpp>
 
 #include <Eigen/Eigenvalues>
 
@@ -23,7 +22,7 @@ class WallGate {
   WallGate(std::shared_ptr<const WallMap> map, const WallGateParams& params)
       : map_(std::move(map)),
         params_(params),
-        distance_(map_->floorGrid(params.body), params.half_body_m + map_->cell_size_m()) {}
+        walls_(map_->floorGrid(params.body)) {}
 
   GateVerdict judge(const Observation& seen, const Viewpoint& viewpoint) const {
     const Vector2d place = params_.observations_in_map * seen.position_m;
@@ -76,13 +75,13 @@ class WallGate {
       if (hit_m < range_m - doubt_m) return GateVerdict::kBehindWall;
       if (std::isfinite(hit_m)) return GateVerdict::kInsideWall;
     }
-    return distance_.at(place) < params_.half_body_m ? GateVerdict::kInsideWall
-                                                     : GateVerdict::kAccepted;
+    return walls_.isOccupiedWithin(place, params_.half_body_m) ? GateVerdict::kInsideWall
+                                                               : GateVerdict::kAccepted;
   }
 
   std::shared_ptr<const WallMap> map_;
   WallGateParams params_;
-  WallDistance distance_;
+  OccupancyGrid walls_;
 };
 
 }  // namespace
