@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/bag/bag.hpp>
+#include <heel/apps/bag/ros2_folder.hpp>
+#ifdef HEEL_HAS_BAGS
 #include <heel/apps/bag/bag_sequence.hpp>
 #include <heel/apps/bag/mcap_bag_reader.hpp>
 #include <heel/apps/bag/mcap_bag_writer.hpp>
@@ -9,7 +11,7 @@
 #include <heel/apps/bag/ros1_bag_writer.hpp>
 #include <heel/apps/bag/ros2_bag_reader.hpp>
 #include <heel/apps/bag/ros2_bag_writer.hpp>
-#include <heel/apps/bag/ros2_folder.hpp>
+#endif
 
 #include <algorithm>
 #include <stdexcept>
@@ -53,6 +55,8 @@ bool isBag(const fs::path& path) {
   return isRos1Name(path) || isRos2File(path);
 }
 
+#ifdef HEEL_HAS_BAGS
+
 std::unique_ptr<BagReader> openBag(const fs::path& path) {
   if (!fs::exists(path)) throw std::runtime_error(path.string() + ": there is no such bag");
   if (isRos1Name(path)) return std::make_unique<Ros1BagReader>(path);
@@ -67,5 +71,19 @@ std::unique_ptr<BagWriter> createBag(const BagPlan& plan) {
   if (plan.path.extension() == ".mcap") return std::make_unique<McapBagWriter>(plan);
   return std::make_unique<Ros2BagWriter>(plan);
 }
+
+#else
+
+std::unique_ptr<BagReader> openBag(const fs::path& path) {
+  throw std::runtime_error(path.string() +
+                           ": this build of Heel reads no bags (cmake -DHEEL_WITH_BAGS=ON)");
+}
+
+std::unique_ptr<BagWriter> createBag(const BagPlan& plan) {
+  throw std::runtime_error(plan.path.string() +
+                           ": this build of Heel writes no bags (cmake -DHEEL_WITH_BAGS=ON)");
+}
+
+#endif
 
 }  // namespace heel
