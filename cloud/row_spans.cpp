@@ -4,10 +4,12 @@
 #include <heel/cloud/row_spans.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
 namespace heel {
+
 namespace {
 
 /// The first column from `x` on that is not 0, or `width`. Empty stretches go by eight at a time.
@@ -46,6 +48,74 @@ void RowSpans::find(const cv::Mat& mask) {
   }
   starts_.push_back(spans_.size());
   bounds_ = spans_.empty() ? cv::Rect() : cv::Rect(left, top, right - left, bottom - top);
+}
+
+namespace {
+
+constexpr int kCell = 8;
+
+/// Counts of non-zero pixels, cell by cell, in a frame of empty cells.
+class Cells {
+ public:
+  Cells(const cv::Mat& mask, std::vector<int>& memory)
+      : columns_((mask.cols + kCell - 1) / kCell + 2), counts_(memory) {
+    const int rows = (mask.rows + kCell - 1) / kCell + 2;
+    counts_.assign(static_cast<std::size_t>(rows * columns_), 0);
+    for (int y = 0; y < mask.rows; ++y) {
+      const auto* row = mask.ptr<std::uint8_t>(y);
+      for (int x = 0; x < mask.cols; x += kCell) {
+        const int end = std::min(x + kCell, mask.cols);
+        int set = 0;
+        for (int i = x; i < end; ++i) set += row[i] != 0 ? 1 : 0;
+        at(y / kCell, x / kCell) += set;
+      }
+    }
+  }
+
+  /// Cells of the image count from 0; -1 and one past the last are the frame.
+  int& at(int row, int column) {
+    return counts_[static_cast<std::size_t>((row + 1) * columns_ + column + 1)];
+  }
+
+  int around(int row, int column) {
+    int sum = 0;
+    for (int r = row - 1; r <= row + 1; ++r) {
+      for (int c = column - 1; c <= column + 1; ++c) sum += at(r, c);
+    }
+    return sum;
+  }
+
+ private:
+  int columns_;
+  std::vector<int>& counts_;
+};
+
+}  // namespace
+
+SupportCount keepSupported(const cv::Mat& mask, double min_share, cv::Mat& kept,
+                           std::vector<int>& cells) {
+  kept.create(mask.size(), CV_8UC1);
+  kept.setTo(0);
+  SupportCount result;
+  Cells counts(mask, cells);
+  const cv::Rect image({}, mask.size());
+  for (int top = 0; top < mask.rows; top += kCell) {
+    for (int left = 0; left < mask.cols; left += kCell) {
+      const int own = counts.at(top / kCell, left / kCell);
+      if (own == 0) continue;
+      result.wanted += own;
+      const cv::Rect window = cv::Rect(left - kCell, top - kCell, 3 * kCell, 3 * kCell) & image;
+      if (counts.around(top / kCell, left / kCell) < min_share * window.area()) continue;
+      result.kept += own;
+      const cv::Rect cell = cv::Rect(left, top, kCell, kCell) & image;
+      for (int y = cell.y; y < cell.br().y; ++y) {
+        const auto* from = mask.ptr<std::uint8_t>(y);
+        auto* to = kept.ptr<std::uint8_t>(y);
+        for (int x = cell.x; x < cell.br().x; ++x) to[x] = from[x] != 0 ? 255 : 0;
+      }
+    }
+  }
+  return result;
 }
 
 }  // namespace heel

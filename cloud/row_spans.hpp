@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// The runs of wanted pixels in a mask, row by row.
+/// The runs of wanted pixels in a mask, row by row, and which of its pixels stand in company.
 #pragma once
 
 #include <opencv2/core/mat.hpp>
@@ -46,5 +46,20 @@ class RowSpans {
   std::vector<std::size_t> starts_;  // of each row in spans_, and one past the last
   cv::Rect bounds_;
 };
+
+/// What was left of a mask.
+struct SupportCount {
+  int wanted = 0;  ///< Non-zero pixels of the mask.
+  int kept = 0;    ///< Of them, those with support.
+};
+
+/// Keeps the pixels of `mask` around which enough others are set, and drops lone specks: of the
+/// three by three cells of 8x8 px around a pixel, a share of at least `min_share` must be set.
+///
+/// @param mask  CV_8UC1, not 0 where set.
+/// @param kept   Out: CV_8UC1, 255 where kept; its memory is reused.
+/// @param cells  Scratch; its memory is reused.
+SupportCount keepSupported(const cv::Mat& mask, double min_share, cv::Mat& kept,
+                           std::vector<int>& cells);
 
 }  // namespace heel

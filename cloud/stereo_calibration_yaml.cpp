@@ -6,8 +6,8 @@
 ///
 /// cv::FileStorage is not used: on foreign files it loops without an end, or crashes.
 
+#include <heel/cloud/files.hpp>
 #include <heel/cloud/stereo_calibration.hpp>
-#include <heel/cloud/whole_file.hpp>
 
 #include <opencv2/calib3d.hpp>
 #include <pugixml.hpp>

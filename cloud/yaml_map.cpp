@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <heel/cloud/files.hpp>
 #include <heel/cloud/typos.hpp>
-#include <heel/cloud/whole_file.hpp>
 #include <heel/cloud/yaml_map.hpp>
 
 #include <yaml-cpp/yaml.h>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/cloud/file_limits.hpp>
+#include <heel/cloud/files.hpp>
 #include <heel/mapping/wall_map_builder.hpp>
 
 #include <octomap/OcTree.h>

@@ -5,7 +5,7 @@
 /// What makes one future of the robot better than another: small costs, each on its own.
 #pragma once
 
-#include <heel/planning/path_ahead.hpp>
+#include <heel/planning/path.hpp>
 #include <heel/planning/surroundings.hpp>
 
 #include <array>

@@ -9,7 +9,6 @@
 /// second is written, because the tools of Petri Net Plans read no other.
 #pragma once
 
-#include <heel/planning/petri_net.hpp>
 #include <heel/planning/petri_plan.hpp>
 
 #include <filesystem>

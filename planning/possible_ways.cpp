@@ -16,16 +16,6 @@ constexpr double kSoon_s = 1e-9;
 constexpr double kLongest_s = 4.0;  // To reckon a speed from: any is reached by then.
 constexpr std::size_t kPieces = 1024;
 
-double towards(double from, double to, double most) {
-  return from + std::clamp(to - from, -most, most);
-}
-
-VelocityCommand towards(const DriveLimits& limits, const VelocityCommand& from,
-                        const VelocityCommand& to, double dt_s) {
-  return {towards(from.forward_mps, to.forward_mps, limits.max_acceleration_mps2 * dt_s),
-          towards(from.turn_radps, to.turn_radps, limits.max_turn_acceleration_radps2 * dt_s)};
-}
-
 VelocityCommand lesser(const VelocityCommand& a, const VelocityCommand& b) {
   return {std::min(a.forward_mps, b.forward_mps), std::min(a.turn_radps, b.turn_radps)};
 }
@@ -97,8 +87,8 @@ void PossibleWays::believe(const VelocityCommand& measured, double at_s) {
   while (time_s < at_s - kSoon_s) {
     const Obeyed command = obeyed(time_s, nullptr);
     const double until_s = std::min(at_s, command.until_s);
-    least_ = towards(limits_, least_, command.least, until_s - time_s);
-    most_ = towards(limits_, most_, command.most, until_s - time_s);
+    least_ = speedAfter(limits_, least_, command.least, until_s - time_s);
+    most_ = speedAfter(limits_, most_, command.most, until_s - time_s);
     time_s = until_s;
   }
   believed_s_ = time_s;
@@ -143,8 +133,8 @@ const std::vector<WayPiece>& PossibleWays::layOut(const VelocityCommand& velocit
     const double dt_s =
         std::min({kStep_s, command.until_s - time_s, untilThere(limits_, slow, command.least),
                   untilThere(limits_, fast, command.most)});
-    const VelocityCommand next_slow = towards(limits_, slow, command.least, dt_s);
-    const VelocityCommand next_fast = towards(limits_, fast, command.most, dt_s);
+    const VelocityCommand next_slow = speedAfter(limits_, slow, command.least, dt_s);
+    const VelocityCommand next_fast = speedAfter(limits_, fast, command.most, dt_s);
     const VelocityCommand begin = middle(slow, fast), end = middle(next_slow, next_fast);
     const VelocityCommand mean = middle(begin, end);
     const VelocityCommand wide =

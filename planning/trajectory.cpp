@@ -8,13 +8,6 @@
 #include <stdexcept>
 
 namespace heel {
-namespace {
-
-double towards(double from, double to, double most) {
-  return from + std::clamp(to - from, -most, most);
-}
-
-}  // namespace
 
 void checkLimits(const DriveLimits& limits) {
   for (const double limit :
@@ -26,12 +19,18 @@ void checkLimits(const DriveLimits& limits) {
   }
 }
 
+VelocityCommand speedAfter(const DriveLimits& limits, const VelocityCommand& from,
+                           const VelocityCommand& to, double dt_s) {
+  const auto towards = [](double a, double b, double most) {
+    return a + std::clamp(b - a, -most, most);
+  };
+  return {towards(from.forward_mps, to.forward_mps, limits.max_acceleration_mps2 * dt_s),
+          towards(from.turn_radps, to.turn_radps, limits.max_turn_acceleration_radps2 * dt_s)};
+}
+
 DriveState driven(const DriveLimits& limits, const DriveState& state, const VelocityCommand& wanted,
                   double dt_s) {
-  const VelocityCommand then{
-      towards(state.speed.forward_mps, wanted.forward_mps, limits.max_acceleration_mps2 * dt_s),
-      towards(state.speed.turn_radps, wanted.turn_radps,
-              limits.max_turn_acceleration_radps2 * dt_s)};
+  const VelocityCommand then = speedAfter(limits, state.speed, wanted, dt_s);
   const double way = 0.5 * (state.speed.forward_mps + then.forward_mps) * dt_s;
   const double turn = 0.5 * (state.speed.turn_radps + then.turn_radps) * dt_s;
   return {alongArc(state.pose, way, turn), then};

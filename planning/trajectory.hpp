@@ -41,6 +41,10 @@ struct DriveState {
   VelocityCommand speed;
 };
 
+/// The velocity `dt_s` later, if it goes from one to the other as fast as the limits allow.
+VelocityCommand speedAfter(const DriveLimits& limits, const VelocityCommand& from,
+                           const VelocityCommand& to, double dt_s);
+
 /// `state` after `dt_s` in which the speed goes to `wanted` as fast as the limits allow.
 DriveState driven(const DriveLimits& limits, const DriveState& state, const VelocityCommand& wanted,
                   double dt_s);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/cloud/whole_file.hpp>
+#include <heel/cloud/files.hpp>
 #include <heel/cloud/yaml_map.hpp>
 #include <heel/segmentation/appearance_model_io.hpp>
 

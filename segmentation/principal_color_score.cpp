@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/segmentation/color_clusters.hpp>
+#include <heel/segmentation/color_histogram.hpp>
 #include <heel/segmentation/color_score.hpp>
 #include <heel/segmentation/hsv.hpp>
 

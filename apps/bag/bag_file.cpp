@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/bag/bag_file.hpp>
-#include <heel/cloud/file_limits.hpp>
+#include <heel/cloud/files.hpp>
 
 #include <fcntl.h>
 #include <unistd.h>

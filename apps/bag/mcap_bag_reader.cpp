@@ -3,7 +3,7 @@
 
 #include <heel/apps/bag/mcap_bag_reader.hpp>
 #include <heel/apps/bag/ros2_folder.hpp>
-#include <heel/cloud/file_limits.hpp>
+#include <heel/cloud/files.hpp>
 
 #include <algorithm>
 #include <stdexcept>

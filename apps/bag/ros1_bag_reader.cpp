@@ -3,7 +3,7 @@
 
 #include <heel/apps/bag/chunk_packing.hpp>
 #include <heel/apps/bag/ros1_bag_reader.hpp>
-#include <heel/cloud/file_limits.hpp>
+#include <heel/cloud/files.hpp>
 
 #include <algorithm>
 #include <stdexcept>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/experiment/follow_experiment.hpp>
-#include <heel/apps/experiment/random_episode.hpp>
+#include <heel/apps/experiment/random_home.hpp>
 #include <heel/apps/output/run_end.hpp>
 #include <heel/planning/plan_file.hpp>
 

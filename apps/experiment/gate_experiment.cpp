@@ -3,7 +3,6 @@
 
 #include <heel/apps/experiment/gate_experiment.hpp>
 #include <heel/apps/experiment/simulated_frames.hpp>
-#include <heel/apps/experiment/simulated_lesson.hpp>
 #include <heel/apps/simulation/random.hpp>
 
 #include <stdexcept>

@@ -3,7 +3,6 @@
 
 #include <heel/apps/experiment/light_experiment.hpp>
 #include <heel/apps/experiment/truth_frames.hpp>
-#include <heel/apps/experiment/truth_lessons.hpp>
 #include <heel/apps/simulation/color.hpp>
 
 #include <opencv2/core.hpp>

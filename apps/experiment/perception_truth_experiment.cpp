@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/experiment/perception_truth_experiment.hpp>
-#include <heel/apps/experiment/simulated_lesson.hpp>
+#include <heel/apps/experiment/simulated_frames.hpp>
 #include <heel/apps/simulation/random.hpp>
 
 #include <limits>

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// Recordings that are rendered straight into memory, with their truth.
+/// Recordings that are rendered straight into memory, with their truth, and what one teaches.
 #pragma once
 
+#include <heel/apps/experiment/offered_models.hpp>
+#include <heel/apps/experiment/random_wardrobe.hpp>
+#include <heel/apps/follower/acquisition.hpp>
 #include <heel/apps/follower/camera_setup.hpp>
 #include <heel/apps/recording/frame.hpp>
 #include <heel/apps/simulation/scene.hpp>
@@ -55,5 +58,26 @@ SimulatedFrames renderFrames(const Scene& scene, const SimulatedFramesParams& pa
 /// Matches every pair once, all over, so that the frames count as an RGB-D camera's: cheaper where
 /// many models look at the same recording. Matching only where a mask says gives the same.
 void matchStereo(SimulatedFrames& recording, const StereoMatcherParams& params);
+
+struct SimulatedLesson {
+  ModelLessons lessons;
+  AcquisitionResult result;
+};
+
+/// Lets an acquisition see recordings, one after the other, whose pairs have been matched.
+SimulatedLesson takeLesson(const std::vector<const SimulatedFrames*>& recordings,
+                           const std::vector<OfferedModel>& models, double empty_s,
+                           double person_s);
+
+/// So long people take into view.
+inline constexpr double kEnters_s = 1.2;
+
+/// Phase 1 in the wardrobe's learning room: the model of a person who comes in.
+/// @param seed  Of the recording's ways and noise.
+/// @throws std::runtime_error  if nothing of the person could be learned.
+AppearanceModel learnInWardrobe(const WardrobeRooms& rooms, const ScenePerson& person,
+                                const AppearanceParams& appearance,
+                                const StereoMatcherParams& stereo, double empty_s, double person_s,
+                                std::uint64_t seed);
 
 }  // namespace heel

@@ -3,7 +3,6 @@
 
 #include <heel/apps/experiment/experiments.hpp>
 #include <heel/apps/experiment/truth_frames.hpp>
-#include <heel/apps/experiment/truth_lessons.hpp>
 
 #include <algorithm>
 #include <set>

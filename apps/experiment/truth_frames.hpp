@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// True places by frame and by person.
+/// True places by frame and by person, what is learned there, and who was seen there.
 #pragma once
 
+#include <heel/apps/experiment/experiments.hpp>
+#include <heel/apps/experiment/offered_models.hpp>
+#include <heel/apps/follower/perception.hpp>
 #include <heel/apps/results/result_files.hpp>
 #include <heel/tracking/target_metrics.hpp>
+
+#include <Eigen/Core>
 
 #include <cstddef>
 #include <filesystem>
@@ -45,5 +50,24 @@ class TruthFrames {
   std::map<std::size_t, std::vector<TruthRow>> rows_;
   std::vector<std::string> people_;
 };
+
+/// Whether a place is known and no further than that.
+bool isNear(const Eigen::Vector2d& a, const std::optional<Eigen::Vector2d>& b, double distance_m);
+
+/// The probability that the confirmed track nearest to a place is the target; 0 without one within
+/// the distance.
+double targetProbabilityAt(const Eigen::Vector2d& place, const Perception& perception,
+                           double distance_m);
+
+/// The score of the blob nearest to a place; 0 without one within the distance.
+double blobScoreAt(const Eigen::Vector2d& place, const std::vector<Observation>& observations,
+                   double distance_m);
+
+/// What the points near each person's true place, in the first half of the frames where it is
+/// exact, and the empty scene teach of them. In the order of truth.people().
+std::vector<ModelLessons> learnEveryone(const std::filesystem::path& recording,
+                                        const CameraSetup& setup, const TruthFrames& truth,
+                                        const std::vector<OfferedModel>& models,
+                                        const ExperimentParams& params);
 
 }  // namespace heel

@@ -20,9 +20,7 @@ using Eigen::Vector3d;
 class WallGate {
  public:
   WallGate(std::shared_ptr<const WallMap> map, const WallGateParams& params)
-      : map_(std::move(map)),
-        params_(params),
-        walls_(map_->floorGrid(params.body)) {}
+      : map_(std::move(map)), params_(params), walls_(map_->floorGrid(params.body)) {}
 
   GateVerdict judge(const Observation& seen, const Viewpoint& viewpoint) const {
     const Vector2d place = params_.observations_in_map * seen.position_m;

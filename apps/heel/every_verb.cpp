@@ -4,7 +4,7 @@
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/output.hpp>
-#include <heel/cloud/file_limits.hpp>
+#include <heel/cloud/files.hpp>
 
 #include <CLI/CLI.hpp>
 #include <opencv2/core/utility.hpp>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/heel/commands.hpp>
-#include <heel/apps/heel/shared/cloud_batch.hpp>
+#include <heel/apps/heel/shared/cloud_summary.hpp>
 #include <heel/apps/output/output.hpp>
-#include <heel/apps/recording/clouds/cloud_inputs.hpp>
+#include <heel/apps/recording/clouds/cloud_file.hpp>
 #include <heel/segmentation/appearance_filter.hpp>
 #include <heel/segmentation/appearance_model_io.hpp>
 

@@ -8,8 +8,7 @@
 #include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/run_end.hpp>
 #include <heel/apps/pictures/map_picture.hpp>
-#include <heel/mapping/map_server_file.hpp>
-#include <heel/mapping/wall_map_file.hpp>
+#include <heel/mapping/map_files.hpp>
 
 #include <CLI/CLI.hpp>
 

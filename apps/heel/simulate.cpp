@@ -4,7 +4,6 @@
 #include <heel/apps/experiment/roaming_driver.hpp>
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/shared/arguments.hpp>
-#include <heel/apps/heel/shared/network_options.hpp>
 #include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/live/live_simulation.hpp>
 #include <heel/apps/output/run_end.hpp>

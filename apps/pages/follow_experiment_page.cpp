@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/pages/follow_experiment_page.hpp>
-#include <heel/apps/pages/follow_page.hpp>
 #include <heel/apps/pages/html.hpp>
 #include <heel/apps/pages/page_parts.hpp>
+#include <heel/apps/pages/pages.hpp>
 
 #include "page_assets.hpp"
 

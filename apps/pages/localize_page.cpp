@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/pages/html.hpp>
-#include <heel/apps/pages/localize_page.hpp>
 #include <heel/apps/pages/map_parts.hpp>
+#include <heel/apps/pages/pages.hpp>
 #include <heel/apps/pictures/map_picture.hpp>
 
 #include <algorithm>

@@ -5,6 +5,8 @@
 /// What the maps of pages are drawn with: SVG in metres.
 #pragma once
 
+#include <heel/apps/pages/run_moments.hpp>
+#include <heel/apps/results/follow_log.hpp>
 #include <heel/mapping/occupancy_grid.hpp>
 
 #include <Eigen/Core>
@@ -58,5 +60,18 @@ std::string svgWalls(const OccupancyGrid& map, const MapFrame& frame);
 std::string legendItem(const std::string& drawing, const std::string& text);
 /// The same for a line of this tone.
 std::string legendLine(const std::string& tone, const std::string& dashes, const std::string& text);
+
+/// The walls and the ways of the robot and the person.
+MapFrame followFrame(const FollowLog& log);
+
+/// Walls, the robot's path, the person's path, both joined at even times, where the target was
+/// lost and found, and the marks that the page's script moves to one moment: SVG.
+std::string followMap(const FollowLog& log, const MapFrame& frame);
+
+/// What the marks of followMap() mean: list items.
+std::string followMapLegend(const FollowLog& log);
+
+/// Where followMap()'s marks are at each moment.
+void addFollowMarks(const FollowLog& log, const MapFrame& frame, RunMoments& moments);
 
 }  // namespace heel

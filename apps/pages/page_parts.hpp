@@ -6,7 +6,7 @@
 #pragma once
 
 #include <heel/apps/pictures/annotate.hpp>
-#include <heel/apps/results/follow_summary.hpp>
+#include <heel/apps/results/follow_log.hpp>
 
 #include <opencv2/core/types.hpp>
 

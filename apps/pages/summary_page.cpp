@@ -4,9 +4,9 @@
 #include <heel/apps/output/run_end.hpp>
 #include <heel/apps/pages/html.hpp>
 #include <heel/apps/pages/page_parts.hpp>
-#include <heel/apps/pages/summary_page.hpp>
+#include <heel/apps/pages/pages.hpp>
+#include <heel/cloud/files.hpp>
 #include <heel/cloud/image_extent.hpp>
-#include <heel/cloud/whole_file.hpp>
 
 #include "page_assets.hpp"
 #include <nlohmann/json.hpp>

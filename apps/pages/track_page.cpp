@@ -4,7 +4,7 @@
 #include <heel/apps/output/csv_file.hpp>
 #include <heel/apps/pages/html.hpp>
 #include <heel/apps/pages/map_parts.hpp>
-#include <heel/apps/pages/track_page.hpp>
+#include <heel/apps/pages/pages.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 /// A Petri Net Plan as a picture.
 #pragma once
 
-#include <heel/planning/petri_net.hpp>
 #include <heel/planning/petri_plan.hpp>
 
 #include <Eigen/Core>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/recording/image_file.hpp>
-#include <heel/cloud/file_limits.hpp>
+#include <heel/cloud/files.hpp>
 #include <heel/cloud/image_extent.hpp>
 
 #include <opencv2/imgcodecs.hpp>

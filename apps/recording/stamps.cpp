@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/recording/stamps.hpp>
-#include <heel/cloud/file_limits.hpp>
+#include <heel/cloud/files.hpp>
 
 #include <algorithm>
 #include <charconv>

@@ -6,7 +6,7 @@
 #pragma once
 
 #include <heel/apps/output/output.hpp>
-#include <heel/apps/results/follow_summary.hpp>
+#include <heel/apps/results/follow_log.hpp>
 
 #include <filesystem>
 #include <string>

@@ -4,7 +4,7 @@
 #include <heel/apps/output/csv_file.hpp>
 #include <heel/apps/output/run_end.hpp>
 #include <heel/apps/results/run_table.hpp>
-#include <heel/cloud/whole_file.hpp>
+#include <heel/cloud/files.hpp>
 
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// All that following somebody through a recording leaves to be told: one sample a frame.
+/// All that following somebody through a recording leaves to be told, one sample a frame; and how
+/// the logs of a recording's pieces are joined.
 #pragma once
 
 #include <heel/apps/results/follow_log.hpp>
@@ -59,5 +60,24 @@ struct TrackLog {
   std::vector<std::string> warnings;  ///< Sentences.
   std::size_t skipped = 0;            ///< Frames that were left out.
 };
+
+/// What `heel track` writes of a recording, or of a piece of it: in order of time.
+struct TrackTables {
+  std::vector<FrameRow> frames;
+  std::vector<TrackRow> tracks;
+};
+
+/// Where one piece's rows end, and those of the next one begin.
+struct Seam {
+  std::size_t first_frame = 0;  ///< As the next piece counts.
+  std::ptrdiff_t shift = 0;     ///< From how it counts to how the whole does.
+};
+
+/// Appends what a piece tells of the time after `whole`. A track of it is that of the whole which
+/// is nearest in the last frame that both have, if it is there within half a person's width; else
+/// its number is a new one.
+/// @throws std::invalid_argument  if a piece has no frames, or the next one does not go on after
+///                                the whole.
+Seam join(TrackTables& whole, TrackTables next);
 
 }  // namespace heel

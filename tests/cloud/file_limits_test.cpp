@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "tests/support/temp_folder.hpp"
-#include <heel/cloud/file_limits.hpp>
+#include <heel/cloud/files.hpp>
 #include <heel/cloud/image_extent.hpp>
 
 #include <gmock/gmock.h>

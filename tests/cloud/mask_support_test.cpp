@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/cloud/mask_support.hpp>
+#include <heel/cloud/row_spans.hpp>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>

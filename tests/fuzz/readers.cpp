@@ -19,9 +19,8 @@
 #include <heel/apps/results/result_files.hpp>
 #include <heel/apps/simulation/scene.hpp>
 #include <heel/cloud/stereo_calibration.hpp>
-#include <heel/mapping/map_server_file.hpp>
+#include <heel/mapping/map_files.hpp>
 #include <heel/mapping/wall_map_builder.hpp>
-#include <heel/mapping/wall_map_file.hpp>
 #include <heel/planning/following_plan.hpp>
 #include <heel/planning/plan_file.hpp>
 #include <heel/segmentation/appearance_model_io.hpp>

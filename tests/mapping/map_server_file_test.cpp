@@ -3,7 +3,7 @@
 
 #include "tests/support/data.hpp"
 #include "tests/support/temp_folder.hpp"
-#include <heel/mapping/map_server_file.hpp>
+#include <heel/mapping/map_files.hpp>
 
 #include <gmock/gmock.h>
 #include <opencv2/core/mat.hpp>

@@ -3,9 +3,8 @@
 
 #include "tests/support/data.hpp"
 #include "tests/support/temp_folder.hpp"
-#include <heel/mapping/map_server_file.hpp>
+#include <heel/mapping/map_files.hpp>
 #include <heel/mapping/wall_map_builder.hpp>
-#include <heel/mapping/wall_map_file.hpp>
 
 #include <gmock/gmock.h>
 #include <octomap/OcTree.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "tests/planning/small_net.hpp"
-#include <heel/planning/petri_net.hpp>
+#include <heel/planning/petri_plan.hpp>
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 /// Nets for tests, in a line each.
 #pragma once
 
-#include <heel/planning/petri_net.hpp>
+#include <heel/planning/petri_plan.hpp>
 
 #include <stdexcept>
 #include <string>

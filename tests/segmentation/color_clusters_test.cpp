@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "tests/segmentation/painted_person.hpp"
-#include <heel/segmentation/color_clusters.hpp>
+#include <heel/segmentation/color_histogram.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <heel/apps/experiment/appearance_experiment.hpp>
 #include <heel/apps/experiment/appearance_report.hpp>
-#include <heel/apps/experiment/appearance_tables.hpp>
-#include <heel/apps/experiment/people_matrix_experiment.hpp>
 #include <heel/apps/heel/experiment/experiment_commands.hpp>
 #include <heel/apps/heel/experiment/joined_parts.hpp>
 #include <heel/apps/heel/shared/arguments.hpp>

@@ -7,7 +7,7 @@
 #include <heel/apps/heel/shared/arguments.hpp>
 #include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/run_end.hpp>
-#include <heel/apps/pages/follow_experiment_page.hpp>
+#include <heel/apps/pages/pages.hpp>
 
 #include <CLI/CLI.hpp>
 

@@ -5,7 +5,7 @@
 #include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/run_end.hpp>
 #include <heel/apps/results/result_files.hpp>
-#include <heel/cloud/whole_file.hpp>
+#include <heel/cloud/files.hpp>
 
 #include <nlohmann/json.hpp>
 

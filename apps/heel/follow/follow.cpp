@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/experiment/random_episode.hpp>
+#include <heel/apps/experiment/random_home.hpp>
 #include <heel/apps/experiment/robot_config.hpp>
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/follow/shadow.hpp>

@@ -11,10 +11,8 @@
 #include <heel/apps/pictures/drawing.hpp>
 #include <heel/apps/pictures/map_picture.hpp>
 #include <heel/apps/recording/clouds/cloud_file.hpp>
-#include <heel/apps/recording/clouds/cloud_inputs.hpp>
-#include <heel/apps/recording/folders/folder_files.hpp>
-#include <heel/mapping/map_server_file.hpp>
-#include <heel/mapping/wall_map_file.hpp>
+#include <heel/apps/recording/folders/indexed_recording.hpp>
+#include <heel/mapping/map_files.hpp>
 #include <heel/segmentation/appearance_model_io.hpp>
 #include <heel/segmentation/appearance_picture.hpp>
 

@@ -4,8 +4,8 @@
 #include <heel/apps/follower/depth_images.hpp>
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/inspect/inspect.hpp>
-#include <heel/apps/heel/shared/cloud_batch.hpp>
-#include <heel/apps/recording/clouds/cloud_inputs.hpp>
+#include <heel/apps/heel/shared/cloud_summary.hpp>
+#include <heel/apps/recording/clouds/cloud_file.hpp>
 #include <heel/apps/recording/clouds/pcd_file.hpp>
 #include <heel/cloud/color_cloud.hpp>
 #include <heel/cloud/ground_plane.hpp>

@@ -6,7 +6,6 @@
 #include <heel/apps/heel/shared/arguments.hpp>
 #include <heel/apps/heel/shared/follow_output.hpp>
 #include <heel/apps/heel/shared/lap_clock.hpp>
-#include <heel/apps/heel/shared/network_options.hpp>
 #include <heel/apps/heel/shared/robot_places.hpp>
 #include <heel/apps/live/command_sender.hpp>
 #include <heel/apps/live/find_robot.hpp>

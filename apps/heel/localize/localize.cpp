@@ -7,7 +7,7 @@
 #include <heel/apps/heel/shared/arguments.hpp>
 #include <heel/apps/output/run_end.hpp>
 #include <heel/apps/simulation/scene_map.hpp>
-#include <heel/mapping/map_server_file.hpp>
+#include <heel/mapping/map_files.hpp>
 
 #include <CLI/CLI.hpp>
 

@@ -7,7 +7,7 @@
 
 #include <heel/apps/experiment/log_localization.hpp>
 #include <heel/apps/output/csv_file.hpp>
-#include <heel/apps/pages/localize_page.hpp>
+#include <heel/apps/pages/pages.hpp>
 
 #include <filesystem>
 #include <vector>

@@ -4,8 +4,8 @@
 #include <heel/apps/film/video_writer.hpp>
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/planview/cloud_plan.hpp>
-#include <heel/apps/heel/shared/cloud_batch.hpp>
-#include <heel/apps/recording/clouds/cloud_inputs.hpp>
+#include <heel/apps/heel/shared/cloud_summary.hpp>
+#include <heel/apps/recording/clouds/cloud_file.hpp>
 #include <heel/segmentation/appearance_model_io.hpp>
 
 #include <CLI/CLI.hpp>

@@ -5,9 +5,12 @@
 /// What several verbs are called with: scenes, maps and plans, and the topics of a bag.
 #pragma once
 
+#include <heel/apps/live/ros2_network.hpp>
 #include <heel/apps/recording/bags/bag_topics.hpp>
 #include <heel/apps/recording/time_span.hpp>
 #include <heel/apps/simulation/scene.hpp>
+
+#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <string>
@@ -72,5 +75,13 @@ void addLaserTopics(CLI::App& verb, BagTopics& topics);
 
 /// The bag to write the results to.
 void addResultBag(CLI::App& verb, std::filesystem::path& bag);
+
+/// Adds --domain and --namespace.
+inline void addNetwork(CLI::App& verb, Ros2NetworkParams& params) {
+  params = ros2Environment();
+  verb.add_option("--domain", params.domain, "of ROS 2 (default: ROS_DOMAIN_ID, else 0)")
+      ->check(CLI::Range(0, 232));
+  verb.add_option("--namespace", params.ros_namespace, "before all topics, as /robot1");
+}
 
 }  // namespace heel

@@ -10,7 +10,7 @@
 #include <heel/apps/film/video_writer.hpp>
 #include <heel/apps/heel/shared/drawn_perception.hpp>
 #include <heel/apps/heel/shared/result_bag.hpp>
-#include <heel/apps/pages/follow_page.hpp>
+#include <heel/apps/pages/pages.hpp>
 
 #include <array>
 #include <filesystem>

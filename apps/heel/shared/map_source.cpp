@@ -10,9 +10,8 @@
 #include <heel/apps/recording/image_file.hpp>
 #include <heel/apps/simulation/scene_map.hpp>
 #include <heel/mapping/floor_pose.hpp>
-#include <heel/mapping/map_server_file.hpp>
+#include <heel/mapping/map_files.hpp>
 #include <heel/mapping/wall_map_builder.hpp>
-#include <heel/mapping/wall_map_file.hpp>
 
 #include <algorithm>
 #include <cmath>

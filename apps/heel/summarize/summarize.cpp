@@ -4,7 +4,7 @@
 #include <heel/apps/bag/sqlite_file.hpp>
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/output/output.hpp>
-#include <heel/apps/pages/summary_page.hpp>
+#include <heel/apps/pages/pages.hpp>
 #include <heel/apps/results/run_table.hpp>
 
 #include <CLI/CLI.hpp>

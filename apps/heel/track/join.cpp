@@ -4,10 +4,9 @@
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/output/output.hpp>
 #include <heel/apps/output/run_end.hpp>
-#include <heel/apps/pages/track_page.hpp>
+#include <heel/apps/pages/pages.hpp>
 #include <heel/apps/results/track_log.hpp>
-#include <heel/apps/results/track_pieces.hpp>
-#include <heel/cloud/whole_file.hpp>
+#include <heel/cloud/files.hpp>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/heel/track/track_output.hpp>
-#include <heel/apps/pages/track_page.hpp>
+#include <heel/apps/pages/pages.hpp>
 #include <heel/apps/pictures/picture_parts.hpp>
 #include <heel/apps/recording/image_file.hpp>
 #include <heel/segmentation/appearance_picture.hpp>

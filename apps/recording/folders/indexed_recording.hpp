@@ -10,8 +10,10 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace heel {
@@ -46,5 +48,14 @@ class IndexedRecording : public Recording {
   std::size_t next_index_ = 0;
   std::size_t end_index_;
 };
+
+/// Whether `a` comes before `b`; digits count as a number, so that "left9" is before "left10".
+bool isBeforeByNumber(std::string_view a, std::string_view b);
+
+/// The folder's files whose path `takes` accepts, in the order of isBeforeByNumber(); none if there
+/// is no such folder.
+std::vector<std::filesystem::path> filesIn(
+    const std::filesystem::path& folder,
+    const std::function<bool(const std::filesystem::path&)>& takes);
 
 }  // namespace heel

@@ -3,7 +3,7 @@
 
 #include <heel/apps/recording/camera_file.hpp>
 #include <heel/apps/recording/clouds/pcd_file.hpp>
-#include <heel/apps/recording/folders/folder_files.hpp>
+#include <heel/apps/recording/folders/indexed_recording.hpp>
 #include <heel/apps/recording/folders/pcd_recording.hpp>
 #include <heel/apps/recording/stamps.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/recording/folders/folder_files.hpp>
+#include <heel/apps/recording/folders/indexed_recording.hpp>
 #include <heel/apps/recording/folders/stereo_files.hpp>
 #include <heel/apps/recording/image_file.hpp>
 #include <heel/apps/recording/stamps.hpp>

@@ -4,7 +4,6 @@
 #include "tests/support/temp_folder.hpp"
 #include <heel/apps/experiment/appearance_experiment.hpp>
 #include <heel/apps/experiment/appearance_report.hpp>
-#include <heel/apps/experiment/appearance_tables.hpp>
 #include <heel/apps/experiment/simulated_frames.hpp>
 
 #include <gmock/gmock.h>

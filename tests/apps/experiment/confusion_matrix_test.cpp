@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/experiment/confusion_matrix.hpp>
-#include <heel/apps/experiment/confusion_picture.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/experiment/random_episode.hpp>
 #include <heel/apps/experiment/random_home.hpp>
 #include <heel/apps/experiment/random_wardrobe.hpp>
 #include <heel/apps/simulation/floor_plan.hpp>

@@ -4,8 +4,7 @@
 #include "tests/apps/pages/parsed_page.hpp"
 #include "tests/support/follow_run.hpp"
 #include "tests/support/temp_folder.hpp"
-#include <heel/apps/pages/follow_experiment_page.hpp>
-#include <heel/apps/pages/follow_page.hpp>
+#include <heel/apps/pages/pages.hpp>
 
 #include <gmock/gmock.h>
 

@@ -3,7 +3,7 @@
 
 #include "tests/apps/pages/parsed_page.hpp"
 #include "tests/support/follow_run.hpp"
-#include <heel/apps/pages/localize_page.hpp>
+#include <heel/apps/pages/pages.hpp>
 
 #include <string>
 

@@ -5,10 +5,7 @@
 #include "tests/support/temp_folder.hpp"
 #include "tests/support/track_run.hpp"
 #include <heel/apps/film/video_writer.hpp>
-#include <heel/apps/pages/follow_page.hpp>
-#include <heel/apps/pages/localize_page.hpp>
-#include <heel/apps/pages/summary_page.hpp>
-#include <heel/apps/pages/track_page.hpp>
+#include <heel/apps/pages/pages.hpp>
 
 #include <gmock/gmock.h>
 

@@ -3,7 +3,7 @@
 
 #include "tests/apps/pages/parsed_page.hpp"
 #include "tests/support/track_run.hpp"
-#include <heel/apps/pages/track_page.hpp>
+#include <heel/apps/pages/pages.hpp>
 
 #include <gmock/gmock.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "tests/support/temp_folder.hpp"
-#include <heel/apps/recording/clouds/cloud_inputs.hpp>
+#include <heel/apps/recording/clouds/cloud_file.hpp>
 
 #include <gmock/gmock.h>
 

@@ -3,7 +3,7 @@
 
 #include "tests/support/data.hpp"
 #include "tests/support/temp_folder.hpp"
-#include <heel/apps/recording/folders/folder_files.hpp>
+#include <heel/apps/recording/folders/indexed_recording.hpp>
 #include <heel/apps/recording/recording.hpp>
 
 #include <gmock/gmock.h>

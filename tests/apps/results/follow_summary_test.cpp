@@ -5,7 +5,7 @@
 #include "tests/support/follow_run.hpp"
 #include "tests/support/temp_folder.hpp"
 #include <heel/apps/output/csv_file.hpp>
-#include <heel/apps/results/follow_summary.hpp>
+#include <heel/apps/results/follow_log.hpp>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

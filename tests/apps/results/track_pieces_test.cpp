@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/results/track_pieces.hpp>
+#include <heel/apps/results/track_log.hpp>
 
 #include <gmock/gmock.h>
 

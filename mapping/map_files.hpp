@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// Floor plans as files: ROS's map_server pairs (YAML and PGM or PNG), and plain pictures.
+/// Maps as files: OctoMap's binary trees (.bt), ROS's map_server pairs (YAML and PGM or PNG), and
+/// plain pictures.
 #pragma once
 
 #include <heel/mapping/occupancy_grid.hpp>
+#include <heel/mapping/wall_map.hpp>
 
 #include <filesystem>
 
@@ -44,5 +46,16 @@ bool isMapServerFile(const std::filesystem::path& file);
 /// @throws std::runtime_error     if a file cannot be written.
 /// @throws std::invalid_argument  if the grid is empty.
 void saveMapServer(const OccupancyGrid& grid, const std::filesystem::path& yaml);
+
+/// Writes the map as OctoMap's tools read it, whole or not at all. The map is not changed:
+/// OctoMap's own writeBinary would prune and threshold it.
+/// @throws std::runtime_error  with one sentence that names the file and the reason.
+void saveWallMap(const WallMap& map, const std::filesystem::path& file);
+
+/// Reads a .bt file. It is checked before OctoMap sees it, whose reader goes on with what is left
+/// in memory where a file is truncated.
+/// @throws std::runtime_error  with one sentence that names the file and the reason: it is not
+///         there, is not such a file, is truncated, or goes on after its end.
+WallMap loadWallMap(const std::filesystem::path& file);
 
 }  // namespace heel

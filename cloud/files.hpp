@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// How much a file may ask for, decided in one place.
+/// Files: how much one that is read may ask for, and how one is written whole or not at all.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace heel {
 
@@ -32,5 +33,14 @@ void checkMemory(const std::string& what, std::size_t bytes, std::size_t file_by
 /// A pipe would be waited for, and a device may never end.
 /// @throws std::runtime_error  if there is something of this name that is no file with an end.
 void checkIsFile(const std::filesystem::path& file);
+
+/// All bytes of a file.
+/// @throws std::runtime_error  with one sentence that names the file and the reason.
+std::string readWholeFile(const std::filesystem::path& file);
+
+/// Writes beside the file, then gives it its name: what was there before stays until all is
+/// written.
+/// @throws std::runtime_error  with one sentence that names the file and the reason.
+void writeWholeFile(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace heel
