@@ -3,7 +3,6 @@
 
 #include <heel/apps/simulation/floor_plan.hpp>
 #include <heel/apps/simulation/scene_map.hpp>
-#include <heel/planning/clearance_map.hpp>
 
 #include <gtest/gtest.h>
 
@@ -16,14 +15,14 @@ TEST(SceneMap, IsTheFloorPlanInCells) {
   for (const char* name : {"home", "office", "wardrobe", "corridor"}) {
     const Scene scene = loadScene(std::string(HEEL_SCENES) + "/" + name + ".yaml");
     const FloorPlan plan(scene, true);
-    const ClearanceMap map(wallMapOf(scene).floorGrid({0.03, 1.9}), 3.0, true);
+    const OccupancyGrid map = wallMapOf(scene).floorGrid({0.03, 1.9});
     const FloorBounds flat = floorBounds(scene);
     for (double x = flat.low.x() + 0.1; x < flat.high.x(); x += 0.23) {
       for (double y = flat.low.y() + 0.1; y < flat.high.y(); y += 0.19) {
         const double truth = plan.clearance({x, y});
         if (truth < 0.0) continue;
-        EXPECT_NEAR(map.clearance({x, y}), std::min(truth, 3.0), 0.055)
-            << name << " " << x << " " << y;
+        EXPECT_FALSE(map.isOccupiedWithin({x, y}, truth - 0.055)) << name << " " << x << " " << y;
+        EXPECT_TRUE(map.isOccupiedWithin({x, y}, truth + 0.055)) << name << " " << x << " " << y;
       }
     }
   }
