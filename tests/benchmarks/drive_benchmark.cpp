@@ -47,7 +47,7 @@ void decide(benchmark::State& state) {
   heel::LocalPlanner planner;
   std::size_t futures = 0;
   for (auto _ : state) {
-    const auto plan = planner.step({{1.5, 1.5}, 0.2}, {0.25, 0.1}, path, grid, people);
+    auto plan = planner.step({{1.5, 1.5}, 0.2}, {0.25, 0.1}, path, grid, people);
     benchmark::DoNotOptimize(plan.command);
     futures = plan.options;
   }

@@ -22,7 +22,7 @@ void runScene(benchmark::State& state, const std::string& name, int width, int t
   Simulator simulator(scene, options);
   simulator.step(0.0);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(simulator.step(0.1, {0.0, 0.1}).stereo->left_bgr.data);
+    benchmark::DoNotOptimize(simulator.step(0.1, {0.0, 0.1}).stereo->left_bgr.ptr());
   }
   state.counters["realtime"] = benchmark::Counter(0.1 * static_cast<double>(state.iterations()),
                                                   benchmark::Counter::kIsRate);

@@ -25,7 +25,7 @@ const PlanVocabulary kRunnerWords = {{"walk", "wave"}, {"near", "tired"}};
 PlanRunner runnerOf(const PetriNet& net) { return PlanRunner(makePlan(net, kRunnerWords)); }
 
 /// Steps while exactly these conditions hold.
-const PlanStep& step(PlanRunner& runner, const std::set<int>& facts = {}) {
+PlanStep step(PlanRunner& runner, const std::set<int>& facts = {}) {
   return runner.step([&](int condition) { return facts.count(condition) > 0; });
 }
 
@@ -54,7 +54,7 @@ TEST(PlanRunner, StartsAndRunsAnAction) {
 TEST(PlanRunner, AnInterruptEndsItsAction) {
   PlanRunner runner = runnerOf(walkAndWave());
   step(runner);
-  const PlanStep& last = step(runner, {kNear});
+  const PlanStep last = step(runner, {kNear});
   EXPECT_THAT(last.interrupted, ElementsAre(kWalk));
   EXPECT_THAT(last.started, ElementsAre(kWave));
   EXPECT_THAT(last.active, ElementsAre(kWave));

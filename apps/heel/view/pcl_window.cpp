@@ -4,7 +4,6 @@
 #include <heel/apps/heel/view/view_scene.hpp>
 #include <heel/apps/pictures/drawing.hpp>
 
-#include <X11/Xlib.h>
 #include <pcl/common/point_tests.h>
 #include <pcl/visualization/pcl_visualizer.h>
 #include <vtkObject.h>
@@ -12,6 +11,9 @@
 #include <algorithm>
 #include <chrono>
 #include <string>
+
+// The last, for it has a macro "Status", which is a class of VTK's.
+#include <X11/Xlib.h>
 
 namespace heel {
 
