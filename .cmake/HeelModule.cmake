@@ -1,8 +1,10 @@
 # How a module of Heel is built, and with which flags.
 
+# With the base, a file that another build or clone has compiled is not compiled again.
 find_program(HEEL_CCACHE ccache)
 if(HEEL_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${HEEL_CCACHE}")
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+    "${CMAKE_COMMAND}" -E env "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" "${HEEL_CCACHE}")
 endif()
 
 # Our own code's flags; private to the build tree, never exported.

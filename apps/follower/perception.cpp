@@ -103,8 +103,7 @@ Perception::Perception(const CameraSetup& setup, const AppearanceModel& model,
                                                                : PlanViewCamera().focal_length_px}),
       finder_(params.blobs),
       describer_(params.body),
-      view_{{}, {}, setup.camera.left, setup.T_base_camera, setup.sensor == SensorKind::kStereo,
-            {}},
+      view_{{}, {}, setup.camera.left, setup.T_base_camera, setup.sensor == SensorKind::kStereo},
       tracker_(params.target, params.tracker, gateOf(params), looksOf(model)) {
   for (const AppearanceBand& band : bands_) {
     height_crops_.emplace_back(HeightCropParams{band.body.min_height_m, band.body.max_height_m});
@@ -284,36 +283,42 @@ void Perception::addLegs(const LaserBodies& legs) {
   }
 }
 
-// Whom only the laser found is looked at, too: other clothes than the target's say who it is not.
-void Perception::describeBodies(const Frame& frame, const FloorPose& robot) {
-  if (looks_.size() < step_.observations.size()) looks_.resize(step_.observations.size());
-  const std::size_t blobs = step_.blob_of_observation.size();
-  const FloorPose T_base_world = robot.inverse();
+// Depth of all colours, where bodies are: whatever stands in front of them is not theirs.
+void Perception::measureBodies(const Frame& frame) {
   view_.image_bgr = frame.image_bgr;
   view_.depth_m = depth_m_;
-  view_.people.clear();
-  for (const Track& track : tracks()) {
-    const Evidence who = identity().probabilities(track.id);
-    const bool is_somebody = who.sum() - who[kThing] > 0.5;
-    if (is_somebody) view_.people.push_back(T_base_world * track.motion.position_m());
+  if (sensor_ != SensorKind::kStereo || bodies_.empty()) return;
+  boards_.create(frame.image_bgr.size(), CV_8UC1);
+  boards_.setTo(0);
+  for (const WorldBlob& body : bodies_) boards_(describer_.boardOf(view_, body)).setTo(255);
+  matcher_.match(frame.image_bgr, frame.right_bgr, boards_, disparity_);
+  disparityToDepth(disparity_, camera_, body_depth_m_);
+  depth_m_.copyTo(body_depth_m_, step_.mask);
+  view_.depth_m = body_depth_m_;
+}
+
+// Whom only the laser found is looked at, too: other clothes than the target's say who it is not.
+void Perception::describeBodies(const Frame& frame, const FloorPose& robot) {
+  const FloorPose T_base_world = robot.inverse();
+  bodies_.clear();
+  for (const int blob : step_.blob_of_observation) {
+    bodies_.push_back(step_.blobs[static_cast<std::size_t>(blob)]);
   }
-  for (std::size_t k = 0; k < step_.observations.size(); ++k) {
-    Observation& seen = step_.observations[k];
-    WorldBlob body;
-    if (k < blobs) {
-      body = step_.blobs[static_cast<std::size_t>(step_.blob_of_observation[k])];
+  for (std::size_t k = bodies_.size(); k < step_.observations.size(); ++k) {
+    bodies_.emplace_back().position_m = T_base_world * step_.observations[k].position_m;
+  }
+  measureBodies(frame);
+  if (looks_.size() < bodies_.size()) looks_.resize(bodies_.size());
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    if (frame.image_bgr.empty()) {
+      describer_.describe(*step_.cloud, bodies_[k].position_m, looks_[k]);
     } else {
-      body.position_m = T_base_world * seen.position_m;
+      describer_.describe(view_, bodies_[k], looks_[k]);
     }
-    describe(body, frame, looks_[k]);
+    Observation& seen = step_.observations[k];
     if (looks_[k].colors.sum() > 0.0F) seen.look = &looks_[k].colors;
     seen.stature_m = looks_[k].stature_m;
   }
-}
-
-void Perception::describe(const WorldBlob& blob, const Frame& frame, BodyDescription& out) {
-  if (frame.image_bgr.empty()) return describer_.describe(*step_.cloud, blob.position_m, out);
-  describer_.describe(view_, blob, out);
 }
 
 // A disparity's error is the same everywhere, so depth's grows with the square of the distance.

@@ -118,9 +118,9 @@ class Perception {
   void keepStanding();
   void findCandidates(const Frame& frame, const FloorPose& robot);
   void addLegs(const LaserBodies& legs);
+  void measureBodies(const Frame& frame);
   void describeBodies(const Frame& frame, const FloorPose& robot);
   void track(const RobotPlace& robot, const LaserBodies* legs, bool has_image);
-  void describe(const WorldBlob& blob, const Frame& frame, BodyDescription& out);
   Eigen::Matrix2d depthCovariance(const Eigen::Vector2d& position_m) const;
   const char* whyNotSeen() const;
 
@@ -144,6 +144,8 @@ class Perception {
   WorldBlobFinder finder_;
   BodyDescriber describer_;
   BodyView view_;                       // of the frame at hand
+  std::vector<WorldBlob> bodies_;       // of the observations, in the base frame
+  cv::Mat boards_, body_depth_m_;       // where they are in the image, and depth there, too
   std::vector<BodyDescription> looks_;  // of the observations
   // Of what the camera and the laser saw: what may be one person, the nearest first.
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs_;
