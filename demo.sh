@@ -23,6 +23,9 @@ echo "== A simulated room: who is Anna, and where does she go?"
 "$heel" track out/wardrobe --model out/anna.yaml --out out/anna_in_wardrobe
 "$heel" evaluate out/anna_in_wardrobe/tracks.csv out/wardrobe/truth.csv
 
+echo
+echo "for 'heel' as a command: export PATH=$PWD/build/release/apps/heel:\$PATH"
+
 if [ ! -d "$data/six_people" ]; then
   cat <<EOT
 

@@ -143,9 +143,11 @@ class Perception {
   PlanView plan_view_;
   WorldBlobFinder finder_;
   BodyDescriber describer_;
-  BodyView view_;                       // of the frame at hand
-  std::vector<WorldBlob> bodies_;       // of the observations, in the base frame
-  cv::Mat boards_, body_depth_m_;       // where they are in the image, and depth there, too
+  BodyView view_;                  // of the frame at hand
+  std::vector<WorldBlob> bodies_;  // of the observations, in the base frame
+  StereoMatcher body_matcher_;
+  cv::Mat boards_, body_depth_m_;  // where they are in the image, and depth there, too
+  cv::Mat small_left_, small_right_, small_boards_, small_disparity_;
   std::vector<BodyDescription> looks_;  // of the observations
   // Of what the camera and the laser saw: what may be one person, the nearest first.
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs_;
