@@ -30,8 +30,8 @@ void setMemoryLimit(std::size_t bytes);
 /// @throws std::runtime_error  one sentence that begins with `what`, if it is not.
 void checkMemory(const std::string& what, std::size_t bytes, std::size_t file_bytes = 0);
 
-/// A pipe would be waited for, and a device may never end.
-/// @throws std::runtime_error  if there is something of this name that is no file with an end.
+/// Refuses pipes, sockets and devices: a pipe would be waited for, and a device may never end.
+/// @throws std::runtime_error  if `file` is one of these.
 void checkIsFile(const std::filesystem::path& file);
 
 /// All bytes of a file.

@@ -15,7 +15,7 @@ namespace heel {
 
 enum class Occupancy : std::uint8_t { kFree, kOccupied, kUnknown };
 
-/// Whether cells may have an edge of this length: finer or coarser, no floor can be worked on.
+/// Whether cells of a floor may have an edge of this length.
 constexpr bool isCellSize(double cell_size_m) {
   return cell_size_m >= 1e-4 && cell_size_m <= 100.0;  // not NaN
 }
@@ -65,7 +65,7 @@ class OccupancyGrid {
   /// What is at a point; unknown outside the grid.
   Occupancy at(const Eigen::Vector2d& point) const;
 
-  /// Whether a part of an occupied cell is no further from a point than this. Looks at every cell
+  /// Whether a part of an occupied cell is no further from a point than `radius_m`. Looks at every cell
   /// around it: for radii of a few cells.
   bool isOccupiedWithin(const Eigen::Vector2d& point, double radius_m) const;
 

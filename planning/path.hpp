@@ -48,7 +48,7 @@ class PathAhead {
   /// Whether the stretch goes on to the path's own end.
   bool endsAtGoal() const { return ends_at_goal_; }
   Place locate(const Eigen::Vector2d& point) const;
-  /// As `locate`, but looks only onward from `from` until the distance grows.
+  /// Index of the nearest sample from `from` on, as far as the distance does not grow.
   std::size_t advance(const Eigen::Vector2d& point, std::size_t from) const;
   double direction(std::size_t index) const;
 

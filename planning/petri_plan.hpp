@@ -66,6 +66,7 @@ struct PetriNet {
   std::vector<PetriTransition> transitions;
 };
 
+/// The tokens at the start.
 Marking initialMarking(const PetriNet& net);
 
 /// Whether `marking` has all the tokens that the transition takes.

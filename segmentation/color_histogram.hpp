@@ -81,8 +81,8 @@ struct ColorClusters {
 /// @throws std::invalid_argument  if `count` is not positive or `colors` is empty.
 ColorClusters clusterColors(const ColorHistogram& colors, int count);
 
-/// The greatest number of groups, up to `max_count`, of which each took away at least the share
-/// `min_spread_drop` of the spread that was left before it.
+/// As clusterColors(), with the greatest number of groups, up to `max_count`, of which each took
+/// away at least the share `min_spread_drop` of the spread that was left before it.
 ColorClusters clusterColorsFromData(const ColorHistogram& colors, int max_count,
                                     double min_spread_drop);
 

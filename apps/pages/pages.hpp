@@ -27,7 +27,7 @@ struct FollowPageParams {
   std::size_t most_moments = 1500;  ///< That can be pointed at; the run's others are passed over.
 };
 
-/// How an outcome is to be taken, and a sentence's end for it.
+/// Whether an outcome ("reached", "failed", ...) is good, bad or neither.
 Tone toneOf(const std::string& outcome);
 
 /// The whole page, well-formed as XML too. It has no address of anything outside of it but the
