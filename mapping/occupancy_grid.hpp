@@ -65,8 +65,8 @@ class OccupancyGrid {
   /// What is at a point; unknown outside the grid.
   Occupancy at(const Eigen::Vector2d& point) const;
 
-  /// Whether a part of an occupied cell is no further from a point than `radius_m`. Looks at every cell
-  /// around it: for radii of a few cells.
+  /// Whether a part of an occupied cell is no further from a point than `radius_m`. Looks at every
+  /// cell around it: for radii of a few cells.
   bool isOccupiedWithin(const Eigen::Vector2d& point, double radius_m) const;
 
   const std::vector<Occupancy>& cells() const { return cells_; }
