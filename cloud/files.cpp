@@ -16,6 +16,8 @@
 
 namespace heel {
 
+namespace fs = std::filesystem;
+
 namespace {
 
 constexpr std::size_t kMiB = std::size_t{1} << 20U;
@@ -24,6 +26,18 @@ constexpr std::size_t kTimesTheFile = 64;
 
 std::string inMiB(std::size_t bytes) {
   return std::to_string(bytes / kMiB + (bytes % kMiB > 0 ? 1 : 0)) + " MiB";
+}
+
+std::error_code lastError() { return {errno, std::generic_category()}; }
+
+/// @return What went wrong, if anything.
+std::error_code writeBytes(const fs::path& file, std::string_view bytes) {
+  std::FILE* out = std::fopen(file.c_str(), "wb");
+  if (out == nullptr) return lastError();
+  std::error_code error;
+  if (std::fwrite(bytes.data(), 1, bytes.size(), out) != bytes.size()) error = lastError();
+  if (std::fclose(out) != 0 && !error) error = lastError();
+  return error;
 }
 
 }  // namespace
@@ -68,24 +82,6 @@ void checkIsFile(const std::filesystem::path& file) {
     throw std::runtime_error(file.string() + ": it is a pipe or a device, not a file");
   }
 }
-
-namespace {
-
-namespace fs = std::filesystem;
-
-std::error_code lastError() { return {errno, std::generic_category()}; }
-
-/// @return What went wrong, if anything.
-std::error_code writeBytes(const fs::path& file, std::string_view bytes) {
-  std::FILE* out = std::fopen(file.c_str(), "wb");
-  if (out == nullptr) return lastError();
-  std::error_code error;
-  if (std::fwrite(bytes.data(), 1, bytes.size(), out) != bytes.size()) error = lastError();
-  if (std::fclose(out) != 0 && !error) error = lastError();
-  return error;
-}
-
-}  // namespace
 
 std::string readWholeFile(const fs::path& file) {
   const auto fail = [&](const std::string& why) {

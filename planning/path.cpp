@@ -10,6 +10,12 @@
 
 namespace heel {
 
+using Eigen::Vector2d;
+
+constexpr double kThere_m = 0.05;
+/// Not worth a turn on the spot.
+constexpr double kStraightAhead_rad = 0.05;
+
 double pathLength(const FloorPath& path) {
   double length = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) length += (path[i] - path[i - 1]).norm();
@@ -34,12 +40,6 @@ FloorPath resample(const FloorPath& path, double step_m) {
   resample(path, step_m, out);
   return out;
 }
-
-using Eigen::Vector2d;
-
-constexpr double kThere_m = 0.05;
-/// Not worth a turn on the spot.
-constexpr double kStraightAhead_rad = 0.05;
 
 void PathAhead::take(const std::vector<Vector2d>& path, const Vector2d& position, double reach_m) {
   points_.clear();

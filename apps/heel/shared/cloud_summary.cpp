@@ -13,6 +13,8 @@
 
 namespace heel {
 
+namespace fs = std::filesystem;
+
 namespace {
 
 std::vector<std::string> columnsWith(const std::vector<std::string>& own) {
@@ -90,8 +92,6 @@ std::string toText(const CloudFacts& facts) {
          ", fields " + facts.fields + "; " + std::to_string(facts.points()) + " points, " +
          fixedText(100.0 * (1.0 - share), 1) + " % of them NaN";
 }
-
-namespace fs = std::filesystem;
 
 void addCloudBatch(CLI::App& verb, CloudBatch& batch, const std::string& inputs) {
   verb.add_option("IN", batch.names, inputs)->required();
