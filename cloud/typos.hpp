@@ -29,4 +29,18 @@ inline std::size_t typosBetween(const std::string& a, const std::string& b) {
   return typos[a.size()][b.size()];
 }
 
+/// "; did you mean --model?", if a name is near enough to what was written: a third of its letters
+/// may be wrong. Otherwise nothing.
+inline std::string didYouMean(const std::string& written, const std::vector<std::string>& names) {
+  const std::string* best = nullptr;
+  std::size_t least = written.size() / 3 + 1;
+  for (const std::string& name : names) {
+    const std::size_t typos = typosBetween(written, name);
+    if (typos >= least) continue;
+    best = &name;
+    least = typos;
+  }
+  return best == nullptr ? std::string() : "; did you mean " + *best + "?";
+}
+
 }  // namespace heel

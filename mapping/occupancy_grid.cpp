@@ -25,8 +25,13 @@ void OccupancyGrid::setOrigin(const Eigen::Vector2d& origin_m) {
 }
 
 GridCell OccupancyGrid::cellAt(const Eigen::Vector2d& point) const {
+  // What is no number, or too far away for an int, is outside.
+  constexpr double kFar = 1e9;
+  const auto index = [](double cells) {
+    return static_cast<int>(std::floor(std::fmax(-kFar, std::fmin(kFar, cells))));
+  };
   const Eigen::Vector2d cell = (point - origin_m_) / cell_size_m_;
-  return {static_cast<int>(std::floor(cell.x())), static_cast<int>(std::floor(cell.y()))};
+  return {index(cell.x()), index(cell.y())};
 }
 
 Occupancy OccupancyGrid::at(const Eigen::Vector2d& point) const {

@@ -140,36 +140,17 @@ void BodyDescriber::finish(BodyDescription& out) {
   out.stature_m = heights_.height_m();
 }
 
-// Who stands nearer to the camera by more than a body's radius.
-void BodyDescriber::findInFront(const BodyView& view, const Eigen::Vector2d& position_m) {
-  in_front_.clear();
-  const Eigen::Vector2d eye = view.T_base_camera.translation().head<2>();
-  const double away_m = (position_m - eye).norm();
-  for (const Eigen::Vector2d& person : view.people) {
-    const Eigen::Vector2d at = person - eye;
-    if (at.norm() + params_.radius_m < away_m) in_front_.emplace_back(at.cast<float>());
-  }
-}
-
-bool BodyDescriber::isHidden(const Eigen::Vector2f& ray) const {
-  const auto reach2 = static_cast<float>(params_.radius_m * params_.radius_m) * ray.squaredNorm();
-  return std::any_of(in_front_.begin(), in_front_.end(), [&](const Eigen::Vector2f& at) {
-    const float aside = ray.x() * at.y() - ray.y() * at.x();
-    return ray.dot(at) > 0.0F && aside * aside < reach2;
-  });
+cv::Rect BodyDescriber::boardOf(const BodyView& view, const WorldBlob& blob) const {
+  return boardIn(view, blob.position_m, params_.board_half_width_m,
+                 static_cast<double>(kEnds_m.front()), std::max(blob.max_height_m, 1.6));
 }
 
 void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDescription& out) {
   begin(out);
-  findInFront(view, blob.position_m);
   const auto top_m = static_cast<double>(kEnds_m.back());
   const cv::Rect body =
       boardIn(view, blob.position_m, params_.radius_m, static_cast<double>(kEnds_m.front()), top_m);
-  const cv::Rect board =
-      view.depth_is_masked
-          ? boardIn(view, blob.position_m, params_.board_half_width_m,
-                    static_cast<double>(kEnds_m.front()), std::max(blob.max_height_m, 1.6))
-          : cv::Rect();
+  const cv::Rect board = view.is_stereo ? boardOf(view, blob) : cv::Rect();
   const int step =
       std::max(1, static_cast<int>(std::sqrt(body.area() / (kStripes * params_.stripe_pixels))));
   const Eigen::Matrix3f R = view.T_base_camera.linear().cast<float>();
@@ -193,11 +174,11 @@ void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDe
         const Eigen::Vector3f p = eye + depth[u] * ray;
         if ((p.head<2>() - place).squaredNorm() > radius2) continue;
         height_m = p.z();
-        // Where only some colours have a depth, a head of others is not seen.
-        if (!view.depth_is_masked) heights_.add(static_cast<double>(height_m), v);
+        // Where stereo has found no depth, a head may be.
+        if (!view.is_stereo) heights_.add(static_cast<double>(height_m), v);
       } else if (board.contains(cv::Point(u, v))) {
         const float along = ray.head<2>().dot(towards);
-        if (along <= 0.0F || isHidden(ray.head<2>())) continue;
+        if (along <= 0.0F) continue;
         height_m = eye.z() + towards.squaredNorm() / along * ray.z();
       } else {
         continue;

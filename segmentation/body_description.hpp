@@ -26,11 +26,9 @@ struct BodyView {
   cv::Mat depth_m;    ///< CV_32FC1 of the same size, NaN or <= 0 where there is none.
   PinholeCamera camera;
   Eigen::Isometry3d T_base_camera;
-  /// Depth is known only where the colour filter passed. Pixels without one are then taken from an
-  /// upright board about the place, so that what has other colours is seen, too.
-  bool depth_is_masked = false;
-  /// Places of people, in the base frame: what they hide of such a board is not counted [m].
-  std::vector<Eigen::Vector2d> people;
+  /// Depth is of stereo, which finds none on much of plain clothes. Pixels without one are then
+  /// taken from an upright board about the place: see BodyDescriber::boardOf().
+  bool is_stereo = false;
 };
 
 /// One look at a body, or the mean of many.
@@ -44,7 +42,7 @@ struct BodyDescription {
 /// How the colours of a body are counted, stripe by stripe of its height.
 struct BodyDescriberParams {
   double radius_m = 0.25;  ///< Radius of the upright cylinder that holds the body.
-  /// Half the width of the board of BodyView::depth_is_masked: that of a trunk.
+  /// Half the width of the board of BodyView::is_stereo: that of a trunk.
   double board_half_width_m = 0.12;
   int stripe_pixels = 200;     ///< About so many pixels of a stripe are looked at.
   int min_stripe_pixels = 20;  ///< A stripe with fewer pixels than this counts as not seen.
@@ -69,6 +67,10 @@ class BodyDescriber {
   /// Describes the body at a blob's place (in the base frame). `out` is overwritten.
   void describe(const BodyView& view, const WorldBlob& blob, BodyDescription& out);
 
+  /// Where the board of a body lies in the image: pixels without depth count there, so depth should
+  /// be looked for in all of it. What has a depth in front of the body hides it.
+  cv::Rect boardOf(const BodyView& view, const WorldBlob& blob) const;
+
   /// The same over the points of a cloud in the base frame: of those named, if any are.
   void describe(const ColorCloud& cloud, const Eigen::Vector2d& position_m, BodyDescription& out,
                 const pcl::Indices* indices = nullptr);
@@ -91,14 +93,11 @@ class BodyDescriber {
 
  private:
   void begin(BodyDescription& out);
-  void findInFront(const BodyView& view, const Eigen::Vector2d& position_m);
-  bool isHidden(const Eigen::Vector2f& ray) const;
   void add(int stripe, std::uint8_t b, std::uint8_t g, std::uint8_t r, BodyDescription& out);
   void finish(BodyDescription& out);
 
   BodyDescriberParams params_;
-  std::vector<int> seen_;                  // pixels a stripe
-  std::vector<Eigen::Vector2f> in_front_;  // from the camera: people who may hide the body
+  std::vector<int> seen_;  // pixels a stripe
   StatureSample heights_;
   Eigen::ArrayXf smoothed_;
 };

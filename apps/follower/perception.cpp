@@ -8,6 +8,7 @@
 #include <heel/segmentation/image_filter.hpp>
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <pcl/common/transforms.h>
 
 #include <algorithm>
@@ -19,6 +20,7 @@ namespace heel {
 namespace {
 
 constexpr double kBody_m = 0.4;       // Legs this near to a place may be of somebody there.
+constexpr int kBodyImageWidth = 320;  // Depth of bodies is looked for in pictures of this width.
 constexpr double kBeside_m = 0.45;    // So far from the middle of somebody nothing is theirs.
 constexpr double kMissedLegs = 0.05;  // Of people in its view, the laser misses as many.
 
@@ -103,8 +105,8 @@ Perception::Perception(const CameraSetup& setup, const AppearanceModel& model,
                                                                : PlanViewCamera().focal_length_px}),
       finder_(params.blobs),
       describer_(params.body),
-      view_{{}, {}, setup.camera.left, setup.T_base_camera, setup.sensor == SensorKind::kStereo,
-            {}},
+      view_{{}, {}, setup.camera.left, setup.T_base_camera, setup.sensor == SensorKind::kStereo},
+      body_matcher_(params.stereo),
       tracker_(params.target, params.tracker, gateOf(params), looksOf(model)) {
   for (const AppearanceBand& band : bands_) {
     height_crops_.emplace_back(HeightCropParams{band.body.min_height_m, band.body.max_height_m});
@@ -284,36 +286,51 @@ void Perception::addLegs(const LaserBodies& legs) {
   }
 }
 
-// Whom only the laser found is looked at, too: other clothes than the target's say who it is not.
-void Perception::describeBodies(const Frame& frame, const FloorPose& robot) {
-  if (looks_.size() < step_.observations.size()) looks_.resize(step_.observations.size());
-  const std::size_t blobs = step_.blob_of_observation.size();
-  const FloorPose T_base_world = robot.inverse();
+// Depth of all colours, where bodies are: whatever stands in front of them is not theirs. That
+// needs no fine picture.
+void Perception::measureBodies(const Frame& frame) {
   view_.image_bgr = frame.image_bgr;
   view_.depth_m = depth_m_;
-  view_.people.clear();
-  for (const Track& track : tracks()) {
-    const Evidence who = identity().probabilities(track.id);
-    const bool is_somebody = who.sum() - who[kThing] > 0.5;
-    if (is_somebody) view_.people.push_back(T_base_world * track.motion.position_m());
+  if (sensor_ != SensorKind::kStereo || bodies_.empty()) return;
+  boards_.create(frame.image_bgr.size(), CV_8UC1);
+  boards_.setTo(0);
+  for (const WorldBlob& body : bodies_) boards_(describer_.boardOf(view_, body)).setTo(255);
+  const cv::Size whole = frame.image_bgr.size();
+  const int scale = std::max(1, whole.width / kBodyImageWidth);
+  const cv::Size small(whole.width / scale, whole.height / scale);
+  cv::resize(frame.image_bgr, small_left_, small, 0.0, 0.0, cv::INTER_AREA);
+  cv::resize(frame.right_bgr, small_right_, small, 0.0, 0.0, cv::INTER_AREA);
+  cv::resize(boards_, small_boards_, small, 0.0, 0.0, cv::INTER_NEAREST);
+  body_matcher_.match(small_left_, small_right_, small_boards_, small_disparity_);
+  cv::resize(small_disparity_, disparity_, whole, 0.0, 0.0, cv::INTER_NEAREST);
+  disparity_ *= scale;
+  disparityToDepth(disparity_, camera_, body_depth_m_);
+  depth_m_.copyTo(body_depth_m_, step_.mask);
+  view_.depth_m = body_depth_m_;
+}
+
+// Whom only the laser found is looked at, too: other clothes than the target's say who it is not.
+void Perception::describeBodies(const Frame& frame, const FloorPose& robot) {
+  const FloorPose T_base_world = robot.inverse();
+  bodies_.clear();
+  for (const int blob : step_.blob_of_observation) {
+    bodies_.push_back(step_.blobs[static_cast<std::size_t>(blob)]);
   }
-  for (std::size_t k = 0; k < step_.observations.size(); ++k) {
-    Observation& seen = step_.observations[k];
-    WorldBlob body;
-    if (k < blobs) {
-      body = step_.blobs[static_cast<std::size_t>(step_.blob_of_observation[k])];
+  for (std::size_t k = bodies_.size(); k < step_.observations.size(); ++k) {
+    bodies_.emplace_back().position_m = T_base_world * step_.observations[k].position_m;
+  }
+  measureBodies(frame);
+  if (looks_.size() < bodies_.size()) looks_.resize(bodies_.size());
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    if (frame.image_bgr.empty()) {
+      describer_.describe(*step_.cloud, bodies_[k].position_m, looks_[k]);
     } else {
-      body.position_m = T_base_world * seen.position_m;
+      describer_.describe(view_, bodies_[k], looks_[k]);
     }
-    describe(body, frame, looks_[k]);
+    Observation& seen = step_.observations[k];
     if (looks_[k].colors.sum() > 0.0F) seen.look = &looks_[k].colors;
     seen.stature_m = looks_[k].stature_m;
   }
-}
-
-void Perception::describe(const WorldBlob& blob, const Frame& frame, BodyDescription& out) {
-  if (frame.image_bgr.empty()) return describer_.describe(*step_.cloud, blob.position_m, out);
-  describer_.describe(view_, blob, out);
 }
 
 // A disparity's error is the same everywhere, so depth's grows with the square of the distance.

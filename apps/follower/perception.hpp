@@ -118,9 +118,9 @@ class Perception {
   void keepStanding();
   void findCandidates(const Frame& frame, const FloorPose& robot);
   void addLegs(const LaserBodies& legs);
+  void measureBodies(const Frame& frame);
   void describeBodies(const Frame& frame, const FloorPose& robot);
   void track(const RobotPlace& robot, const LaserBodies* legs, bool has_image);
-  void describe(const WorldBlob& blob, const Frame& frame, BodyDescription& out);
   Eigen::Matrix2d depthCovariance(const Eigen::Vector2d& position_m) const;
   const char* whyNotSeen() const;
 
@@ -143,7 +143,11 @@ class Perception {
   PlanView plan_view_;
   WorldBlobFinder finder_;
   BodyDescriber describer_;
-  BodyView view_;                       // of the frame at hand
+  BodyView view_;                  // of the frame at hand
+  std::vector<WorldBlob> bodies_;  // of the observations, in the base frame
+  StereoMatcher body_matcher_;
+  cv::Mat boards_, body_depth_m_;  // where they are in the image, and depth there, too
+  cv::Mat small_left_, small_right_, small_boards_, small_disparity_;
   std::vector<BodyDescription> looks_;  // of the observations
   // Of what the camera and the laser saw: what may be one person, the nearest first.
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs_;

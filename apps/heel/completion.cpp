@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <set>
 #include <string>
@@ -41,16 +40,6 @@ struct Call {
   std::vector<Call> verbs;
 };
 
-/// Names of what comes with Heel.
-Words stemsIn(const std::filesystem::path& folder) {
-  Words stems;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.is_regular_file()) stems.push_back(entry.path().stem().string());
-  }
-  std::sort(stems.begin(), stems.end());
-  return stems;
-}
-
 Offer offerOf(const CLI::Option& option) {
   Offer offer;
   for (const std::string& name : option.get_lnames()) offer.names.push_back("--" + name);
@@ -59,16 +48,21 @@ Offer offerOf(const CLI::Option& option) {
   offer.does = option.get_description();
   offer.takes_value = option.get_items_expected_max() > 0;
   offer.may_repeat = option.get_expected_max() > 1;
-  // CLI11 writes the set that a value must be of as "TEXT:{fixed,drawn}".
+  // CLI11 writes the set that a value must be of as "TEXT:{fixed,drawn}", or with what it
+  // stands for as "{all->2}".
   const std::string type = option.get_type_name();
   const auto begin = type.find('{'), end = type.find('}');
   if (begin != std::string::npos && end != std::string::npos) {
     offer.values = CLI::detail::split(type.substr(begin + 1, end - begin - 1), ',');
+    for (std::string& value : offer.values) value.resize(std::min(value.find("->"), value.size()));
     offer.takes_file = false;
   }
   static const std::set<std::string> of_scenes = {"SCENE", "MAP", "SOURCE", "--map"};
-  if (of_scenes.count(offer.names.front()) > 0) offer.values = stemsIn(sceneFolder());
-  if (offer.names.front() == "--plan") offer.values = stemsIn(planFolder());
+  if (of_scenes.count(offer.names.front()) > 0) offer.values = namesIn(sceneFolder());
+  static const std::set<std::string> of_robots = {"ROBOT", "--config"};
+  if (of_robots.count(offer.names.front()) > 0) offer.values = namesIn(robotFolder());
+  if (offer.names.front() == "--plan") offer.values = namesIn(planFolder());
+  if (offer.names.front() == "--drive") offer.values = {"roam"};
   return offer;
 }
 

@@ -18,6 +18,7 @@
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <iterator>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -42,21 +43,6 @@ std::vector<std::string> optionsOf(const CLI::App& app) {
   return names;
 }
 
-/// "; did you mean --model?", if a name is near enough to what was written: a third of its letters
-/// may be wrong.
-std::string nearest(const std::string& written, const std::vector<std::string>& names,
-                    const std::string& quote) {
-  const std::string* best = nullptr;
-  std::size_t least = written.size() / 3 + 1;
-  for (const std::string& name : names) {
-    const std::size_t typos = heel::typosBetween(written, name);
-    if (typos >= least) continue;
-    best = &name;
-    least = typos;
-  }
-  return best == nullptr ? std::string() : "; did you mean " + quote + *best + quote + "?";
-}
-
 /// What was wrong with the call, in one sentence, and where to read more.
 std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App* called = &app;
@@ -74,10 +60,10 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   if (unknown != others.end()) {
     // Rather than that another is missing.
     const std::string written = unknown->substr(0, unknown->find('='));
-    what = "there is no option " + written + nearest(written, optionsOf(*called), "");
+    what = "there is no option " + written + heel::didYouMean(written, optionsOf(*called));
   } else if (!verbs.empty() && error.get_name() == "RequiredError") {
     what = others.empty() ? "name a verb" : "there is no verb '" + others.front() + "'";
-    const std::string meant = others.empty() ? "" : nearest(others.front(), verbs, "'");
+    const std::string meant = others.empty() ? "" : heel::didYouMean(others.front(), verbs);
     what += meant.empty() ? "; there are " + CLI::detail::join(verbs, ", ") : meant;
   }
   return what + " ('" + name + " --help' tells more)";
@@ -169,8 +155,14 @@ int main(int argc, char** argv) {
   heel::addConfig(app);
   heel::completeVerbs(app);
   heel::addCompletion(app);
+  std::vector<std::string> words(std::make_reverse_iterator(argv + argc),
+                                 std::make_reverse_iterator(argv + std::min(argc, 1)));
+  if (words.size() > 1 && words.back() == "help") {  // 'heel help track' is 'heel track --help'
+    words.pop_back();
+    words.insert(words.begin(), "--help");
+  }
   try {
-    app.parse(argc, argv);
+    app.parse(std::move(words));
   } catch (...) {
     return failFor(app);
   }

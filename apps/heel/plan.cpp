@@ -141,8 +141,9 @@ void run(const PlanOptions& options) {
   }
   if (output) std::printf("wrote %s\n", options.out.c_str());
   if (!plan.found()) {
-    throw NothingFound(std::string("no path: ") + nameOf(plan.status) +
-                       whyNone(map, plan.status, options));
+    std::string status = nameOf(plan.status);
+    std::replace(status.begin(), status.end(), '_', ' ');
+    throw NothingFound("no path: " + status + whyNone(map, plan.status, options));
   }
 }
 

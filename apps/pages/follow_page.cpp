@@ -52,9 +52,10 @@ std::string tiles(const FollowLog& log, const FollowSummary& sum) {
   const auto share = [](double value) { return shownNumber(100.0 * value, 1, "%"); };
   const double yaw_deg = sum.yaw_rms_rad * 180.0 / M_PI;
   return tile("Distance", shownNumber(sum.distance_m, 2, "m"),
-              "in " + shownNumber(sum.elapsed_s, 1, "s")) +
-         tile("Speed when not seeking", shownNumber(sum.moving_speed_mps, 3, "m/s"),
-              shownNumber(sum.driving_speed_mps, 3, "m/s") + " while driving") +
+              "in " + shownNumber(sum.elapsed_s, 1, "s") + ", after " +
+                  shownNumber(sum.learn_s, 0, "s") + " of learning") +
+         tile("Speed while driving", shownNumber(sum.driving_speed_mps, 3, "m/s"),
+              shownNumber(sum.moving_speed_mps, 3, "m/s") + " over all time not seeking") +
          tile("Time seeking", share(sum.seekShare()),
               shownNumber(sum.seek_s, 1, "s") + "; the paper: 57 to 62\u00a0%") +
          (!log.hasTruth()

@@ -76,7 +76,7 @@ TEST(Call, WithoutAVerbNamesTheVerbs) {
 
 TEST(Call, OfAnUnknownVerbNamesItAndTheVerbs) {
   EXPECT_TRUE(failsWith(heel({"dance"}), {"'dance'", "learn, track, filter", "'heel --help'"}));
-  EXPECT_TRUE(failsWith(heel({"lern"}), {"'lern'; did you mean 'learn'?"}));
+  EXPECT_TRUE(failsWith(heel({"lern"}), {"'lern'; did you mean learn?"}));
 }
 
 TEST(Call, WithAnUnknownOptionNamesIt) {
@@ -87,6 +87,26 @@ TEST(Call, WithAnUnknownOptionNamesIt) {
       << "not that --model is missing";
   EXPECT_TRUE(failsWith(heel({"track", "somewhere", "--modle=a.yaml"}), {"--modle; did you mean"}));
   EXPECT_THAT(heel({"learn", "somewhere", "--qqq", "1"}).err, Not(HasSubstr("did you mean")));
+}
+
+TEST(Call, OfHelpWithAVerbIsItsHelp) {
+  const HeelRun run = heel({"help", "track"});
+  ASSERT_TRUE(succeeds(run));
+  EXPECT_EQ(run.out, heel({"track", "--help"}).out);
+  EXPECT_THAT(heel({"help"}).out, HasSubstr("a mobile robot follows one person"));
+}
+
+TEST(Call, WithAnUnknownSceneOrRobotNamesTheNearest) {
+  EXPECT_TRUE(failsWith(heel({"follow", "hom", "--out", "out"}), {"no such scene", "mean home?"}));
+  EXPECT_TRUE(failsWith(heel({"config", "turtelbot4"}), {"no such robot", "mean turtlebot4?"}));
+  EXPECT_TRUE(failsWith(heel({"config", "xyz"}), {"no such robot", "there are ", "turtlebot4"}));
+}
+
+TEST(Call, WithWordsForNumbersSaysSo) {
+  for (const char* word : {"abc", "-1", "0"}) {
+    EXPECT_TRUE(failsWith(heel({"inspect", "bag", "--to", word}),
+                          {"--to: '" + std::string(word) + "' is not a number above 0"}));
+  }
 }
 
 TEST(Call, WithoutOutWritesNothing) {

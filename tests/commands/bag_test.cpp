@@ -66,13 +66,13 @@ TEST_F(Bags, OfASimulationGiveTheTracksOfItsFolderByteForByte) {
   simulate("hall", "hall.bag");
   simulate("again", "hall_ros2");
   simulate("once_more", "hall.mcap");
-  ASSERT_TRUE(findsNothing(track("hall", "out")));
+  ASSERT_TRUE(endsWell(track("hall", "out")));
   const std::string tracks = readText(folder_ / "out/tracks.csv");
   EXPECT_GT(std::count(tracks.begin(), tracks.end(), '\n'), 10) << "somebody was tracked";
   for (const std::string bag :
        {"hall.bag", "hall_ros2", "hall_ros2/hall_ros2_0.db3", "hall.mcap"}) {
     const HeelRun run = track(bag, "bag_out");
-    ASSERT_TRUE(findsNothing(run));
+    ASSERT_TRUE(endsWell(run));
     EXPECT_THAT(run.warnings(), ElementsAre());
     for (const char* table : {"tracks.csv", "frames.csv"}) {
       EXPECT_TRUE(readText(folder_ / "bag_out" / table) == readText(folder_ / "out" / table))
@@ -85,7 +85,7 @@ TEST_F(Bags, AreReadFromAndToWhatIsAskedFor) {
   for (const std::string bag : {"hall.bag", "hall.db3", "hall.mcap"}) {
     simulate("for_" + bag, bag);
     const HeelRun run = track(bag, "out", {"--no-film", "--from", "0.75", "--to", "1.25"});
-    ASSERT_TRUE(findsNothing(run));
+    ASSERT_TRUE(endsWell(run));
     std::istringstream frames(readText(folder_ / "out/frames.csv"));
     std::vector<double> stamps_s;
     std::string line;
@@ -122,7 +122,7 @@ TEST_F(Bags, ThatWereCutOffAreTrackedAsFarAsTheyGo) {
   const auto bag = folder_ / "hall.bag";
   truncateBy(bag, std::filesystem::file_size(bag) / 3);
   const HeelRun run = track("hall.bag", "out");
-  ASSERT_TRUE(findsNothing(run));
+  ASSERT_TRUE(endsWell(run));
   EXPECT_THAT(run.warnings(), testing::Contains(HasSubstr("the bag is cut off at byte")));
   writeText(folder_ / "hall.bag", "");
   EXPECT_TRUE(failsWith(track("hall.bag", "out2"), {"hall.bag", "empty (0 bytes)"}));
@@ -132,7 +132,7 @@ TEST_F(Bags, OfResultsHoldWhatViewersShow) {
   simulate("hall", "hall.bag");
   for (const std::string bag : {"results.bag", "results.db3", "results.mcap"}) {
     const HeelRun run = track("hall.bag", "out", {"--bag", folder_ / bag});
-    ASSERT_TRUE(findsNothing(run));
+    ASSERT_TRUE(endsWell(run));
     EXPECT_THAT(run.out, HasSubstr(bag));
     const auto counts = countsOf(folder_ / bag);
     for (const char* topic : {"/heel/tracks", "/heel/markers", "/heel/image/compressed", "/tf"}) {
@@ -169,7 +169,7 @@ TEST_F(Bags, DoNotCostMemoryByTheirLength) {
       }
       bag.commit();
       const HeelRun run = track(name, "out");
-      EXPECT_TRUE(findsNothing(run));
+      EXPECT_TRUE(endsWell(run));
       return run.peak_kB;
     };
     const long short_kB = peakOf_kB(40);

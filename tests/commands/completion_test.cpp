@@ -69,6 +69,9 @@ TEST_F(Completion, OffersValuesScenesAndPlans) {
   EXPECT_THAT(offered({"heel", "follow", "--light", "=", "d"}), ElementsAre("drawn"));
   EXPECT_THAT(offered({"heel", "follow", "--plan", "s"}), ElementsAre("search"));
   EXPECT_THAT(offered({"heel", "simulate", "ho"}), ElementsAre("home"));
+  EXPECT_THAT(offered({"heel", "config", "turt"}), ElementsAre("turtlebot4"));
+  EXPECT_THAT(offered({"heel", "simulate", "--drive", "r"}), ElementsAre("roam"));
+  EXPECT_THAT(offered({"heel", "localize", "--map-scans", "a"}), ElementsAre("all"));
 }
 
 TEST_F(Completion, LeavesFilesToTheShell) {

@@ -46,6 +46,9 @@ testing::AssertionResult succeeds(const HeelRun& run);
 /// That it ended well, but found nothing: exit code 4, and one error line.
 testing::AssertionResult findsNothing(const HeelRun& run);
 
+/// That it ended well, whether it found anything or not.
+testing::AssertionResult endsWell(const HeelRun& run);
+
 /// That it failed as it should: no signal, no result on stdout, and one error line, which starts
 /// with "heel: " and has all of `parts` in it.
 testing::AssertionResult failsWith(const HeelRun& run, const std::vector<std::string>& parts);

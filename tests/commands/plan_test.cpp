@@ -91,10 +91,10 @@ TEST_F(Plan, PrintsTheWayPointsAndWritesNothingUnasked) {
 TEST_F(Plan, SaysWhyThereIsNoPath) {
   const HeelRun wide = plan(folder_ / "rooms.yaml", "5,0.6", {"--radius", "0.5"});
   ASSERT_TRUE(findsNothing(wide));
-  EXPECT_THAT(wide.err, HasSubstr("no path: goal_unreachable"));
+  EXPECT_THAT(wide.err, HasSubstr("no path: goal unreachable"));
   const HeelRun outside = plan(folder_ / "rooms.yaml", "50,0.6");
   ASSERT_TRUE(findsNothing(outside));
-  EXPECT_THAT(outside.err, HasSubstr("no path: goal_outside"));
+  EXPECT_THAT(outside.err, HasSubstr("no path: goal outside"));
 }
 
 TEST_F(Plan, TellsWhatTheMapHasWhereThereIsNoWay) {
@@ -115,10 +115,10 @@ TEST_F(Plan, TellsWhatTheMapHasWhereThereIsNoWay) {
     EXPECT_TRUE(findsNothing(run));
     return run.err;
   };
-  EXPECT_THAT(why("3,1", "5,1"), HasSubstr("start_blocked; the map knows nothing at --from"));
-  EXPECT_THAT(why("5,1", "3,1"), HasSubstr("goal_unreachable; the map knows nothing at --to"));
-  EXPECT_THAT(why("0.05,1", "5,1"), HasSubstr("start_blocked; something is at --from"));
-  EXPECT_THAT(why("5,1", "9,1"), HasSubstr("goal_outside; the map goes from 0.0,0.0 to 6.0,2.0"));
+  EXPECT_THAT(why("3,1", "5,1"), HasSubstr("start blocked; the map knows nothing at --from"));
+  EXPECT_THAT(why("5,1", "3,1"), HasSubstr("goal unreachable; the map knows nothing at --to"));
+  EXPECT_THAT(why("0.05,1", "5,1"), HasSubstr("start blocked; something is at --from"));
+  EXPECT_THAT(why("5,1", "9,1"), HasSubstr("goal outside; the map goes from 0.0,0.0 to 6.0,2.0"));
 }
 
 TEST_F(Plan, NamesWhatIsWrong) {

@@ -58,6 +58,9 @@ TEST(OccupancyGrid, HasNothingNearWhatIsNoPlace) {
   EXPECT_FALSE(grid.isOccupiedWithin({nan, 0.5}, 0.1));
   EXPECT_FALSE(grid.isOccupiedWithin({0.5, 1e300}, 0.1));
   EXPECT_FALSE(OccupancyGrid().isOccupiedWithin({0.5, 0.5}, 0.1));
+  for (const Eigen::Vector2d& nowhere : {Eigen::Vector2d(nan, 0.5), {0.5, 1e300}, {-1e300, 0.5}}) {
+    EXPECT_EQ(grid.at(nowhere), Occupancy::kUnknown) << nowhere.transpose();
+  }
 }
 
 TEST(OccupancyGrid, RefusesSizesThatAreNone) {

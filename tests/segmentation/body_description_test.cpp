@@ -77,25 +77,35 @@ TEST(BodyDescriber, SaysNothingOfWhatIsNotSeen) {
   EXPECT_NEAR(look.colors.col(4).sum(), 1.0F, 1e-4F);
 }
 
-TEST(BodyDescriber, SeesPixelsWithoutDepthOnTheBoardWhereDepthIsMasked) {
+TEST(BodyDescriber, SeesPixelsWithoutDepthOnTheBoardWhereDepthIsOfStereo) {
   Stage stage;
   stage.paint(0.1, 1.9, {40, 30, 180}, false);
   EXPECT_EQ(stage.describe().colors.sum(), 0.0F);
-  stage.view.depth_is_masked = true;
+  stage.view.is_stereo = true;
   EXPECT_NEAR(stage.describe().colors.col(4).sum(), 1.0F, 1e-4F);
 }
 
-TEST(BodyDescriber, CountsNothingThatSomebodyInFrontHides) {
+TEST(BodyDescriber, CountsNothingOnTheBoardThatStandsInFrontOrBehind) {
   Stage stage;
-  stage.view.depth_is_masked = true;
-  const auto seen = [&](const Eigen::Vector2d& person) {
-    stage.view.people = {person};
-    return stage.paint(0.1, 1.9, {40, 30, 180}, false).describe().colors.col(4).sum();
-  };
-  EXPECT_EQ(seen({1.0, 0.0}), 0.0F);
-  EXPECT_NEAR(seen({1.0, 0.5}), 1.0F, 1e-4F) << "beside it";
-  EXPECT_NEAR(seen({3.0, 0.0}), 1.0F, 1e-4F) << "behind it";
-  EXPECT_NEAR(seen({1.9, 0.1}), 1.0F, 1e-4F) << "itself";
+  stage.view.is_stereo = true;
+  stage.paint(0.1, 1.9, {40, 30, 180}, false);
+  for (const float depth_m : {1.0F, 3.0F}) {
+    stage.view.depth_m.setTo(depth_m);
+    EXPECT_EQ(stage.describe().colors.sum(), 0.0F) << depth_m;
+  }
+}
+
+TEST(BodyDescriber, HasItsBoardWhereTheBodyIsInTheImage) {
+  const Stage stage;
+  WorldBlob blob;
+  blob.position_m = {2.0, 0.0};
+  blob.max_height_m = 1.7;
+  const cv::Rect board = BodyDescriber().boardOf(stage.view, blob);
+  EXPECT_NEAR(board.x + 0.5 * board.width, 160.0, 1.0);
+  EXPECT_NEAR(board.width, 24.0, 2.0) << "0.24 m at 2 m";
+  EXPECT_NEAR(board.y, 119.5 - 70.0, 1.5);
+  blob.position_m = {-2.0, 0.0};
+  EXPECT_TRUE(BodyDescriber().boardOf(stage.view, blob).empty()) << "behind the camera";
 }
 
 TEST(BodyDescriber, DescribesTheNamedPointsOfACloudOnly) {

@@ -95,7 +95,14 @@ void print(const Evaluation& result) {
   }
 }
 
-void run(const EvaluateOptions& options) {
+/// A folder stands for the table in it.
+std::filesystem::path tableAt(const std::filesystem::path& path, const char* name) {
+  return std::filesystem::is_directory(path) ? path / name : path;
+}
+
+void run(EvaluateOptions options) {
+  options.tracks = tableAt(options.tracks, "tracks.csv");
+  options.truth = tableAt(options.truth, "truth.csv");
   const Evaluation result =
       evaluate(alignByStamp(readTracks(options.tracks), readTruth(options.truth)), options.params);
   print(result);
@@ -112,10 +119,11 @@ void addEvaluate(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("evaluate", "Compare tracks with where people really were");
   verb->footer(
       "Example:\n"
-      "  heel evaluate out/tracks.csv recording/truth.csv --target navy_jumper\n"
+      "  heel evaluate out/wardrobe recordings/wardrobe --target navy_jumper\n"
       "TRUTH is a table with the columns stamp_s,frame,person,x_m,y_m,exact.");
-  verb->add_option("TRACKS", options->tracks, "tracks.csv, as 'heel track' writes it")->required();
-  verb->add_option("TRUTH", options->truth, "truth.csv")->required();
+  verb->add_option("TRACKS", options->tracks, "tracks.csv of 'heel track', or its folder")
+      ->required();
+  verb->add_option("TRUTH", options->truth, "truth.csv, or the recording's folder")->required();
   verb->add_option("--target", options->params.target,
                    "who was to be followed (default: the first person of the truth)");
   verb->add_option("--distance", options->params.match_distance_m,

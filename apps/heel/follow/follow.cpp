@@ -127,11 +127,12 @@ class MemoryWatch {
 };
 
 void print(const FollowSummary& summary, const FollowOutput& output) {
-  std::printf("%s after %.1f s: %.2f m", summary.outcome.c_str(), summary.elapsed_s,
-              summary.distance_m);
-  if (std::isfinite(summary.moving_speed_mps)) {
-    std::printf(" at %.2f m/s (not counting %.1f s of seeking)", summary.moving_speed_mps,
-                summary.seek_s);
+  std::printf("%s after %.1f s", summary.outcome.c_str(), summary.elapsed_s);
+  if (summary.learn_s > 0.0) std::printf(" (and %.1f s of learning before)", summary.learn_s);
+  std::printf(": %.2f m", summary.distance_m);
+  if (std::isfinite(summary.driving_speed_mps)) {
+    std::printf(", %.2f m/s while driving; looked for the person for %.1f s",
+                summary.driving_speed_mps, summary.seek_s);
   }
   std::printf("\n");
   if (std::isfinite(summary.command_off_mps)) {

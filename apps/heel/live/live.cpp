@@ -241,9 +241,9 @@ void addLive(CLI::App& app) {
   verb->add_option("--out", options->out, "folder for the results")->required();
   verb->add_flag("--dry", options->dry, "send no velocities");
   verb->add_option("--wait", options->wait_s, "for the robot, so long [s] (default: for ever)")
-      ->check(CLI::PositiveNumber);
+      ->check(isPositive);
   verb->add_option("--limit", options->limit_s, "end after so long [s] (default: never)")
-      ->check(CLI::PositiveNumber);
+      ->check(isPositive);
   verb->add_option("--command-topic", options->command_topic, "where velocities go")
       ->capture_default_str();
   addRobotConfig(*verb, options->config);

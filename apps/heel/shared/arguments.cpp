@@ -3,9 +3,11 @@
 
 #include <heel/apps/experiment/rough_world.hpp>
 #include <heel/apps/heel/shared/arguments.hpp>
+#include <heel/cloud/typos.hpp>
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace heel {
@@ -18,8 +20,11 @@ fs::path find(const std::string& name, const fs::path& folder, const std::string
   if (fs::is_regular_file(name)) return name;  // a folder of this name is none
   const fs::path shipped = folder / (name + extension);
   if (fs::exists(shipped)) return shipped;
+  const std::string meant = didYouMean(name, namesIn(folder));
   throw std::runtime_error(name + ": there is no such " + what + ", neither as a file nor in " +
-                           folder.string());
+                           folder.string() +
+                           (meant.empty() ? "; there are " + CLI::detail::join(namesIn(folder), ", ")
+                                          : meant));
 }
 
 /// What comes with Heel lies at the same place seen from the command, wherever that is.
@@ -36,8 +41,10 @@ fs::path sceneFile(const std::string& scene) {
   return find(scene, sceneFolder(), ".yaml", "scene");
 }
 
+fs::path robotFolder() { return shippedFolder("robots"); }
+
 fs::path robotFile(const std::string& robot) {
-  return find(robot, shippedFolder("robots"), ".yaml", "robot");
+  return find(robot, robotFolder(), ".yaml", "robot");
 }
 
 void addRobotConfig(CLI::App& verb, std::string& robot) {
@@ -66,6 +73,27 @@ void setLight(Scene& scene, const std::string& light) {
 fs::path mapSource(const std::string& map) {
   const bool is_path = fs::path(map).has_extension() || fs::path(map).has_parent_path();
   return is_path || fs::is_regular_file(map) ? fs::path(map) : sceneFile(map);
+}
+
+std::vector<std::string> namesIn(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.is_regular_file()) names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string isPositive(const std::string& number) {
+  double value = 0.0;
+  const bool is_good = CLI::detail::lexical_cast(number, value) && value > 0.0;
+  return is_good ? "" : "'" + number + "' is not a number above 0";
+}
+
+std::string isNotNegative(const std::string& number) {
+  double value = 0.0;
+  const bool is_good = CLI::detail::lexical_cast(number, value) && value >= 0.0;
+  return is_good ? "" : "'" + number + "' is not a number of 0 or more";
 }
 
 fs::path planFolder() { return shippedFolder("plans"); }
@@ -100,10 +128,10 @@ void addCameraTopics(CLI::App& verb, BagTopics& topics) {
 
 void addTimeSpan(CLI::App& verb, TimeSpan& span) {
   verb.add_option("--from", span.from_s, "read from here on, after the recording's beginning [s]")
-      ->check(CLI::NonNegativeNumber)
+      ->check(isNotNegative)
       ->type_name("S");
   verb.add_option("--to", span.to_s, "read up to here [s]")
-      ->check(CLI::PositiveNumber)
+      ->check(isPositive)
       ->type_name("S");
 }
 

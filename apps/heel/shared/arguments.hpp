@@ -14,6 +14,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -27,6 +28,9 @@ std::filesystem::path sceneFolder();
 /// A scene's file: the path itself, or the name of a scene that comes with Heel.
 /// @throws std::runtime_error  if there is neither.
 std::filesystem::path sceneFile(const std::string& scene);
+
+/// The folder of the robots that come with Heel.
+std::filesystem::path robotFolder();
 
 /// A robot's file: the path itself, or the name of a robot that comes with Heel.
 /// @throws std::runtime_error  if there is neither.
@@ -54,6 +58,13 @@ std::filesystem::path planFolder();
 /// A plan's PNML file: the path itself, or the name of a plan that comes with Heel.
 /// @throws std::runtime_error  if there is neither.
 std::filesystem::path planFile(const std::string& plan);
+
+/// Names of what lies in one of these folders, sorted.
+std::vector<std::string> namesIn(const std::filesystem::path& folder);
+
+/// For CLI::Option::check(): what is wrong with it, or nothing.
+std::string isPositive(const std::string& number);
+std::string isNotNegative(const std::string& number);
 
 /// Topics of images and clouds, and the base frame.
 void addCameraTopics(CLI::App& verb, BagTopics& topics);

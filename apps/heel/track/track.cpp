@@ -206,7 +206,7 @@ void addPiece(CLI::App& verb, RecordingPiece& piece) {
   verb.add_option(
           "--overlap", piece.overlap_s,
           "a piece begins so long before its time: by then it is known again who is who [s]")
-      ->check(CLI::NonNegativeNumber)
+      ->check(isNotNegative)
       ->needs(option)
       ->capture_default_str();
 }
