@@ -10,6 +10,8 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include <vector>
+
 namespace heel {
 
 /// The depth image of an organized cloud in the optical frame.
@@ -34,6 +36,23 @@ class DepthImages {
   StereoCamera camera_;
   StereoMatcher matcher_;
   cv::Mat disparity_;
+  cv::Mat depth_m_;
+};
+
+/// Depth of all colours, of a stereo pair, in parts of the image only: whatever stands in front of
+/// a body is not its own. That needs no fine picture: it is matched at a width of 320 pixels.
+class CoarseDepth {
+ public:
+  explicit CoarseDepth(const StereoCamera& camera, const StereoMatcherParams& params = {});
+
+  /// @param parts  Clipped to the image.
+  /// @return  As DepthImages::of(), NaN outside the parts.
+  cv::Mat& of(const Frame& frame, const std::vector<cv::Rect>& parts);
+
+ private:
+  StereoCamera camera_;  // of the small pictures
+  StereoMatcher matcher_;
+  cv::Mat left_, right_, parts_, disparity_, small_depth_m_;
   cv::Mat depth_m_;
 };
 

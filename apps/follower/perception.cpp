@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/follower/depth_images.hpp>
 #include <heel/apps/follower/depth_sight.hpp>
 #include <heel/apps/follower/perception.hpp>
 #include <heel/apps/follower/wall_gate.hpp>
 #include <heel/segmentation/image_filter.hpp>
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 #include <pcl/common/transforms.h>
 
 #include <algorithm>
@@ -20,7 +18,6 @@ namespace heel {
 namespace {
 
 constexpr double kBody_m = 0.4;       // Legs this near to a place may be of somebody there.
-constexpr int kBodyImageWidth = 320;  // Depth of bodies is looked for in pictures of this width.
 constexpr double kBeside_m = 0.45;    // So far from the middle of somebody nothing is theirs.
 constexpr double kMissedLegs = 0.05;  // Of people in its view, the laser misses as many.
 
@@ -106,7 +103,7 @@ Perception::Perception(const CameraSetup& setup, const AppearanceModel& model,
       finder_(params.blobs),
       describer_(params.body),
       view_{{}, {}, setup.camera.left, setup.T_base_camera, setup.sensor == SensorKind::kStereo},
-      body_matcher_(params.stereo),
+      coarse_depth_(setup.camera, params.stereo),
       tracker_(params.target, params.tracker, gateOf(params), looksOf(model)) {
   for (const AppearanceBand& band : bands_) {
     height_crops_.emplace_back(HeightCropParams{band.body.min_height_m, band.body.max_height_m});
@@ -286,27 +283,15 @@ void Perception::addLegs(const LaserBodies& legs) {
   }
 }
 
-// Depth of all colours, where bodies are: whatever stands in front of them is not theirs. That
-// needs no fine picture.
+// Where the target's colours are, depth is finer.
 void Perception::measureBodies(const Frame& frame) {
   view_.image_bgr = frame.image_bgr;
   view_.depth_m = depth_m_;
   if (sensor_ != SensorKind::kStereo || bodies_.empty()) return;
-  boards_.create(frame.image_bgr.size(), CV_8UC1);
-  boards_.setTo(0);
-  for (const WorldBlob& body : bodies_) boards_(describer_.boardOf(view_, body)).setTo(255);
-  const cv::Size whole = frame.image_bgr.size();
-  const int scale = std::max(1, whole.width / kBodyImageWidth);
-  const cv::Size small(whole.width / scale, whole.height / scale);
-  cv::resize(frame.image_bgr, small_left_, small, 0.0, 0.0, cv::INTER_AREA);
-  cv::resize(frame.right_bgr, small_right_, small, 0.0, 0.0, cv::INTER_AREA);
-  cv::resize(boards_, small_boards_, small, 0.0, 0.0, cv::INTER_NEAREST);
-  body_matcher_.match(small_left_, small_right_, small_boards_, small_disparity_);
-  cv::resize(small_disparity_, disparity_, whole, 0.0, 0.0, cv::INTER_NEAREST);
-  disparity_ *= scale;
-  disparityToDepth(disparity_, camera_, body_depth_m_);
-  depth_m_.copyTo(body_depth_m_, step_.mask);
-  view_.depth_m = body_depth_m_;
+  boards_.clear();
+  for (const WorldBlob& body : bodies_) boards_.push_back(describer_.boardOf(view_, body));
+  view_.depth_m = coarse_depth_.of(frame, boards_);
+  depth_m_.copyTo(view_.depth_m, step_.mask);
 }
 
 // Whom only the laser found is looked at, too: other clothes than the target's say who it is not.

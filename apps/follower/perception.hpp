@@ -6,6 +6,7 @@
 #pragma once
 
 #include <heel/apps/follower/camera_setup.hpp>
+#include <heel/apps/follower/depth_images.hpp>
 #include <heel/apps/follower/laser_bodies.hpp>
 #include <heel/apps/recording/frame.hpp>
 #include <heel/cloud/color_cloud.hpp>
@@ -145,9 +146,8 @@ class Perception {
   BodyDescriber describer_;
   BodyView view_;                  // of the frame at hand
   std::vector<WorldBlob> bodies_;  // of the observations, in the base frame
-  StereoMatcher body_matcher_;
-  cv::Mat boards_, body_depth_m_;  // where they are in the image, and depth there, too
-  cv::Mat small_left_, small_right_, small_boards_, small_disparity_;
+  std::vector<cv::Rect> boards_;   // where they are in the image
+  CoarseDepth coarse_depth_;
   std::vector<BodyDescription> looks_;  // of the observations
   // Of what the camera and the laser saw: what may be one person, the nearest first.
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs_;

@@ -157,7 +157,7 @@ int main(int argc, char** argv) {
   heel::addCompletion(app);
   std::vector<std::string> words(std::make_reverse_iterator(argv + argc),
                                  std::make_reverse_iterator(argv + std::min(argc, 1)));
-  if (words.size() > 1 && words.back() == "help") {  // 'heel help track' is 'heel track --help'
+  if (!words.empty() && words.back() == "help") {  // 'heel help track' is 'heel track --help'
     words.pop_back();
     words.insert(words.begin(), "--help");
   }

@@ -21,10 +21,9 @@ fs::path find(const std::string& name, const fs::path& folder, const std::string
   const fs::path shipped = folder / (name + extension);
   if (fs::exists(shipped)) return shipped;
   const std::string meant = didYouMean(name, namesIn(folder));
-  throw std::runtime_error(name + ": there is no such " + what + ", neither as a file nor in " +
-                           folder.string() +
-                           (meant.empty() ? "; there are " + CLI::detail::join(namesIn(folder), ", ")
-                                          : meant));
+  throw std::runtime_error(
+      name + ": there is no such " + what + ", neither as a file nor in " + folder.string() +
+      (meant.empty() ? "; there are " + CLI::detail::join(namesIn(folder), ", ") : meant));
 }
 
 /// What comes with Heel lies at the same place seen from the command, wherever that is.
@@ -130,9 +129,7 @@ void addTimeSpan(CLI::App& verb, TimeSpan& span) {
   verb.add_option("--from", span.from_s, "read from here on, after the recording's beginning [s]")
       ->check(isNotNegative)
       ->type_name("S");
-  verb.add_option("--to", span.to_s, "read up to here [s]")
-      ->check(isPositive)
-      ->type_name("S");
+  verb.add_option("--to", span.to_s, "read up to here [s]")->check(isPositive)->type_name("S");
 }
 
 void addOdometryTopic(CLI::App& verb, BagTopics& topics) {

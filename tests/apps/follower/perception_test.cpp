@@ -436,8 +436,8 @@ TEST(PerceptionAllocations, AreNoneOfOurOwnOnceWarm) {
 }
 
 TEST(PerceptionAllocations, AreOnlyOpenCvsOnAStereoPair) {
-  // Its dilate() and setTo() allocate inside, how often depends on the number of threads.
-  constexpr long kInsideOpenCv = 28;
+  // Its dilate(), setTo() and resize() allocate inside, how often depends on the number of threads.
+  constexpr long kInsideOpenCv = 56;
   EXPECT_LE(allocationsOfStep(SensorKind::kStereo), kInsideOpenCv);
 }
 
