@@ -78,7 +78,7 @@ void filterMany(const FilterOptions& options) {
                  {"summary.csv", "summary.json"}});
   CloudSummary summary(output, {"points_out", "result"});
   std::size_t points_in = 0, points_out = 0;
-  const CloudFailures failures = workOnClouds(
+  const std::vector<std::string> failures = workOnClouds(
       "filtering", clouds.size(), options.batch.threads,
       [&](std::size_t i, CloudFate& fate) {
         return filterCloud(clouds[i], output / results[i], table, options, fate);

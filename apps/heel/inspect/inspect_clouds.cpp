@@ -93,7 +93,7 @@ void inspectClouds(const fs::path& what) {
   const auto clouds = findClouds({what.string()});
   std::map<Kind, std::size_t> kinds;
   std::string lines;
-  const CloudFailures failures = workOnClouds(
+  const std::vector<std::string> failures = workOnClouds(
       "inspecting", clouds.size(), 0,
       [&](std::size_t i, CloudFate&) { return readCloud(clouds[i]).facts; },
       [&](std::size_t i, const CloudFate& fate, const CloudFacts& facts) {
@@ -102,8 +102,8 @@ void inspectClouds(const fs::path& what) {
                  facts.fields}];
         lines += "  " + clouds[i].filename().string() + ": " + toText(facts) + "\n";
       });
-  if (failures.reasons.size() < clouds.size()) {
-    std::printf("%zu clouds:\n", clouds.size() - failures.reasons.size());
+  if (failures.size() < clouds.size()) {
+    std::printf("%zu clouds:\n", clouds.size() - failures.size());
     for (const auto& [kind, count] : kinds) {
       std::printf("  %zu x %s\n", count, toText(kind).c_str());
     }

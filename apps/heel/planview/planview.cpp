@@ -118,7 +118,7 @@ void run(const PlanViewOptions& options) {
   CsvWriter blobs(output / "blobs.csv", {"file", "blob", "x_m", "y_m", "height_m", "points",
                                          "cells", "area_m2", "extent_m", "score", "is_person"});
   std::size_t blob_count = 0, people = 0;
-  const CloudFailures failures = workOnClouds(
+  const std::vector<std::string> failures = workOnClouds(
       "planning", clouds.size(), options.batch.threads,
       [&](std::size_t i, CloudFate& fate) {
         return planOne(clouds[i], output / pictures[i], chosen, params, options, fate);

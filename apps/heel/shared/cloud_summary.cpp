@@ -115,15 +115,13 @@ std::vector<std::string> resultNames(const std::vector<fs::path>& clouds,
   return results;
 }
 
-void tellFailures(const CloudFailures& failures, std::size_t clouds, std::size_t stopped) {
-  for (const std::string& why : failures.reasons) tell(why);
+void tellFailures(const std::vector<std::string>& failures, std::size_t clouds,
+                  std::size_t stopped) {
+  for (const std::string& why : failures) tell(why);
   const std::string of = " of " + std::to_string(clouds) + " clouds ";
   if (stopped > 0) throw Stopped("stopped: " + std::to_string(stopped) + of + "are not done");
-  if (failures.reasons.empty()) return;
-  const std::string what =
-      std::to_string(failures.reasons.size()) + of + "failed; the others are done";
-  if (failures.is_ours) throw OutputError(what);
-  throw std::runtime_error(what);
+  if (failures.empty()) return;
+  throw std::runtime_error(std::to_string(failures.size()) + of + "failed; the others are done");
 }
 
 }  // namespace heel

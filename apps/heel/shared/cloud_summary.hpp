@@ -13,7 +13,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <atomic>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -86,27 +85,23 @@ void addCloudBatch(CLI::App& verb, CloudBatch& batch, const std::string& inputs)
 std::vector<std::string> resultNames(const std::vector<std::filesystem::path>& clouds,
                                      const std::string& ending = "");
 
-/// Clouds of a batch that could not be worked on.
-struct CloudFailures {
-  std::vector<std::string> reasons;  ///< A sentence each.
-  bool is_ours = false;              ///< A result could not be written.
-};
-
-/// Tells on stderr why clouds failed; then fails, if there were any.
+/// Tells on stderr why clouds failed, a sentence each; then fails, if there were any.
 /// @param stopped  So many were not done, because a signal asked for the end.
-/// @throws Stopped, OutputError, std::runtime_error  that counts them.
-void tellFailures(const CloudFailures& failures, std::size_t clouds, std::size_t stopped = 0);
+/// @throws Stopped, std::runtime_error  that counts them.
+void tellFailures(const std::vector<std::string>& failures, std::size_t clouds,
+                  std::size_t stopped = 0);
 
 /// Calls `work(file index, fate)` for each cloud and takes an error for its fate; adds each result
 /// to the summary, in order, by `add(index, fate, result)`. Once a signal asks for the end, the
 /// others are passed over, as kStopped.
+/// @return  Why clouds failed.
+/// @throws OutputError  of `work`: where one result can't be written, others can't.
 /// @tparam Work  Returns a result that can be default-constructed: that of a cloud that failed.
 template <typename Work, typename Add>
-CloudFailures workOnClouds(const std::string& title, std::size_t clouds, unsigned threads,
-                           const Work& work, const Add& add) {
+std::vector<std::string> workOnClouds(const std::string& title, std::size_t clouds,
+                                      unsigned threads, const Work& work, const Add& add) {
   using Result = decltype(work(std::size_t{}, std::declval<CloudFate&>()));
-  CloudFailures failures;
-  std::atomic<bool> is_ours{false};
+  std::vector<std::string> failures;
   ProgressBar progress(title, clouds);
   const auto tried = [&](std::size_t i) {
     std::pair<CloudFate, Result> done;
@@ -116,8 +111,9 @@ CloudFailures workOnClouds(const std::string& title, std::size_t clouds, unsigne
     }
     try {
       done.second = work(i, done.first);
+    } catch (const OutputError&) {
+      throw;
     } catch (const std::exception& error) {
-      if (dynamic_cast<const OutputError*>(&error) != nullptr) is_ours = true;
       done.first.outcome = CloudFate::kFailed;
       done.first.reason = error.what();
       done.second = Result();
@@ -125,11 +121,10 @@ CloudFailures workOnClouds(const std::string& title, std::size_t clouds, unsigne
     return done;
   };
   loopInOrder(clouds, threads, tried, [&](std::size_t i, std::pair<CloudFate, Result>&& done) {
-    if (done.first.hasFailed()) failures.reasons.push_back(done.first.reason);
+    if (done.first.hasFailed()) failures.push_back(done.first.reason);
     add(i, done.first, done.second);
     progress.show(i + 1);
   });
-  failures.is_ours = is_ours;
   return failures;
 }
 
