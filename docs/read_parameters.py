@@ -17,7 +17,7 @@ MODULES = {
     "tracking": "Who is where, and which of them is the target.",
     "mapping": "Walls, obstacles, and where the robot is.",
     "planning": "Paths, driving, where to stand, and where to search.",
-    "apps/follower": "The whole composed: phase 1, phase 2, and the robot's mind.",
+    "apps/follower": "All of it together: phase 1, phase 2, and what the robot does.",
     "apps/recording": "How recordings and bags are read.",
     "apps/simulation": "The simulated robot. A scene's YAML file has these names under `robot`, "
                        "but angles in degrees: `view_deg`, `pitch_deg`, `yaw_deg`.",

@@ -9,10 +9,11 @@
 #include <pcl/point_types.h>
 
 #include <cstdio>
+#include <exception>
 #include <string>
 
 /// person_filter MODEL IN.pcd OUT.pcd: the points that have the person's colours, without specks.
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   if (argc != 4) return 2;
   using Point = pcl::PointXYZRGB;
   const pcl::PointCloud<Point>::Ptr cloud(new pcl::PointCloud<Point>);
@@ -39,4 +40,7 @@ int main(int argc, char** argv) {
   std::printf("%zu points; %zu of the person's colours; %zu without specks\n", cloud->size(),
               kept->size(), person.size());
   return pcl::io::savePCDFileBinaryCompressed(argv[3], person) == 0 ? 0 : 1;
+} catch (const std::exception& error) {  // no model, say: its what() is a sentence for the user
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }
