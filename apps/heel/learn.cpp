@@ -79,7 +79,8 @@ void print(const LearnedPerson& learned) {
   std::printf(
       "  %d frames of the empty room, %d of the person (%.0f %% of those since they came)\n",
       acquisition.empty_frames, acquisition.person_frames, 100.0 * acquisition.confidence());
-  std::printf("  band      heights [m]   points     delta   taken of the room  missed of the person\n");
+  std::printf(
+      "  band      heights [m]   points     delta   taken of the room  missed of the person\n");
   for (const AppearanceBand& band : learned.model.bands()) {
     std::printf("  %-8s  %.2f to %.2f  %7llu  %8.4f   %9llu %5.1f %%  %12llu %5.1f %%\n",
                 band.body.name.c_str(), band.body.min_height_m, band.body.max_height_m,
