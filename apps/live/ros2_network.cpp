@@ -351,8 +351,8 @@ struct Ros2Network::State {};
 
 Ros2Network::Ros2Network(const Ros2NetworkParams& /*params*/) {
   throw std::runtime_error(
-      "ROS 2: this build of Heel is without it (Debian's libfastrtps-dev; "
-      "cmake -DHEEL_WITH_ROS2=ON)");
+      "ROS 2: this build of Heel is without it; it needs Fast DDS 2 (libfastrtps-dev of Debian 12 "
+      "and of Ubuntu; Debian 13 has Fast DDS 3) and cmake -DHEEL_WITH_ROS2=ON");
 }
 Ros2Network::~Ros2Network() = default;
 std::vector<BagTopic> Ros2Network::topics() const { return {}; }

@@ -243,7 +243,7 @@ TEST_F(ManyClouds, OfTheRealSetAreAllToldApart) {
   const HeelRun planned = heel({"planview", set, "--out", out_ / "plan"});
   EXPECT_EQ(planned.signal, 0);
   const std::string csv = readText(out_ / "plan/summary.csv");
-  EXPECT_THAT(rowOf(csv, "five_people.pcd"), HasSubstr(",planned,"));
+  EXPECT_THAT(rowOf(csv, "five_people.pcd"), HasSubstr(",drawn,"));
   EXPECT_THAT(rowOf(csv, "five_people.pcd"), testing::EndsWith(",5,"));
   EXPECT_THAT(rowOf(csv, "table_scene_mug_stereo_textured.pcd"), HasSubstr("no floor"));
   const HeelRun scans =

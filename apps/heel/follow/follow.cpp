@@ -31,14 +31,6 @@
 namespace heel {
 namespace {
 
-/// Resident memory of this process [MiB]; 0 where the system does not tell.
-double residentMemory_MiB() {
-  std::ifstream statm("/proc/self/statm");
-  double all = 0.0, resident = 0.0;  // in pages
-  if (!(statm >> all >> resident)) return 0.0;
-  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
-}
-
 struct FollowOptions {
   std::string scene = "home";
   std::string plan = "search";
@@ -105,26 +97,6 @@ std::string commandOf(const FollowOptions& options) {
   command << " --out again";
   return command.str();
 }
-
-/// Memory from minute to minute of a long run: it must not grow, but for the log of the run.
-class MemoryWatch {
- public:
-  void at(double stamp_s) {
-    if (stamp_s < 60.0 * (minutes_ + 1)) return;
-    last_MiB_ = residentMemory_MiB();
-    if (++minutes_ == 1) first_MiB_ = last_MiB_;
-  }
-  void print() const {
-    if (minutes_ < 2) return;
-    std::printf("  memory %.1f MiB after a minute, %.1f MiB after %d\n", first_MiB_, last_MiB_,
-                minutes_);
-  }
-
- private:
-  int minutes_ = 0;
-  double first_MiB_ = 0.0;
-  double last_MiB_ = 0.0;
-};
 
 void print(const FollowSummary& summary, const FollowOutput& output) {
   std::printf("%s after %.1f s", summary.outcome.c_str(), summary.elapsed_s);
@@ -197,14 +169,12 @@ void run(FollowOptions& options) {
   FollowOutput output(options.out, !options.no_film, options.bag, inputs);
   // Of a log, runShadow() tells.
   ProgressBar progress("following", is_log ? 0 : static_cast<std::size_t>(options.loop.limit_s));
-  MemoryWatch memory;
   LapClock clock;
   const LoopObserver observer = [&](const Readings& readings, const FollowStep& step,
                                     const Follower& follower, const FollowSample& sample) {
     output.add(readings, step, follower, sample);
     if (is_log) return;  // its clock may count from anywhere
     progress.show(static_cast<std::size_t>(readings.stamp_s));
-    memory.at(readings.stamp_s);
   };
   const Follower::StageDone stage_done = [&](FollowStage stage) {
     // The time since the last stage; before the first stage the world moved, not the robot.
@@ -217,7 +187,6 @@ void run(FollowOptions& options) {
   const FollowSummary summary = summarize(log);
   output.commit(log, summary);
   print(summary, output);
-  memory.print();
   if (log.outcome == kStoppedRun) throw Stopped("stopped: the results are those of the run so far");
   if (log.outcome == "nobody learned") throw NothingFound("nobody was learned");
 }

@@ -61,7 +61,7 @@ Planned planOne(const fs::path& in, const OutputPath& picture, const AppearanceM
   fate.facts = cloud.facts;
   const CloudPlan plan = planCloud(in, cloud, model, params);
   if (!options.no_pictures) writePicture(picture, drawPlanView(plan, in.filename().string()));
-  fate.outcome = plan.blobs.empty() ? "nothing" : "planned";
+  fate.outcome = plan.blobs.empty() ? "nothing" : "drawn";
   if (plan.blobs.empty()) {
     fate.reason = in.string() + (plan.color_points == 0      ? ": no point has the person's colours"
                                  : plan.standing_points == 0 ? ": no point is at a person's height"
@@ -119,7 +119,7 @@ void run(const PlanViewOptions& options) {
                                          "cells", "area_m2", "extent_m", "score", "is_person"});
   std::size_t blob_count = 0, people = 0;
   const std::vector<std::string> failures = workOnClouds(
-      "planning", clouds.size(), options.batch.threads,
+      "looking from above", clouds.size(), options.batch.threads,
       [&](std::size_t i, CloudFate& fate) {
         return planOne(clouds[i], output / pictures[i], chosen, params, options, fate);
       },

@@ -70,6 +70,8 @@ void setLight(Scene& scene, const std::string& light) {
 }
 
 fs::path mapSource(const std::string& map) {
+  const fs::path walls = fs::path(map) / "walls.bt";  // in the folder that 'heel map' wrote
+  if (fs::exists(walls)) return walls;
   const bool is_path = fs::path(map).has_extension() || fs::path(map).has_parent_path();
   return is_path || fs::is_regular_file(map) ? fs::path(map) : sceneFile(map);
 }

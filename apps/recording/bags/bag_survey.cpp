@@ -109,8 +109,12 @@ class Surveyor {
   }
 
   void setSpan(std::int64_t first_ns, const TimeSpan& span) {
-    if (span.from_s > 0.0) survey_.span.from_ns = first_ns + nanosecondsOf(span.from_s);
-    if (std::isfinite(span.to_s)) survey_.span.to_ns = first_ns + nanosecondsOf(span.to_s);
+    if (span.from_s > 0.0) {
+      survey_.span.from_ns = first_ns + nanosecondsOf(span.from_s - kSameTime_s);
+    }
+    if (std::isfinite(span.to_s)) {
+      survey_.span.to_ns = first_ns + nanosecondsOf(span.to_s + kSameTime_s);
+    }
   }
 
   bool lookAtFirst(BagTopicSummary& topic, const BagQuery& query) {
