@@ -70,6 +70,8 @@ class BestView {
   double area_m2_ = 0.0;
 };
 
+constexpr int kFewFrames = 5;  // Of the person: less than a walk across the room shows.
+
 void print(const LearnedPerson& learned) {
   const AcquisitionResult& acquisition = learned.acquisition;
   std::printf("learned the person seen from %.1f to %.1f s; it ended %s%s\n",
@@ -116,10 +118,10 @@ TimeSpan lessonSpan(const LearnOptions& options) {
 
 /// "; its first 120 s were read (--to)", if there may be more.
 std::string whatWasRead(const TimeSpan& span, const RecordingInfo& info) {
-  if (info.duration_s < span.to_s - span.from_s - 1.0) return {};
+  if (span.from_s == 0.0 && info.duration_s < span.to_s - 1.0) return {};
   char text[80];
   std::snprintf(text, sizeof text, "; it was read from %.0f to %.0f s (--from, --to)", span.from_s,
-                span.to_s);
+                std::min(span.to_s, span.from_s + info.duration_s));
   return text;
 }
 
@@ -175,6 +177,11 @@ void run(LearnOptions options) {
             [&](const std::filesystem::path& file) { saveAppearance(learned.model, file); });
   output.commit();
   print(learned);
+  const AcquisitionResult& seen = learned.acquisition;
+  if (seen.person_frames < kFewFrames || seen.confidence() < 0.5) {
+    warn("that is little to learn from: look at " + view.named.string() +
+         ", whether it is the person, and whether the room was empty at first");
+  }
   const Separability separability = learned.model.separability();
   if (separability.doubt != AppearanceDoubt::kNone) warn(separability.advice);
   std::printf("wrote %s, %s, %s\n", options.out.string().c_str(), picture.named.c_str(),

@@ -69,6 +69,22 @@ TEST_F(LearnAndTrack, FollowsThePersonWhoWasLearned) {
   EXPECT_LT(figures["target"]["mean_error_m"], 0.15);
 }
 
+TEST_F(LearnAndTrack, APartIsJudgedByItsOwnFrames) {
+  SmallRecording().write(folder_ / "room");
+  writeSmallModel(folder_ / "rosa.yaml");
+  ASSERT_TRUE(succeeds(track("rosa.yaml", "out", {"--from", "8", "--no-film"})));
+  const auto figures = evaluate("out");
+  EXPECT_LT(figures["target"]["frames_in_view"], 40);
+  EXPECT_GE(figures["target"]["recall"], 0.85);
+}
+
+TEST_F(LearnAndTrack, WarnsOfTooLittleToLearnFrom) {
+  SmallRecording{26, 3}.write(folder_ / "room");
+  const HeelRun run = heel({"learn", folder_ / "room", "--out", folder_ / "rosa.yaml"});
+  ASSERT_TRUE(succeeds(run));
+  EXPECT_THAT(run.warnings(), Contains(HasSubstr("rosa_view.png, whether it is the person")));
+}
+
 TEST_F(LearnAndTrack, FindsThePlaceOfTheCameraByTheFloor) {
   SmallRecording recording;
   recording.has_mounting = false;

@@ -7,15 +7,20 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace heel {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct EvaluateOptions {
   std::filesystem::path tracks;
@@ -69,10 +74,12 @@ void print(const Evaluation& result) {
   const TargetMetrics& person = result.person;
   std::printf("the target, %s, in %d frames\n", result.target.c_str(), person.frames_in_view);
   std::printf("  recall                %6.3f\n", person.recall());
-  std::printf("  right places          %6.3f   of those that are given\n",
-              shareOfRightPlaces(person));
-  std::printf("  wrong person          %6.3f   for %.1f s in all\n", person.wrongPersonShare(),
-              person.wrong_target_s);
+  if (std::isfinite(shareOfRightPlaces(person))) {
+    std::printf("  right places          %6.3f   of those that are given\n",
+                shareOfRightPlaces(person));
+  }
+  std::printf("  wrong person          %6.3f   also when absent: %.1f s in all\n",
+              person.wrongPersonShare(), person.wrong_target_s);
   if (person.frames > person.frames_in_view) {
     std::printf("  claimed when absent   %6.3f   in %d frames\n", person.claimedShare(),
                 person.frames - person.frames_in_view);
@@ -80,7 +87,7 @@ void print(const Evaluation& result) {
   std::printf("  right answers         %6.3f\n", person.rightAnswerShare());
   printPlace("mean error", person.meanError_m());
   if (person.reacquisition_delays_s.empty()) {
-    std::printf("  never lost and found again\n");
+    std::printf("  found again                0   times\n");
   } else {
     std::printf("  found again           %6zu   times, after %.1f s on average\n",
                 person.reacquisition_delays_s.size(), person.meanReacquisitionDelay_s());
@@ -96,15 +103,34 @@ void print(const Evaluation& result) {
 }
 
 /// A folder stands for the table in it.
-std::filesystem::path tableAt(const std::filesystem::path& path, const char* name) {
-  return std::filesystem::is_directory(path) ? path / name : path;
+fs::path tableAt(const fs::path& path, const char* name) {
+  return fs::is_directory(path) ? path / name : path;
+}
+
+/// The frames that were looked at, as 'heel track' tells of them beside its tracks.
+std::vector<double> framesBeside(const fs::path& tracks) {
+  std::vector<double> stamps_s;
+  const fs::path file = tracks.parent_path() / "frames.csv";
+  if (!fs::exists(file)) return stamps_s;
+  for (const FrameRow& frame : readFrames(file)) stamps_s.push_back(frame.stamp_s);
+  std::sort(stamps_s.begin(), stamps_s.end());
+  return stamps_s;
+}
+
+/// Whether the tracks are in the frame of the map, as 'heel track' tells beside them.
+bool areOnMap(const fs::path& tracks) {
+  std::ifstream file(tracks.parent_path() / "summary.json");
+  const auto summary = nlohmann::json::parse(file, nullptr, false);
+  return summary.is_object() && summary.value("frame", nlohmann::json()) == "map";
 }
 
 void run(EvaluateOptions options) {
   options.tracks = tableAt(options.tracks, "tracks.csv");
-  options.truth = tableAt(options.truth, "truth.csv");
+  options.truth = tableAt(options.truth, areOnMap(options.tracks) ? "truth_map.csv" : "truth.csv");
   const Evaluation result =
-      evaluate(alignByStamp(readTracks(options.tracks), readTruth(options.truth)), options.params);
+      evaluate(alignByStamp(readTracks(options.tracks), readTruth(options.truth),
+                            framesBeside(options.tracks)),
+               options.params);
   print(result);
   if (options.out.empty()) return;
   Output output({"evaluate", OutputKind::kFile, options.out, {options.tracks, options.truth}});
@@ -120,7 +146,8 @@ void addEvaluate(CLI::App& app) {
   verb->footer(
       "Example:\n"
       "  heel evaluate out/wardrobe recordings/wardrobe --target navy_jumper\n"
-      "TRUTH is a table with the columns stamp_s,frame,person,x_m,y_m,exact.");
+      "TRUTH is a table with the columns stamp_s,frame,person,x_m,y_m,exact. Where frames.csv is\n"
+      "beside the tracks, the frames in it count, and no others.");
   verb->add_option("TRACKS", options->tracks, "tracks.csv of 'heel track', or its folder")
       ->required();
   verb->add_option("TRUTH", options->truth, "truth.csv, or the recording's folder")->required();

@@ -4,6 +4,7 @@
 #include <heel/apps/heel/evaluate/evaluation.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <stdexcept>
 
@@ -23,7 +24,10 @@ std::string firstPerson(const std::vector<Moment>& moments) {
       return moment.truth.front().person;
     }
   }
-  throw std::runtime_error("there is nobody in the truth");
+  throw std::runtime_error(
+      "there is nobody in the truth, or its stamps are not those of the frames: they are not of "
+      "one "
+      "recording");
 }
 
 bool isPerson(const TrackRow& row) { return row.is_target || row.person_probability > 0.5; }
@@ -61,25 +65,26 @@ TargetFrame targetOnly(const Moment& moment, const std::string& target) {
 }  // namespace
 
 std::vector<Moment> alignByStamp(std::vector<TrackRow> tracks, std::vector<TruthRow> truth,
-                                 double tolerance_s) {
+                                 const std::vector<double>& frames_s, double tolerance_s) {
   sortByStamp(tracks);
   sortByStamp(truth);
   std::vector<Moment> moments;
-  std::size_t t = 0;
-  std::size_t p = 0;
-  while (t < tracks.size() || p < truth.size()) {
+  std::size_t t = 0, p = 0, f = 0;
+  while (t < tracks.size() || p < truth.size() || f < frames_s.size()) {
     Moment moment;
-    moment.stamp_s =
-        p == truth.size() || (t < tracks.size() && tracks[t].stamp_s < truth[p].stamp_s)
-            ? tracks[t].stamp_s
-            : truth[p].stamp_s;
+    moment.stamp_s = std::numeric_limits<double>::infinity();
+    if (t < tracks.size()) moment.stamp_s = tracks[t].stamp_s;
+    if (p < truth.size()) moment.stamp_s = std::min(moment.stamp_s, truth[p].stamp_s);
+    if (f < frames_s.size()) moment.stamp_s = std::min(moment.stamp_s, frames_s[f]);
+    const std::size_t first_frame = f;
+    while (f < frames_s.size() && frames_s[f] <= moment.stamp_s + tolerance_s) ++f;
     for (; t < tracks.size() && tracks[t].stamp_s <= moment.stamp_s + tolerance_s; ++t) {
       moment.tracks.push_back(std::move(tracks[t]));
     }
     for (; p < truth.size() && truth[p].stamp_s <= moment.stamp_s + tolerance_s; ++p) {
       moment.truth.push_back(std::move(truth[p]));
     }
-    moments.push_back(std::move(moment));
+    if (frames_s.empty() || f > first_frame) moments.push_back(std::move(moment));
   }
   return moments;
 }

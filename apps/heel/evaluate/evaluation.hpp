@@ -23,7 +23,11 @@ struct Moment {
 
 /// Puts tracks and truth side by side, in order of time. Rows belong to one moment when their
 /// stamps differ by no more than `tolerance_s`.
+///
+/// @param frames_s  When frames were looked at, in order: these are the moments then, with somebody
+///                  in them or not, and what is at other times is left out. Empty: not known.
 std::vector<Moment> alignByStamp(std::vector<TrackRow> tracks, std::vector<TruthRow> truth,
+                                 const std::vector<double>& frames_s = {},
                                  double tolerance_s = 0.01);
 
 struct EvaluationParams {

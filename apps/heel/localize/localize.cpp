@@ -37,6 +37,15 @@ struct LocalizeOptions {
   LogLocalizationParams params;
 };
 
+/// Beside a wall map of 'heel map' is the floor plan, which is what a laser sees.
+fs::path floorPlan(const LocalizeOptions& options) {
+  const fs::path file = mapSource(options.map);
+  if (file.extension() != ".bt") return file;
+  const fs::path plan = file.parent_path() / "map.yaml";
+  if (fs::exists(plan)) return plan;
+  throw std::runtime_error(file.string() + ": is a wall map; name a map_server YAML or a scene");
+}
+
 OccupancyGrid readMap(LocalizeOptions& options) {
   LogLocalizationParams& params = options.params;
   const auto log = openLaserLog(options.log, params.topics);
@@ -51,7 +60,7 @@ OccupancyGrid readMap(LocalizeOptions& options) {
     return mapFromLog(options.log, options.map_scans, options.cell_size_m, params.T_base_scanner,
                       params.topics);
   }
-  const fs::path file = mapSource(options.map);
+  const fs::path file = floorPlan(options);
   if (isMapServerFile(file)) return loadMapServer(file);
   const Scene scene = loadScene(file.string());
   if (options.scanner.empty() && !scanner_on_robot) {
@@ -64,7 +73,7 @@ void run(LocalizeOptions& options) {
   using Clock = std::chrono::steady_clock;
   const OccupancyGrid map = readMap(options);
   std::vector<fs::path> inputs = {options.log};
-  if (!options.map.empty()) inputs.push_back(mapSource(options.map));
+  if (!options.map.empty()) inputs.push_back(floorPlan(options));
   LogLocalizationParams& params = options.params;
   if (!options.start.empty()) {
     params.start = FloorPose{{options.start[0], options.start[1]}, options.start[2]};
@@ -85,11 +94,15 @@ void run(LocalizeOptions& options) {
   std::printf("%d scans over %.1f m, %d weighed, %.0f a second, lost in %.1f %%\n", result.scans,
               result.way_m, result.weighed, per_s, 100.0 * result.lost_share);
   if (result.compared > 0) {
-    std::printf("against the reference: RMS %.3f m and %.2f degrees, median %.3f m, worst %.2f m\n",
-                result.rms_m, result.rms_rad * 57.29577951308232, result.median_m, result.worst_m);
+    std::printf(
+        "against the reference, in %d scans: RMS %.3f m and %.2f degrees, median %.3f m, "
+        "worst %.2f m\n",
+        result.compared, result.rms_m, result.rms_rad * 57.29577951308232, result.median_m,
+        result.worst_m);
   }
   std::printf("wrote %s\n", output.folder().c_str());
   if (!result.complete) throw Stopped("stopped: the results are those of the log so far");
+  if (result.lost_share >= 1.0) throw NothingFound("the robot is nowhere found on the map");
 }
 
 }  // namespace

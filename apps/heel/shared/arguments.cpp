@@ -73,7 +73,10 @@ fs::path mapSource(const std::string& map) {
   const fs::path walls = fs::path(map) / "walls.bt";  // in the folder that 'heel map' wrote
   if (fs::exists(walls)) return walls;
   const bool is_path = fs::path(map).has_extension() || fs::path(map).has_parent_path();
-  return is_path || fs::is_regular_file(map) ? fs::path(map) : sceneFile(map);
+  const bool is_scene = fs::exists(sceneFolder() / (map + ".yaml"));
+  return is_path || fs::is_regular_file(map) || (fs::is_directory(map) && !is_scene)
+             ? fs::path(map)
+             : sceneFile(map);
 }
 
 std::vector<std::string> namesIn(const fs::path& folder) {

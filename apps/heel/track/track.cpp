@@ -40,7 +40,7 @@ struct TrackOptions {
 void print(const TrackOutput& output, std::size_t skipped) {
   std::printf("%zu frames, the target seen or predicted in %zu", output.frames(),
               output.framesWithTarget());
-  if (skipped > 0) std::printf("; %zu frame%s could not be read", skipped, skipped == 1 ? "" : "s");
+  if (skipped > 0) std::printf("; %zu frame%s left out", skipped, skipped == 1 ? " was" : "s were");
   std::printf("\n");
   for (const auto& [state, frames] : output.framesByState()) {
     std::printf("  %-10s %6zu\n", state.c_str(), frames);

@@ -197,7 +197,7 @@ const BagTopicSummary* named(const BagSurvey& survey, const std::string& name,
 std::optional<BagCamera> namedCamera(const BagSurvey& survey, const BagTopics& topics) {
   const auto both = [&](const std::string& a, const std::string& b, const char* what) {
     if (a.empty() != b.empty()) {
-      throw std::runtime_error(survey.path.string() + ": name both topics, of the " + what);
+      failWithTopics(survey, std::string("needs both topics named, of the ") + what);
     }
     return !a.empty();
   };

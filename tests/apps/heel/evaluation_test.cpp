@@ -30,13 +30,30 @@ TruthRow person(double stamp_s, const char* name, double x_m) {
 
 TEST(AlignByStamp, PutsRowsOfOneMomentTogetherInOrderOfTime) {
   const auto moments = alignByStamp({track(0.2, 1, true, 1), track(0.0, 1, true, 1)},
-                                    {person(0.205, "ann", 1), person(0.4, "ann", 1)}, 0.01);
+                                    {person(0.205, "ann", 1), person(0.4, "ann", 1)});
   ASSERT_EQ(moments.size(), 3U);
   EXPECT_EQ(moments[0].tracks.size(), 1U);
   EXPECT_EQ(moments[0].truth.size(), 0U);
   EXPECT_EQ(moments[1].tracks.size(), 1U);
   EXPECT_EQ(moments[1].truth.size(), 1U);
   EXPECT_EQ(moments[2].truth.size(), 1U);
+}
+
+TEST(AlignByStamp, HasAMomentForEachFrameAndNoOther) {
+  const auto moments = alignByStamp({track(0.2, 1, true, 1)},
+                                    {person(0.205, "ann", 1), person(0.4, "ann", 1)}, {0.1, 0.2});
+  ASSERT_EQ(moments.size(), 2U);
+  EXPECT_TRUE(moments[0].tracks.empty() && moments[0].truth.empty()) << "nobody was there";
+  EXPECT_TRUE(moments[1].tracks.size() == 1 && moments[1].truth.size() == 1);
+}
+
+TEST(Evaluate, CountsFramesWithoutAnybodyAsRightlySilent) {
+  const auto figures = evaluate(
+      alignByStamp({track(1, 1, true, 1)}, {person(1, "ann", 1), person(9, "ann", 1)}, {0, 1, 2}));
+  EXPECT_EQ(figures.person.frames, 3);
+  EXPECT_EQ(figures.person.frames_in_view, 1) << "at 9 s nobody looked";
+  EXPECT_EQ(figures.person.recall(), 1.0);
+  EXPECT_EQ(figures.person.rightAnswerShare(), 1.0);
 }
 
 // Ann is at 1 m, Bob at 3 m. The target's track is on Ann, then on Bob, then nowhere; a second
