@@ -34,7 +34,11 @@ const cv::Mat& DepthImages::of(const Frame& frame) {
 
 namespace {
 
-int scaleOf(const StereoCamera& camera) { return std::max(1, camera.left.width / 320); }
+constexpr int kCoarseWidth = 320;  // [px]
+
+int scaleOf(const StereoCamera& camera) {
+  return std::max(1, camera.left.width / kCoarseWidth);
+}
 
 /// All that depth depends on.
 StereoCamera smaller(StereoCamera camera, int scale) {

@@ -24,10 +24,7 @@ std::string firstPerson(const std::vector<Moment>& moments) {
       return moment.truth.front().person;
     }
   }
-  throw std::runtime_error(
-      "there is nobody in the truth, or its stamps are not those of the frames: they are not of "
-      "one "
-      "recording");
+  throw std::runtime_error("nobody is in the truth at the time of a frame");
 }
 
 bool isPerson(const TrackRow& row) { return row.is_target || row.person_probability > 0.5; }
