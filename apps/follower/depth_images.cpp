@@ -36,9 +36,7 @@ namespace {
 
 constexpr int kCoarseWidth = 320;  // [px]
 
-int scaleOf(const StereoCamera& camera) {
-  return std::max(1, camera.left.width / kCoarseWidth);
-}
+int scaleOf(const StereoCamera& camera) { return std::max(1, camera.left.width / kCoarseWidth); }
 
 /// All that depth depends on.
 StereoCamera smaller(StereoCamera camera, int scale) {

@@ -40,7 +40,8 @@ class DepthImages {
 };
 
 /// Depth of all colours, of a stereo pair, in parts of the image only: whatever stands in front of
-/// a body is not its own. That needs no fine picture: a wide one is made smaller, down to 320 pixels.
+/// a body is not its own. That needs no fine picture: a wide one is made smaller, down to 320
+/// pixels.
 class CoarseDepth {
  public:
   explicit CoarseDepth(const StereoCamera& camera, const StereoMatcherParams& params = {});
