@@ -36,7 +36,7 @@ class BadRecording : public testing::Test {
   void expectOneSkipped(int number, const std::vector<std::string>& parts) {
     const HeelRun run = track();
     ASSERT_TRUE(succeeds(run));
-    EXPECT_THAT(run.out, HasSubstr("1 frame could not be read"));
+    EXPECT_THAT(run.out, HasSubstr("1 frame was left out"));
     ASSERT_EQ(run.warnings().size(), 1U) << run.err;
     const auto summary = nlohmann::json::parse(readText(folder_ / "out/summary.json"));
     EXPECT_EQ(summary["frames"], recording_.frames() - 1);

@@ -77,7 +77,7 @@ TEST_F(StereoFolder, GoesOnWithoutARightImageThatIsMissing) {
                             folder_ / "out", "--no-film"});
   EXPECT_TRUE(findsNothing(run));
   EXPECT_THAT(run.warnings(), testing::Contains(testing::HasSubstr("the right image")));
-  EXPECT_THAT(run.out, testing::HasSubstr("1 frame could not be read"));
+  EXPECT_THAT(run.out, testing::HasSubstr("1 frame was left out"));
 }
 
 }  // namespace

@@ -136,7 +136,9 @@ TEST_F(ManyClouds, NeedACallThatSaysWhereTo) {
   EXPECT_FALSE(fs::exists(out_));
 }
 
-TEST_F(ManyClouds, OnAFullDiskFailEachAndLeaveNothingHalf) {
+TEST_F(ManyClouds, OnAFullDiskLeaveAllAsItWas) {
+  ASSERT_TRUE(succeeds(heel({"filter", "--model", model_, in_ / "10.ply", "--out", out_})));
+  const std::string before = readText(out_ / "summary.csv");
   std::vector<std::string> points;
   for (int i = 0; i < 20000; ++i) {
     points.push_back(point(0.001 * i, 0.37 * (i % 97), 2, SmallRecording::kJumper));
@@ -147,6 +149,7 @@ TEST_F(ManyClouds, OnAFullDiskFailEachAndLeaveNothingHalf) {
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.errors(), Contains(AllOf(HasSubstr("2.pcd"), HasSubstr("cannot be written"))));
   EXPECT_THAT(filesBelow(out_), ElementsAre("10.ply", "summary.csv", "summary.json"));
+  EXPECT_EQ(readText(out_ / "summary.csv"), before);
 }
 
 TEST_F(ManyClouds, AreInspectedByKindAndOneByOne) {

@@ -119,7 +119,7 @@ void run(const PlanViewOptions& options) {
                                          "cells", "area_m2", "extent_m", "score", "is_person"});
   std::size_t blob_count = 0, people = 0;
   const std::vector<std::string> failures = workOnClouds(
-      "looking from above", clouds.size(), options.batch.threads,
+      "drawing", clouds.size(), options.batch.threads,
       [&](std::size_t i, CloudFate& fate) {
         return planOne(clouds[i], output / pictures[i], chosen, params, options, fate);
       },

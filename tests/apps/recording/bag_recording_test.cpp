@@ -255,7 +255,7 @@ TEST_P(BagRecordings, NamesTheTopicsWhereThereIsNoCamera) {
   EXPECT_THAT(messageOf([&] { readAll(path(), topics); }),
               HasSubstr("no messages of the topic '/a'"));
   topics.right = "";
-  EXPECT_THAT(messageOf([&] { readAll(path(), topics); }), HasSubstr("name both"));
+  EXPECT_THAT(messageOf([&] { readAll(path(), topics); }), HasSubstr("needs both"));
 }
 
 TEST_P(BagRecordings, SaysThatACameraHasNoCalibration) {
