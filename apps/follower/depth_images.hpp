@@ -47,7 +47,7 @@ class CoarseDepth {
   explicit CoarseDepth(const StereoCamera& camera, const StereoMatcherParams& params = {});
 
   /// @param parts  Clipped to the image.
-  /// @return  As DepthImages::of(), NaN outside the parts.
+  /// @return  As DepthImages::of(), NaN outside the parts; it may be written to.
   cv::Mat& of(const Frame& frame, const std::vector<cv::Rect>& parts);
 
  private:

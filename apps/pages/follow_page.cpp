@@ -51,9 +51,11 @@ std::string lead(const FollowLog& log, const FollowSummary& sum) {
 std::string tiles(const FollowLog& log, const FollowSummary& sum) {
   const auto share = [](double value) { return shownNumber(100.0 * value, 1, "%"); };
   const double yaw_deg = sum.yaw_rms_rad * 180.0 / M_PI;
-  return tile("Distance", shownNumber(sum.distance_m, 2, "m"),
-              "in " + shownNumber(sum.elapsed_s, 1, "s") + ", after " +
-                  shownNumber(sum.learn_s, 0, "s") + " of learning") +
+  return tile(
+             "Distance", shownNumber(sum.distance_m, 2, "m"),
+             "in " + shownNumber(sum.elapsed_s, 1, "s") +
+                 (sum.learn_s > 0.0 ? ", after " + shownNumber(sum.learn_s, 0, "s") + " of learning"
+                                    : std::string())) +
          tile("Speed while driving", shownNumber(sum.driving_speed_mps, 3, "m/s"),
               shownNumber(sum.moving_speed_mps, 3, "m/s") + " over all time not seeking") +
          tile("Time seeking", share(sum.seekShare()),

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include <cmath>
+#include <vector>
 
 namespace heel {
 namespace {
@@ -46,14 +47,14 @@ TEST(CoarseDepth, IsThatOfTheWholePictureWithinItsParts) {
   EXPECT_GT(found, 0.9 * (left.area() + right.area()));
 }
 
-TEST(CoarseDepth, IsNoneWithoutParts) {
+TEST(CoarseDepth, IsNoneWithoutPartsAfterAFrameThatHadSome) {
   CoarseDepth coarse(kPair);
-  EXPECT_EQ(cv::countNonZero(coarse.of(wallAt(20), {}) > 0.0F), 0);
-}
-
-TEST(CoarseDepth, TakesPartsThatAreEmpty) {
-  CoarseDepth coarse(kPair);
-  EXPECT_EQ(cv::countNonZero(coarse.of(wallAt(20), {cv::Rect()}) > 0.0F), 0);
+  const auto pixels = [&](const std::vector<cv::Rect>& parts) {
+    return cv::countNonZero(coarse.of(wallAt(20), parts) > 0.0F);
+  };
+  EXPECT_GT(pixels({cv::Rect(100, 50, 60, 300)}), 0);
+  EXPECT_EQ(pixels({}), 0);
+  EXPECT_EQ(pixels({cv::Rect()}), 0);
 }
 
 }  // namespace
