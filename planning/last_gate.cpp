@@ -15,10 +15,13 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
-constexpr int kShares = 8;            // Shares of a velocity that are tried.
-constexpr double kGrazed_m = 0.001;   // So far from where it stood, it stood there too.
-constexpr double kThinnest_m = 0.02;  // The radius of the thinnest thing: a chair's leg.
-constexpr double kGap_m = 0.01;       // Between places on the rim, at least.
+constexpr int kShares = 8;             // Shares of a velocity that are tried.
+constexpr double kGrazed_m = 0.001;    // So far from where it stood, it stood there too.
+constexpr double kThinnest_m = 0.02;   // The radius of the thinnest thing: a chair's leg.
+constexpr double kGap_m = 0.01;        // Between places on the rim, at least.
+constexpr double kBeyondLegs_m = 0.2;  // So far beyond what a laser sees of legs is the body.
+// A leg stands at every step, and swings at twice its owner's speed.
+constexpr double kGait_mps = 0.4;
 constexpr double kRounding_m = 1e-9;
 constexpr double kOldest_s = 1.0;  // Of a motion from which to reckon.
 
@@ -32,7 +35,7 @@ VelocityCommand scaled(const VelocityCommand& v, double share) {
 
 const LastGateParams& checked(const LastGateParams& params) {
   checkLimits(params.limits);
-  for (const double value : {params.wheels_latency_s, params.margin_m}) {
+  for (const double value : {params.wheels_latency_s, params.margin_m, params.walkers_mps2}) {
     if (!(value >= 0.0) || !std::isfinite(value)) {
       throw std::invalid_argument("LastGateParams: a parameter is out of its range");
     }
@@ -73,24 +76,29 @@ void LastGate::addPoints(const std::vector<Eigen::Vector3f>& points, const Floor
   sight_.addPoints(points, base, stamp_s);
 }
 
-// What can be touched, and how near it may come. What walks may also stop: it is there twice.
+// What can be touched, and how near it may come.
 void LastGate::approach(const Vector2d& robot, double reach_m, double then_s, double now_s) {
   near_.clear();
   const double body_m = params_.limits.radius_m;
   double nearest_m = body_m + params_.margin_m;
   for (const SeenThing& thing : sight_.things()) {
     if (now_s - thing.seen_s > params_.sight.remembers_s) continue;
-    if (!thing.velocity.isZero()) {
-      const Vector2d then = thing.place + (then_s - thing.seen_s) * thing.velocity;
-      near_.push_back({then, (then - robot).norm(), thing.velocity});
-    }
+    const bool roams = thing.roams && thing.seen_s == sight_.newest_s();
     const double away2 = (thing.place - robot).squaredNorm();
-    if (away2 > reach_m * reach_m) continue;
+    if (!roams && away2 > reach_m * reach_m) continue;
     const double away_m = std::sqrt(away2);
     if (away_m >= body_m) nearest_m = std::min(nearest_m, away_m);
-    near_.push_back({thing.place, away_m, Vector2d::Zero()});
+    near_.push_back({thing.place, away_m, roams ? thing.velocity : Vector2d::Zero(), roams,
+                     then_s - thing.seen_s});
   }
   allow_m_ = nearest_m;
+}
+
+// How far it can be from where it was seen, as it walked, some time after [m].
+double LastGate::strays(const Near& thing, double after_s) const {
+  if (!thing.roams) return 0.0;
+  const double gait_mps = thing.velocity.isZero() ? 0.0 : kGait_mps;
+  return kBeyondLegs_m + (gait_mps + 0.5 * params_.walkers_mps2 * after_s) * after_s;
 }
 
 // Whether a thing surely comes no nearer while the robot drives a piece of its way: it is behind
@@ -112,13 +120,15 @@ bool LastGate::isFree(const std::vector<WayPiece>& pieces) const {
     double safe_m = touches ? kNever : thing.away_m - allow_m_;  // so far it can drive anyhow
     const double walks_mps = thing.velocity.norm();
     for (const WayPiece& piece : pieces) {
-      const double nearer_m = piece.driven_m + walks_mps * piece.time_s;  // or less
+      const double after_s = thing.age_s + piece.time_s;
+      const double strays_m = strays(thing, after_s);
+      const double nearer_m = piece.driven_m + walks_mps * after_s + strays_m;  // or less
       if (nearer_m <= safe_m) continue;
-      const Vector2d to = thing.place + piece.time_s * thing.velocity - piece.from;
+      const Vector2d to = thing.place + after_s * thing.velocity - piece.from;
       const double along_m = to.dot(piece.way);
       const double aside_m = piece.way.x() * to.y() - piece.way.y() * to.x();
       const double off_m = std::max({0.0, piece.first_m - along_m, along_m - piece.last_m});
-      const double away_m = std::sqrt(off_m * off_m + aside_m * aside_m) - piece.aside_m;
+      const double away_m = std::sqrt(off_m * off_m + aside_m * aside_m) - piece.aside_m - strays_m;
       if (!touches && away_m >= allow_m_ - kRounding_m) {
         safe_m = nearer_m + away_m - allow_m_;
       } else if (!recedes(piece, along_m, aside_m)) {

@@ -25,6 +25,9 @@ struct LastGateParams {
   double wheels_latency_s = 0.0;
   /// Room that is left to what was seen: two standard deviations of a laser's ranges.
   double margin_m = 0.02;
+  /// Who has walked lately may walk again, any way, and gains speed no faster than this: from
+  /// standing to a stroll within a step [m/s^2].
+  double walkers_mps2 = 2.0;
   RecentSightParams sight;  ///< What its sensors see, and for how long that is known.
 };
 
@@ -44,7 +47,8 @@ struct GatedVelocity {
 /// It lets a velocity through if the robot, with it for a control period and then braking,
 /// - comes no nearer than `margin_m` to what was seen, or, where the nearest that it does not touch
 ///   was nearer at the last odometry, no nearer than that;
-/// - does the same with what comes to where a look has lately seen nothing, as if that walked on;
+/// - does the same with what came, in the last `remembers_s`, to where a look had seen nothing,
+///   wherever that may walk to meanwhile; what the robot leaves behind may come as near as it will;
 /// - does not drive towards what it touched then, not even as far as it has moved off since;
 /// - goes only where scans of the last `remembers_s` have seen: all that the body newly covers is
 ///   looked at, and `margin_m` beyond, for things of 4 cm across or more.
@@ -94,9 +98,12 @@ class LastGate {
     Eigen::Vector2d place;
     double away_m;  // from the robot's middle
     Eigen::Vector2d velocity;
+    bool roams;    // it may walk, and is a part of somebody
+    double age_s;  // of the place
   };
 
   void approach(const Eigen::Vector2d& robot, double reach_m, double then_s, double now_s);
+  double strays(const Near& thing, double after_s) const;
   static bool recedes(const WayPiece& piece, double along_m, double aside_m);
   bool isFree(const std::vector<WayPiece>& pieces) const;
   bool isRimSeen(const Eigen::Vector2d& start, const Eigen::Vector2d& middle,

@@ -18,6 +18,7 @@ constexpr double kCell_m = 0.05;       // Of the camera's points,
 constexpr int kCells = 48;             // so many on each side of a square about the robot.
 constexpr double kSame_m = 0.1;        // So far apart two pictures may see one thing.
 constexpr double kSurface_m = 0.05;    // So far behind a beam's end is the thing that it hit.
+constexpr double kBody_m = 0.4;        // So far apart are parts of one body.
 constexpr double kWalks_mps = 1.2;     // Nobody walks faster.
 constexpr double kOldestLook_s = 1.0;  // Of a look from which to reckon who walks.
 constexpr double kRounding_rad = 1e-9;
@@ -82,24 +83,49 @@ bool RecentSight::isSeen(const Vector2d& place, double short_m, double now_s) {
   return false;
 }
 
+// The beam that ends nearest to a place, which is in the look's own axes; none within reach: the
+// number of beams.
+std::size_t RecentSight::nearestBeam(const Look& look, const Vector2d& at, double reach_m) {
+  const std::size_t beams = look.scan.ranges_m.size();
+  std::size_t nearest = beams;
+  if (beams == 0) return nearest;
+  const double away_m = at.norm(), step_rad = std::abs(look.scan.step_rad);
+  const auto turn = static_cast<long>(std::round(2.0 * M_PI / step_rad));
+  const auto half = std::min(
+      static_cast<long>(std::asin(std::min(reach_m / away_m, 1.0)) / step_rad) + 1, turn / 2);
+  const auto middle = static_cast<long>(beamTo(look, at));
+  double least2 = reach_m * reach_m;
+  for (long k = middle - half; k <= middle + half; ++k) {
+    const auto i = static_cast<std::size_t>((k + turn) % turn);
+    if (i >= beams) continue;
+    const auto range_m = static_cast<double>(look.scan.ranges_m[i]);
+    if (!(std::abs(range_m - away_m) < reach_m)) continue;
+    const double angle = look.scan.angle(i);
+    const double off2 = (at - range_m * Vector2d(std::cos(angle), std::sin(angle))).squaredNorm();
+    if (off2 >= least2) continue;
+    least2 = off2;
+    nearest = i;
+  }
+  return nearest;
+}
+
 // How what is seen at a place has come there. Where the look before saw nothing, something came,
 // from the nearest that it saw; else it stands.
 Vector2d RecentSight::velocityOf(const Vector2d& place, const Look& before, double dt_s) {
   if (!(dt_s <= kOldestLook_s) || !sawFree(before, place, -kSurface_m)) return Vector2d::Zero();
   const Vector2d at = before.turn * (place - before.scanner);
-  const double reach_m = kWalks_mps * dt_s;
-  Vector2d came = Vector2d::Zero();
-  double least2 = reach_m * reach_m;
-  for (std::size_t i = 0; i < before.scan.ranges_m.size(); ++i) {
-    const auto range_m = static_cast<double>(before.scan.ranges_m[i]);
-    if (!(std::abs(range_m - at.norm()) < reach_m)) continue;
-    const double angle = before.scan.angle(i);
-    const Vector2d by = at - range_m * Vector2d(std::cos(angle), std::sin(angle));
-    if (by.squaredNorm() >= least2) continue;
-    least2 = by.squaredNorm();
-    came = by;
-  }
+  const std::size_t from = nearestBeam(before, at, kWalks_mps * dt_s);
+  if (from == before.scan.ranges_m.size()) return Vector2d::Zero();
+  const double angle = before.scan.angle(from);
+  const auto range_m = static_cast<double>(before.scan.ranges_m[from]);
+  const Vector2d came = at - range_m * Vector2d(std::cos(angle), std::sin(angle));
   return before.turn.transpose() * came / dt_s;
+}
+
+// When what is seen at a place last came from elsewhere, if the last scan saw it too.
+double RecentSight::lastMoved(const Vector2d& place) const {
+  const std::size_t was = nearestBeam(last_, last_.turn * (place - last_.scanner), kSame_m);
+  return was < moved_s_.size() ? moved_s_[was] : kNotYet;
 }
 
 void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double stamp_s) {
@@ -123,12 +149,31 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
                                }),
                 things_.end());
   const Look& earlier = looks_[(newest_ + looks_.size() - 1) % looks_.size()];
+  moves_.assign(scan.ranges_m.size(), kNotYet);
+  roaming_.clear();
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range_m = static_cast<double>(scan.ranges_m[i]);
     if (!(range_m > 0.0 && range_m < range_m_)) continue;
     const double angle = scan.angle(i);
     const Vector2d place = scanner * Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
-    keep({place, 0.0, stamp_s, true, true, velocityOf(place, earlier, stamp_s - earlier.stamp_s)});
+    const Vector2d velocity = velocityOf(place, earlier, stamp_s - earlier.stamp_s);
+    moves_[i] = velocity.isZero() ? lastMoved(place) : stamp_s;
+    const bool roams = stamp_s - moves_[i] <= params_.remembers_s;
+    if (roams) roaming_.push_back({place, velocity});
+    keep({place, 0.0, stamp_s, true, true, roams, velocity});
+  }
+  moved_s_.swap(moves_);
+  last_ = look;
+  for (SeenThing& thing : things_) {
+    if (!thing.roams || thing.seen_s != stamp_s) continue;
+    Vector2d sum = Vector2d::Zero();
+    int count = 0;
+    for (const Roaming& other : roaming_) {
+      if ((other.place - thing.place).squaredNorm() > kBody_m * kBody_m) continue;
+      sum += other.velocity;
+      ++count;
+    }
+    thing.velocity = sum / count;
   }
 }
 
@@ -173,7 +218,7 @@ void RecentSight::addPoints(const std::vector<Eigen::Vector3f>& points, const Fl
                 things_.end());
   for (const Cell& cell : cells_) {
     if (cell.points < params_.min_points) continue;
-    keep({placeOf(cell), static_cast<double>(cell.highest_m), stamp_s, false, cell.is_sure,
+    keep({placeOf(cell), static_cast<double>(cell.highest_m), stamp_s, false, cell.is_sure, false,
           Vector2d::Zero()});
   }
 }

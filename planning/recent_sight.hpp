@@ -40,7 +40,8 @@ struct SeenThing {
   double seen_s;
   bool by_laser;
   bool is_sure;              ///< By the laser, or in two pictures one after the other.
-  Eigen::Vector2d velocity;  ///< As if it walked on; zero if it stood there in the look before.
+  bool roams;                ///< It came from elsewhere in the last `remembers_s`.
+  Eigen::Vector2d velocity;  ///< Of what roams, the mean of all that is within a body's width.
 };
 
 /// Remembers the newest scans, and the points that scans and pictures saw. All poses are of the
@@ -66,6 +67,9 @@ class RecentSight {
   /// At most kMostThings, of which some may be older than is remembered.
   const std::vector<SeenThing>& things() const { return things_; }
 
+  /// When the newest scan was measured.
+  double newest_s() const { return looks_[newest_].stamp_s; }
+
   /// Distance from a place to the nearest of them [m].
   double clearance(const Eigen::Vector2d& place) const;
 
@@ -85,6 +89,9 @@ class RecentSight {
     double stamp_s = 0.0;
     LaserScan scan;
   };
+  struct Roaming {
+    Eigen::Vector2d place, velocity;
+  };
   struct Cell {
     std::uint16_t points = 0;
     bool is_sure = false;
@@ -96,7 +103,9 @@ class RecentSight {
   static bool sees(const Look& look, const Eigen::Vector2d& thing);
   static bool sawFree(const Look& look, const Eigen::Vector2d& place, double short_m);
   bool isInPicture(const SeenThing& thing, const FloorPose& T_base_world) const;
+  static std::size_t nearestBeam(const Look& look, const Eigen::Vector2d& at, double reach_m);
   static Eigen::Vector2d velocityOf(const Eigen::Vector2d& place, const Look& before, double dt_s);
+  double lastMoved(const Eigen::Vector2d& place) const;
   void keep(const SeenThing& thing);
 
   RecentSightParams params_;
@@ -104,7 +113,10 @@ class RecentSight {
   std::vector<SeenThing> things_;
   std::array<Look, 20> looks_;  // a ring; looks_[newest_] is the last
   std::size_t newest_ = 0;
-  std::size_t saw_ = 0;  // the look that saw the last place that was asked for
+  Look last_;                            // the last scan, which may have replaced the one before,
+  std::vector<double> moved_s_, moves_;  // and when what its beams, and the next's, met last moved
+  std::vector<Roaming> roaming_;         // in the last scan
+  std::size_t saw_ = 0;                  // the look that saw the last place that was asked for
   std::vector<Cell> cells_;
   double points_s_;
 };

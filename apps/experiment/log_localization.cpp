@@ -72,7 +72,8 @@ OccupancyGrid mapFromLog(const std::filesystem::path& path, MapScans which, doub
   for (std::size_t i = 0; log->next(reading); ++i) {
     if (!makesMap(which, i, count)) continue;
     if (!reading.reference) {
-      throw std::runtime_error(path.string() + ": has no reference poses to make a map with");
+      throw std::runtime_error(path.string() +
+                               ": has no reference poses to make a map with; name a map (--map)");
     }
     try {
       map.add(*reading.reference * T_base_scanner, reading.scan);
@@ -110,7 +111,11 @@ LogLocalizationResult localizeLog(const std::filesystem::path& path, const Occup
     if (!started) {
       if (!params.global) {
         const auto start = params.start ? params.start : reading.reference;
-        if (!start) throw std::runtime_error(path.string() + ": say where the robot starts");
+        if (!start) {
+          throw std::runtime_error(path.string() +
+                                   ": say where the robot starts (--start), or that it may be "
+                                   "anywhere (--global)");
+        }
         localization.startAt(*start);
       }
       if (reading.reference) drift = *reading.reference * reading.odometry.inverse();

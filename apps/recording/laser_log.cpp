@@ -8,10 +8,12 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -32,10 +34,18 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 /// What scanners of that time report when nothing came back is 81.9 m and the like.
-constexpr float kNothing_m = 80.0F;
+constexpr double kNothing_m = 80.0;
 constexpr int kMostBeams = 10000;
 /// Of characters; the longest scan has 10000 ranges.
 constexpr std::size_t kLongestLine = 1U << 20U;
+/// Two poses that are no further apart are one, written with few digits [m, rad].
+constexpr double kSame = 0.01;
+/// No robot of these logs is faster [m/s, rad/s].
+constexpr double kFastest = 4.0;
+
+double apart(const FloorPose& pose) {
+  return std::max(pose.position.norm(), std::abs(wrapped(pose.yaw_rad)));
+}
 
 }  // namespace
 
@@ -94,10 +104,69 @@ struct CarmenLog::State {
     return {{x, y}, wrapped(yaw)};
   }
 
-  void chain(const FloorPose& now) {
-    if (anchored) odometry = odometry * (anchor.inverse() * now);
-    anchor = now;
-    anchored = true;
+  /// A line of a scan, of either kind; false if it is another line. The rest of it is read.
+  bool scanLine(std::string_view kind) {
+    const bool is_new = kind == "ROBOTLASER1";
+    if (!is_new && kind != "FLASER") return false;
+    double first_rad = -kPi / 2.0, step_rad = 0.0, most_m = kNothing_m;
+    if (is_new) {
+      number();  // the laser's type
+      first_rad = number();
+      number();  // its field of view
+      step_rad = number();
+      most_m = number();
+      number();  // accuracy and
+      number();  // remission
+    }
+    const double beams = number();
+    if (!(beams >= 2.0) || beams > kMostBeams) fail("a scan must have 2 to 10000 beams");
+    const auto count = static_cast<std::size_t>(beams);
+    // 180 or 360 beams leave out the last of 181 or 361; an odd number has both ends.
+    if (!is_new) step_rad = kPi / static_cast<double>(count % 2 == 0 ? count : count - 1);
+    if (!(std::abs(step_rad) > 0.0)) fail("a scan's beams have no angle between them");
+    scan.first_rad = first_rad;
+    scan.step_rad = step_rad;
+    scan.ranges_m.resize(count);
+    for (float& range : scan.ranges_m) {
+      const double range_m = number();
+      range =
+          range_m >= most_m ? std::numeric_limits<float>::infinity() : static_cast<float>(range_m);
+    }
+    for (double left = is_new ? number() : 0.0; left >= 1.0; --left) word();  // remissions
+    laser = pose();
+    robot = pose();
+    for (int left = is_new ? 5 : 0; left > 0; --left) word();  // speeds and safe distances
+    stamp_s = number();
+    return true;
+  }
+
+  /// Reads on to the next scan, and goes along with the odometry; false at the end.
+  bool nextScan() {
+    while (nextLine()) {
+      const std::string_view kind = word();
+      if (kind == "ODOM") {
+        const FloorPose now = pose();
+        for (int left = 3; left > 0; --left) word();  // speeds and acceleration
+        const std::string_view time = word();
+        double time_s = 0.0;
+        std::from_chars(time.data(), time.data() + time.size(), time_s);
+        if (anchored) odometry = odometry * (anchor.inverse() * now);
+        anchor = now;
+        anchor_s = time_s;
+        anchored = has_odometry = true;
+      } else if (kind == "PARAM" && word() == "robot_frontlaser_offset") {
+        laser_ahead_m = number();
+      } else if (scanLine(kind)) {
+        jump = anchored ? anchor.inverse() * robot : FloorPose{};
+        jump_s = stamp_s - anchor_s;
+        if (!is_corrected) odometry = odometry * jump;
+        anchor = robot;
+        anchor_s = stamp_s;
+        anchored = true;
+        return true;
+      }
+    }
+    return false;
   }
 
   std::string name;
@@ -105,41 +174,52 @@ struct CarmenLog::State {
   std::string line;
   std::string_view rest;
   long line_number = 0;
-  FloorPose anchor;  // The pose that the next ODOM line is an increment to.
-  bool anchored = false;
+  bool is_corrected = false;
+  FloorPose anchor;  // The pose that the next line of odometry is an increment to, and its time.
+  double anchor_s = 0.0;
+  bool anchored = false, has_odometry = false;
   FloorPose odometry;
+  double laser_ahead_m = 0.0;
+  // Of the last scan:
+  LaserScan scan;
+  FloorPose laser, robot, jump;
+  double stamp_s = 0.0, jump_s = 0.0;
 };
 
-CarmenLog::CarmenLog(const std::filesystem::path& file) : state_(std::make_unique<State>(file)) {}
+// What kind of log it is shows in all of it.
+CarmenLog::CarmenLog(const std::filesystem::path& file) : state_(std::make_unique<State>(file)) {
+  State all(file);
+  std::optional<FloorPose> first;
+  bool differs = false;
+  try {
+    while (all.nextScan()) {
+      state_->is_corrected |=
+          apart(all.jump) > kSame && apart(all.jump) > kFastest * std::abs(all.jump_s);
+      const FloorPose T_robot_laser = all.robot.inverse() * all.laser;
+      if (!first) first = T_robot_laser;
+      differs |= apart(first->inverse() * T_robot_laser) > 2.0 * kSame;
+    }
+  } catch (const std::runtime_error&) {  // next() will tell of it.
+  }
+  if (differs) reference_ = Reference::kLaser;
+  if (!differs && (state_->is_corrected || !all.has_odometry)) reference_ = Reference::kRobot;
+  if (differs) T_base_scanner_ = {{all.laser_ahead_m, 0.0}, 0.0};
+  if (first && !differs) T_base_scanner_ = *first;
+  // Beside a reference of its own, the odometry is not corrected.
+  if (differs) state_->is_corrected = false;
+}
 CarmenLog::~CarmenLog() = default;
 
 bool CarmenLog::next(LaserReading& reading) {
   State& s = *state_;
-  while (s.nextLine()) {
-    const std::string_view kind = s.word();
-    if (kind == "ODOM") s.chain(s.pose());
-    if (kind != "FLASER") continue;
-    const double beams = s.number();
-    if (!(beams >= 2.0) || beams > kMostBeams) s.fail("a scan must have 2 to 10000 beams");
-    const auto count = static_cast<std::size_t>(beams);
-    reading.scan.first_rad = -kPi / 2.0;
-    // 180 or 360 beams leave out the last of 181 or 361; an odd number has both ends.
-    reading.scan.step_rad = kPi / static_cast<double>(count % 2 == 0 ? count : count - 1);
-    reading.scan.ranges_m.resize(count);
-    for (float& range : reading.scan.ranges_m) {
-      range = static_cast<float>(s.number());
-      if (range >= kNothing_m) range = std::numeric_limits<float>::infinity();
-    }
-    const FloorPose at = s.pose();
-    s.pose();  // What the odometry thought, which a correction has overwritten.
-    reading.stamp_s = s.number();
-    reading.odometry = s.odometry;
-    reading.reference = at;
-    s.anchor = at;
-    s.anchored = true;
-    return true;
-  }
-  return false;
+  if (!s.nextScan()) return false;
+  reading.stamp_s = s.stamp_s;
+  reading.scan = s.scan;
+  reading.odometry = s.odometry;
+  reading.reference.reset();
+  if (reference_ == Reference::kRobot) reading.reference = s.robot;
+  if (reference_ == Reference::kLaser) reading.reference = s.laser * T_base_scanner_.inverse();
+  return true;
 }
 
 }  // namespace heel

@@ -51,12 +51,17 @@ class LaserLog {
 std::unique_ptr<LaserLog> openLaserLog(const std::filesystem::path& path,
                                        const BagTopics& topics = {});
 
-/// Reads a CARMEN log, plain or compressed by gzip, one FLASER line after the other; memory does
-/// not grow. Scans cover 180 degrees from right to left.
+/// Reads a CARMEN log, plain or compressed by gzip, one scan after the other; memory does not grow.
+/// Scans are lines of FLASER (180 degrees from right to left) or ROBOTLASER1. Each has two poses,
+/// of the laser and of the robot. What they are differs from log to log, and is found in the log:
 ///
-/// The pose in a FLASER line is given as the reference. ODOM lines are taken to start again from
-/// that pose (as in logs that a SLAM program has corrected): the odometry is the chain of their
-/// increments, without the jump to the pose.
+/// - Where the one is at the same place from the other in all scans, that is the scanner's place,
+///   and the pose belongs to the odometry. There is no reference.
+/// - If ODOM lines lead elsewhere, faster than any robot, a SLAM program has corrected the log: the
+///   robot's pose is the reference, and ODOM lines start again from it. The odometry is the chain
+///   of their increments, without the jump to the pose.
+/// - Where the one is not at the same place from the other, the laser's is the reference; it is
+///   robot_frontlaser_offset before the base.
 class CarmenLog : public LaserLog {
  public:
   /// @throws std::runtime_error  one sentence, if the file can't be opened.
@@ -67,9 +72,14 @@ class CarmenLog : public LaserLog {
   ///         stream is broken.
   bool next(LaserReading& reading) override;
 
+  std::optional<FloorPose> T_base_scanner() const override { return T_base_scanner_; }
+
  private:
+  enum class Reference { kNone, kRobot, kLaser };
   struct State;
   std::unique_ptr<State> state_;
+  Reference reference_ = Reference::kNone;
+  FloorPose T_base_scanner_;
 };
 
 }  // namespace heel

@@ -106,7 +106,7 @@ fs::path planFile(const std::string& plan) { return find(plan, planFolder(), ".p
 
 namespace {
 
-constexpr const char* kGroup = "Topics of a bag (found by type and name if not given)";
+constexpr const char* kGroup = "Topics (found by type and name if not given)";
 
 void add(CLI::App& verb, const char* option, std::string& topic, const char* what) {
   verb.add_option(option, topic, what)->group(kGroup)->type_name("TOPIC");

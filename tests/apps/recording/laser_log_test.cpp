@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace heel {
 namespace {
@@ -41,6 +42,58 @@ TEST(CarmenLog, ChainsTheOdometryAndSkipsTheCorrections) {
   EXPECT_NEAR((reading.odometry.position - Eigen::Vector2d(2.0, 0.0)).norm(), 0.0, 1e-12);
   EXPECT_NEAR(reading.odometry.yaw_rad, M_PI / 2.0, 1e-6);
   EXPECT_FALSE(log->next(reading));
+}
+
+/// The readings of a log that is written here.
+std::vector<LaserReading> readingsOf(const std::string& text, FloorPose* T_base_scanner = nullptr) {
+  const test::TempFolder folder;
+  const auto log = openLaserLog(folder.write("small.log", text));
+  if (T_base_scanner != nullptr) *T_base_scanner = *log->T_base_scanner();
+  std::vector<LaserReading> readings(1);
+  while (log->next(readings.back())) readings.push_back(readings.back());
+  readings.pop_back();
+  return readings;
+}
+
+TEST(CarmenLog, GoesAlongWithTheScansPosesWhereNobodyHasCorrectedThem) {
+  FloorPose T_base_scanner;
+  const auto readings = readingsOf(
+      "ODOM 5 5 0 0.3 0 0 0.1 host 0.1\n"
+      "FLASER 2 1.0 2.0 5.22 5.0 0.0 5.02 5.0 0.0 0.2 host 0.2\n"
+      "ODOM 5.04 5 0 0.3 0 0 0.3 host 0.3\n"
+      "FLASER 2 1.0 2.0 5.05 5.2 1.5707963 5.05 5.0 1.5707963 0.9 host 0.9\n",
+      &T_base_scanner);
+  ASSERT_EQ(readings.size(), 2U);
+  EXPECT_FALSE(readings[0].reference || readings[1].reference) << "it is all odometry";
+  EXPECT_NEAR((readings[0].odometry.position - Eigen::Vector2d(0.02, 0.0)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((readings[1].odometry.position - Eigen::Vector2d(0.05, 0.0)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR(readings[1].odometry.yaw_rad, M_PI / 2.0, 1e-6);
+  EXPECT_NEAR((T_base_scanner.position - Eigen::Vector2d(0.2, 0.0)).norm(), 0.0, 1e-6);
+}
+
+TEST(CarmenLog, TakesTheLasersPoseAsTheReferenceWhereItIsNoOdometry) {
+  const auto readings = readingsOf(
+      "PARAM robot_frontlaser_offset 0.2 nohost 0\n"
+      "FLASER 2 1.0 2.0 3.2 0.0 0.0 0.0 0.0 0.0 0.2 host 0.2\n"
+      "FLASER 2 1.0 2.0 4.1 0.2 1.5707963 1.0 0.0 1.4 2.2 host 2.2\n");
+  ASSERT_EQ(readings.size(), 2U);
+  EXPECT_NEAR((readings[0].reference->position - Eigen::Vector2d(3.0, 0.0)).norm(), 0.0, 1e-6);
+  EXPECT_NEAR((readings[1].reference->position - Eigen::Vector2d(4.1, 0.0)).norm(), 0.0, 1e-6);
+  EXPECT_NEAR((readings[1].odometry.position - Eigen::Vector2d(1.0, 0.0)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR(readings[1].odometry.yaw_rad, 1.4, 1e-9);
+}
+
+TEST(CarmenLog, ReadsScansOfItsNewerForm) {
+  const auto readings = readingsOf(
+      "ROBOTLASER1 0 -2.0 4.0 0.5 30.0 0.01 0 3 1.0 30.0 2.5 1 77 1 2 0.1 1 2 0.1 "
+      "0 0 0.5 0.5 9 0.25 host 0.25\n");
+  ASSERT_EQ(readings.size(), 1U);
+  EXPECT_EQ(readings[0].stamp_s, 0.25);
+  ASSERT_EQ(readings[0].scan.ranges_m.size(), 3U);
+  EXPECT_NEAR(readings[0].scan.angle(2), -1.0, 1e-12);
+  EXPECT_EQ(readings[0].scan.ranges_m[2], 2.5F);
+  EXPECT_TRUE(std::isinf(readings[0].scan.ranges_m[1])) << "30 m is as far as it sees";
+  EXPECT_NEAR(readings[0].reference->position.y(), 2.0, 1e-12);
 }
 
 TEST(CarmenLog, ReadsItCompressedToo) {
