@@ -10,8 +10,11 @@
 namespace heel {
 namespace {
 
-/// While lost, each scan tries this share of the poses of a whole search.
+/// While lost, each scan tries this share of the poses of a whole search, and no more than so many.
 constexpr double kEffortWhileLost = 0.2;
+constexpr double kMostWhileLost = 40000.0;
+/// So much of the rivals is found anew with each scan.
+constexpr double kNewRivals = 0.25;
 
 const LocalizationParams& checked(const LocalizationParams& p) {
   const auto share = [](double value) { return value > 0.0 && value <= 1.0; };
@@ -23,7 +26,7 @@ const LocalizationParams& checked(const LocalizationParams& p) {
     throw std::invalid_argument("Localization: errors, bins and radii must be positive");
   }
   if (!share(p.evidence) || !share(p.sure_share) || !share(p.fast_rate) || !share(p.slow_rate) ||
-      !(p.injected_share >= 0.0 && p.injected_share < 1.0)) {
+      !share(p.carried_off) || p.rivals == 0) {
     throw std::invalid_argument("Localization: shares must be above 0 and at most 1");
   }
   return p;
@@ -41,6 +44,7 @@ Localization::Localization(const OccupancyGrid& map, const FloorPose& T_base_sca
       bins_(params.bin_m, params.bin_rad, params.max_particles) {
   particles_.reserve(params.max_particles);
   drawn_.reserve(params.max_particles);
+  rivals_.reserve(std::max(params.max_particles, params.rivals));
   for (auto* values : {&cosine_, &sine_, &log_likelihood_}) values->reserve(params.max_particles);
   bin_of_.reserve(params.max_particles);
 }
@@ -53,6 +57,7 @@ void Localization::startAt(const FloorPose& pose, double place_m, double heading
   for (std::size_t i = 0; i < params_.max_particles; ++i) particles_.add(pose);
   shakeParticles(place_m, heading_rad, 0, random_, particles_);
   particles_.setEqualWeights();
+  rivals_.clear();
   pending_.clear();
   search_everywhere_ = false;
   news_ = true;
@@ -69,6 +74,7 @@ void Localization::startAt(const FloorPose& pose, double place_m, double heading
 
 void Localization::startAnywhere() {
   particles_.clear();
+  rivals_.clear();
   pending_.clear();
   search_everywhere_ = true;
   news_ = true;
@@ -93,50 +99,112 @@ bool Localization::update(const LaserScan& scan, const std::vector<FloorDisc>& l
     if (!unfit_) return false;
   }
   if (search_everywhere_) {
-    search_.find(beams_.ends(), 1.0, params_.max_particles, random_, particles_);
+    search_.find(beams_.ends(), search_.poses(), params_.max_particles, random_, particles_);
     particles_.setEqualWeights();
     search_everywhere_ = false;
+    telling_ = beams_.ends();
   } else {
+    // A beam that ends before the map's wall tells of somebody, not of another place.
+    scanResiduals(field_, beams_.ends(), estimate_.pose, beams_.T_base_scanner(), params_.near_m,
+                  &telling_);
     moveParticles(pending_, params_.motion, random_, particles_);
+    moveParticles(pending_, params_.motion, random_, rivals_);
   }
   pending_.clear();
-  weigh();
-  findCluster();
+  weigh(telling_, particles_);
+  adopt(heaviestCluster(particles_));
   judge();
+  if (unfit_ || rivals_.size() > 0) compare();
   resample();
   news_ = false;
   return true;
 }
 
-void Localization::weigh() {
-  const std::size_t count = particles_.size();
+void Localization::weigh(const BeamEnds& ends, ParticleSet& particles) {
+  const std::size_t count = particles.size();
   for (auto* values : {&cosine_, &sine_, &log_likelihood_}) values->resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    cosine_[i] = std::cos(particles_.yaw_rad[i]);
-    sine_[i] = std::sin(particles_.yaw_rad[i]);
+    cosine_[i] = std::cos(particles.yaw_rad[i]);
+    sine_[i] = std::sin(particles.yaw_rad[i]);
   }
-  field_.score(beams_.ends(), count, particles_.x_m.data(), particles_.y_m.data(), cosine_.data(),
+  field_.score(ends, count, particles.x_m.data(), particles.y_m.data(), cosine_.data(),
                sine_.data(), log_likelihood_.data());
-  particles_.weigh(log_likelihood_.data(), params_.evidence);
+  particles.weigh(log_likelihood_.data(), params_.evidence);
 }
 
-void Localization::findCluster() {
+// The estimate and its best rival each explain the scan; the better one is the estimate. What this
+// scan has found is no witness of its own, and is compared from the next one on.
+void Localization::compare() {
+  const double carried_off = std::log(params_.carried_off);
+  const bool anew = rivals_.size() == 0;
+  if (!anew) {
+    const Cluster rival = heaviestCluster(rivals_);
+    const FloorPose change = rival_pose_.inverse() * rival.pose;
+    if (isElsewhere(change)) rivals_log_odds_ = carried_off;
+    rival_pose_ = rival.pose;
+    const ScanResiduals residuals =
+        scanResiduals(field_, beams_.ends(), rival.pose, beams_.T_base_scanner(), params_.near_m);
+    rivals_log_odds_ += logLikelihood(residuals) - logLikelihood(estimate_.residuals);
+    weigh(beams_.ends(), rivals_);
+  }
+  // Once in a while it is carried off, whatever was seen before.
+  rivals_log_odds_ = anew ? carried_off : std::max(rivals_log_odds_, carried_off);
+  if (rivals_log_odds_ > 0.0) {
+    std::swap(particles_, rivals_);
+    rivals_log_odds_ = std::max(-rivals_log_odds_, carried_off);
+    rival_pose_ = estimate_.pose;
+    adopt(heaviestCluster(particles_));
+    judge();
+  }
+  estimate_.cluster_share /= 1.0 + std::exp(rivals_log_odds_);
+  estimate_.lost = estimate_.lost || estimate_.cluster_share < params_.sure_share;
+  if (!unfit_ && rivals_log_odds_ <= carried_off) {
+    rivals_.clear();
+    return;
+  }
+  const auto found =
+      static_cast<std::size_t>((anew ? 1.0 : kNewRivals) * static_cast<double>(params_.rivals));
+  const double poses =
+      std::min(kEffortWhileLost * static_cast<double>(search_.poses()), kMostWhileLost);
+  drawn_.clear();
+  drawSystematic(rivals_, params_.rivals - found, random_, drawn_);
+  search_.find(beams_.ends(), static_cast<std::size_t>(std::ceil(poses)), found, random_, drawn_);
+  drawn_.setEqualWeights();
+  std::swap(rivals_, drawn_);
+  if (anew) rival_pose_ = heaviestCluster(rivals_).pose;
+}
+
+// Of all the beams of a scan, by what the map says about them.
+double Localization::logLikelihood(const ScanResiduals& r) const {
+  const double hit = field_.logLikelihoodAt(0.0);
+  const double missed = field_.logLikelihoodAt(params_.field.far_m);
+  const double shorter = hit + ScanResiduals::kShorterCounts * (missed - hit);
+  return params_.evidence * r.beams * (r.explained * hit + r.shorter * shorter + r.beyond * missed);
+}
+
+bool Localization::isElsewhere(const FloorPose& change) const {
+  return change.position.norm() > params_.cluster_m ||
+         std::abs(change.yaw_rad) > params_.cluster_rad;
+}
+
+Localization::Cluster Localization::heaviestCluster(const ParticleSet& particles) {
   bins_.clear();
-  bin_of_.resize(particles_.size());
-  for (std::size_t i = 0; i < particles_.size(); ++i) {
-    bin_of_[i] = static_cast<std::uint32_t>(bins_.add(particles_.x_m[i], particles_.y_m[i],
-                                                      particles_.yaw_rad[i], particles_.weight[i]));
+  bin_of_.resize(particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    bin_of_[i] = static_cast<std::uint32_t>(
+        bins_.add(particles.x_m[i], particles.y_m[i], particles.yaw_rad[i], particles.weight[i]));
   }
   const std::size_t heaviest = bins_.heaviest();
-  FloorPose mean;
+  Cluster cluster;
+  FloorPose& mean = cluster.pose;
   // The mean of the heaviest bin, then of all that is near the mean, until it stays.
   constexpr int kRounds = 4;
   for (int round = 0; round < kRounds; ++round) {
     double mass = 0.0;
     Eigen::Vector2d place = Eigen::Vector2d::Zero(), heading = Eigen::Vector2d::Zero();
     Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
-    for (std::size_t i = 0; i < particles_.size(); ++i) {
-      const FloorPose p = particles_.pose(i);
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      const FloorPose p = particles.pose(i);
       const Eigen::Vector2d off = p.position - mean.position;
       const double turn = wrapped(p.yaw_rad - mean.yaw_rad);
       const bool belongs = round == 0
@@ -144,7 +212,7 @@ void Localization::findCluster() {
                                : off.squaredNorm() <= params_.cluster_m * params_.cluster_m &&
                                      std::abs(turn) <= params_.cluster_rad;
       if (!belongs) continue;
-      const auto w = static_cast<double>(particles_.weight[i]);
+      const auto w = static_cast<double>(particles.weight[i]);
       mass += w;
       place += w * p.position;
       heading += w * Eigen::Vector2d(std::cos(p.yaw_rad), std::sin(p.yaw_rad));
@@ -156,17 +224,21 @@ void Localization::findCluster() {
     const Eigen::Vector3d shift(next.position.x() - mean.position.x(),
                                 next.position.y() - mean.position.y(),
                                 wrapped(next.yaw_rad - mean.yaw_rad));
-    estimate_.covariance = square / mass - shift * shift.transpose();
-    estimate_.cluster_share = std::min(mass, 1.0);
+    cluster.covariance = square / mass - shift * shift.transpose();
+    cluster.share = std::min(mass, 1.0);
     mean = next;
   }
-  const FloorPose change = estimate_.pose.inverse() * mean;
-  const bool elsewhere =
-      change.position.norm() > params_.cluster_m || std::abs(change.yaw_rad) > params_.cluster_rad;
+  return cluster;
+}
+
+void Localization::adopt(const Cluster& cluster) {
+  const bool elsewhere = isElsewhere(estimate_.pose.inverse() * cluster.pose);
   // What was thought of another place says nothing about this one.
   if (elsewhere) estimate_.fit = -1.0;
   confirmed_ = elsewhere ? 0 : confirmed_ + 1;
-  cluster_pose_ = estimate_.pose = mean;
+  estimate_.covariance = cluster.covariance;
+  estimate_.cluster_share = cluster.share;
+  cluster_pose_ = estimate_.pose = cluster.pose;
 }
 
 void Localization::judge() {
@@ -183,7 +255,7 @@ void Localization::judge() {
 void Localization::resample() {
   const auto size = static_cast<double>(particles_.size());
   const bool worn = news_ || particles_.effectiveSize() < params_.resample_below * size;
-  if (!worn && !unfit_) return;
+  if (!worn) return;
   // How many bins would survive, and with that how many particles it takes.
   drawn_.clear();
   drawSystematic(particles_, params_.max_particles, random_, drawn_);
@@ -194,13 +266,8 @@ void Localization::resample() {
   const std::size_t needed =
       std::clamp(kldParticles(bins_.count(), params_.kld_error, params_.kld_quantile),
                  params_.min_particles, params_.max_particles);
-  const auto injected =
-      static_cast<std::size_t>(unfit_ ? params_.injected_share * static_cast<double>(needed) : 0.0);
   drawn_.clear();
-  drawSystematic(particles_, needed - injected, random_, drawn_);
-  if (injected > 0) {
-    search_.find(beams_.ends(), kEffortWhileLost, injected, random_, drawn_);
-  }
+  drawSystematic(particles_, needed, random_, drawn_);
   drawn_.setEqualWeights();
   std::swap(particles_, drawn_);
 }

@@ -55,8 +55,10 @@ struct LocalizationParams {
   double lost_drop = 0.75;
   double fast_rate = 0.15;   ///< Weight of a new scan in the fit's short average.
   double slow_rate = 0.005;  ///< Weight of a new scan in the usual fit.
-  /// Share of the particles that a search of the map replaces while the robot is lost.
-  double injected_share = 0.25;
+  /// Particles that may be anywhere else, kept while the robot is lost.
+  std::size_t rivals = 1000;
+  /// Chance that the robot was carried off, or its odometry failed, before a scan that is weighed.
+  double carried_off = 1e-3;
   std::uint64_t seed = 1;  ///< Seed of all that is drawn by chance.
 };
 
@@ -75,9 +77,11 @@ struct LocalizationEstimate {
 
 /// Monte Carlo localization on a likelihood field (Thrun, Burgard, Fox: Probabilistic Robotics,
 /// chapter 8): KLD-adaptive number of particles, systematic resampling when few are effective, and
-/// recovery as in augmented MCL (8.3.5) with two changes: being lost is judged from how the map
-/// explains the scan at the estimate, where a beam that passed through a wall counts more than one
-/// that somebody blocked; and new particles are searched for with the scan, not drawn blindly.
+/// recovery by a second set of particles. When the map does not explain the scans at the estimate
+/// (where a beam that passed through a wall counts more than one that somebody blocked), the map is
+/// searched with each scan, and what is found goes on as a filter of its own, the rivals. Both
+/// explain every scan more or less well; the odds between them say which is the estimate, and the
+/// other is kept, so that it can win back. Rivals end when the scans fit again.
 ///
 /// The same calls give the same results. No allocation once warm.
 class Localization {
@@ -111,14 +115,24 @@ class Localization {
   const LocalizationParams& params() const { return params_; }
 
  private:
-  void weigh();
-  void findCluster();
+  struct Cluster {
+    FloorPose pose;
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    double share = 0.0;
+  };
+  void weigh(const BeamEnds& ends, ParticleSet& particles);
+  Cluster heaviestCluster(const ParticleSet& particles);
+  bool isElsewhere(const FloorPose& change) const;
+  void adopt(const Cluster& cluster);
+  double logLikelihood(const ScanResiduals& residuals) const;
+  void compare();
   void judge();
   void resample();
 
   LocalizationParams params_;
   LikelihoodField field_;
   ScanBeams beams_;
+  BeamEnds telling_;  // Those of the scan that say where the robot is.
   PoseSearch search_;
   RandomNumbers random_;
   PoseBins bins_;
@@ -126,6 +140,9 @@ class Localization {
   FloorPose cluster_pose_;  // Where the estimate was then.
   ParticleSet particles_;
   ParticleSet drawn_;  // The other buffer of resampling.
+  ParticleSet rivals_;
+  FloorPose rival_pose_;          // Of the heaviest cluster among them.
+  double rivals_log_odds_ = 0.0;  // Of that over the estimate.
   std::vector<float> cosine_, sine_, log_likelihood_;
   std::vector<std::uint32_t> bin_of_;
   LocalizationEstimate estimate_;

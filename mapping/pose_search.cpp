@@ -6,10 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace heel {
 namespace {
+
+constexpr std::size_t kPart = 16384;         // Poses that are scored at once.
+constexpr std::size_t kMostPoses = 5000000;  // For a second or two.
+constexpr float kNegligible = 16.0F;  // A pose this much less likely than the best is never drawn.
 
 LikelihoodFieldParams widened(LikelihoodFieldParams field, double hit_m) {
   field.hit_m = hit_m;
@@ -23,9 +28,8 @@ PoseSearch::PoseSearch(const OccupancyGrid& map, const LikelihoodFieldParams& fi
     : params_(params),
       field_(map, widened(field, params.hit_m)),
       cell_size_m_(static_cast<float>(map.cell_size_m())) {
-  if (!(params.poses_per_m2 > 0.0) || params.min_poses == 0 ||
-      params.max_poses < params.min_poses) {
-    throw std::invalid_argument("PoseSearch: numbers of poses must be positive and in order");
+  if (!(params.poses_per_m2 > 0.0) || params.min_poses == 0) {
+    throw std::invalid_argument("PoseSearch: numbers of poses must be positive");
   }
   for (const double clearance_m : {params.clearance_m, -1.0}) {  // A narrow map has to do.
     for (GridCell c; c.y < map.height(); ++c.y) {
@@ -40,32 +44,50 @@ PoseSearch::PoseSearch(const OccupancyGrid& map, const LikelihoodFieldParams& fi
   if (free_m_.empty()) throw std::invalid_argument("PoseSearch: the map has no free cell");
   const double area_m2 =
       static_cast<double>(free_m_.size()) * map.cell_size_m() * map.cell_size_m();
-  poses_ = std::clamp(static_cast<std::size_t>(params.poses_per_m2 * area_m2), params.min_poses,
-                      params.max_poses);
-  tried_.reserve(poses_);
-  for (auto* values : {&cosine_, &sine_, &log_likelihood_}) values->reserve(poses_);
+  poses_ =
+      std::min(std::max(static_cast<std::size_t>(params.poses_per_m2 * area_m2), params.min_poses),
+               kMostPoses);
+  tried_.resize(kPart);
+  kept_.reserve(std::min(poses_, 4 * kPart));
+  for (auto* values : {&cosine_, &sine_, &log_likelihood_}) values->resize(kPart);
 }
 
-void PoseSearch::find(const BeamEnds& ends, double effort, std::size_t count, RandomNumbers& random,
-                      ParticleSet& to) {
+// In parts, of which only what is not much worse than the best is kept: a large building takes
+// millions of poses.
+void PoseSearch::find(const BeamEnds& ends, std::size_t poses, std::size_t count,
+                      RandomNumbers& random, ParticleSet& to) {
   constexpr double kTwoPi = 6.283185307179586;
-  const auto poses = static_cast<std::size_t>(std::ceil(effort * static_cast<double>(poses_)));
-  tried_.resize(poses);
-  for (auto* values : {&cosine_, &sine_, &log_likelihood_}) values->resize(poses);
-  for (std::size_t i = 0; i < poses; ++i) {
-    const Eigen::Vector2f& middle = free_m_[random.below(free_m_.size())];
-    tried_.x_m[i] = middle.x() + cell_size_m_ * static_cast<float>(random.uniform() - 0.5);
-    tried_.y_m[i] = middle.y() + cell_size_m_ * static_cast<float>(random.uniform() - 0.5);
-    tried_.yaw_rad[i] = static_cast<float>(kTwoPi * (random.uniform() - 0.5));
-    cosine_[i] = std::cos(tried_.yaw_rad[i]);
-    sine_[i] = std::sin(tried_.yaw_rad[i]);
+  const auto evidence = static_cast<float>(params_.evidence);
+  kept_.clear();
+  float best = -std::numeric_limits<float>::infinity();
+  for (std::size_t done = 0; done < poses;) {
+    const std::size_t part = std::min(kPart, poses - done);
+    done += part;
+    for (std::size_t i = 0; i < part; ++i) {
+      const Eigen::Vector2f& middle = free_m_[random.below(free_m_.size())];
+      tried_.x_m[i] = middle.x() + cell_size_m_ * static_cast<float>(random.uniform() - 0.5);
+      tried_.y_m[i] = middle.y() + cell_size_m_ * static_cast<float>(random.uniform() - 0.5);
+      tried_.yaw_rad[i] = static_cast<float>(kTwoPi * (random.uniform() - 0.5));
+      cosine_[i] = std::cos(tried_.yaw_rad[i]);
+      sine_[i] = std::sin(tried_.yaw_rad[i]);
+    }
+    field_.score(ends, part, tried_.x_m.data(), tried_.y_m.data(), cosine_.data(), sine_.data(),
+                 log_likelihood_.data());
+    float part_best = best;
+    for (std::size_t i = 0; i < part; ++i) {
+      log_likelihood_[i] *= evidence;
+      part_best = std::max(part_best, log_likelihood_[i]);
+    }
+    best = part_best;
+    for (std::size_t i = 0; i < part; ++i) {
+      if (log_likelihood_[i] < best - kNegligible) continue;
+      kept_.add(tried_.pose(i));
+      kept_.weight.back() = log_likelihood_[i];
+    }
   }
-  field_.score(ends, poses, tried_.x_m.data(), tried_.y_m.data(), cosine_.data(), sine_.data(),
-               log_likelihood_.data());
-  tried_.setEqualWeights();
-  tried_.weigh(log_likelihood_.data(), params_.evidence);
+  for (float& w : kept_.weight) w = std::exp(w - best);
   const std::size_t first = to.size();
-  drawSystematic(tried_, count, random, to);
+  drawSystematic(kept_, count, random, to);
   shakeParticles(params_.shake_m, params_.shake_rad, first, random, to);
 }
 

@@ -16,8 +16,7 @@ namespace heel {
 struct PoseSearchParams {
   /// Poses that are tried per square metre of free floor, all headings together.
   double poses_per_m2 = 500.0;
-  std::size_t min_poses = 2000;    ///< At least so many poses are tried, on a small map.
-  std::size_t max_poses = 200000;  ///< At most so many poses are tried, on a large map.
+  std::size_t min_poses = 2000;  ///< At least so many poses are tried, on a small map.
   /// Standard deviation of a beam's end from the map, wide enough for so few poses.
   double hit_m = 0.3;
   /// Factor on the log-likelihoods of beams, as LocalizationParams::evidence.
@@ -36,9 +35,12 @@ class PoseSearch {
   PoseSearch(const OccupancyGrid& map, const LikelihoodFieldParams& field,
              const PoseSearchParams& params);
 
+  /// All the poses that a whole search tries, of which there are 5 million at the most.
+  std::size_t poses() const { return poses_; }
+
   /// Appends `count` poses to `to`, drawn by how well the scan fits there.
-  /// @param effort  Share of all the poses that are tried.
-  void find(const BeamEnds& ends, double effort, std::size_t count, RandomNumbers& random,
+  /// @param poses  So many are tried, at least one.
+  void find(const BeamEnds& ends, std::size_t poses, std::size_t count, RandomNumbers& random,
             ParticleSet& to);
 
  private:
@@ -47,7 +49,7 @@ class PoseSearch {
   std::vector<Eigen::Vector2f> free_m_;  // Middles of cells.
   float cell_size_m_;
   std::size_t poses_;
-  ParticleSet tried_;
+  ParticleSet tried_, kept_;  // In kept_, weights are log-likelihoods until the end.
   std::vector<float> cosine_, sine_, log_likelihood_;
 };
 

@@ -43,13 +43,15 @@ const BeamEnds& ScanBeams::choose(const LaserScan& scan, const std::vector<Floor
 }
 
 double ScanResiduals::fit() const {
-  return beams == 0 ? 1.0 : explained / (explained + beyond + 0.25 * shorter);
+  return beams == 0 ? 1.0 : explained / (explained + beyond + kShorterCounts * shorter);
 }
 
 ScanResiduals scanResiduals(const LikelihoodField& field, const BeamEnds& ends,
-                            const FloorPose& pose, const FloorPose& T_base_scanner, double near_m) {
+                            const FloorPose& pose, const FloorPose& T_base_scanner, double near_m,
+                            BeamEnds* not_shorter) {
   const FloorPose scanner = pose * T_base_scanner;
   int explained = 0, shorter = 0, beyond = 0;
+  if (not_shorter != nullptr) not_shorter->clear();
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const Eigen::Vector2d end =
         pose * Eigen::Vector2d(static_cast<double>(ends.x[i]), static_cast<double>(ends.y[i]));
@@ -63,7 +65,11 @@ ScanResiduals scanResiduals(const LikelihoodField& field, const BeamEnds& ends,
       ++explained;
     } else {
       ++shorter;
+      continue;
     }
+    if (not_shorter == nullptr) continue;
+    not_shorter->x.push_back(ends.x[i]);
+    not_shorter->y.push_back(ends.y[i]);
   }
   const double all = std::max<double>(1.0, static_cast<double>(ends.size()));
   return {explained / all, shorter / all, beyond / all, static_cast<int>(ends.size())};

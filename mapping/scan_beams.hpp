@@ -50,13 +50,18 @@ struct ScanResiduals {
   double beyond = 0.0;     ///< Went through what the map says is solid: no person can cause this.
   int beams = 0;
 
-  /// How well the scan fits, in [0, 1]. What is in the way of a beam says little against the pose,
-  /// so it counts for a quarter of what a beam that went through a wall does; 1 without beams.
+  /// What is in the way of a beam says little against the pose, so it counts for so much of what a
+  /// beam that went through a wall does.
+  static constexpr double kShorterCounts = 0.25;
+
+  /// How well the scan fits, in [0, 1]; 1 without beams.
   double fit() const;
 };
 
 /// @param near_m  How far an end may be from where the map has it.
+/// @param not_shorter  Also, if not null: the ends of all beams but the shorter ones.
 ScanResiduals scanResiduals(const LikelihoodField& field, const BeamEnds& ends,
-                            const FloorPose& pose, const FloorPose& T_base_scanner, double near_m);
+                            const FloorPose& pose, const FloorPose& T_base_scanner, double near_m,
+                            BeamEnds* not_shorter = nullptr);
 
 }  // namespace heel
