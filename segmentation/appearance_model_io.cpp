@@ -140,7 +140,16 @@ ColorHistogram readColors(YamlMap& map) {
   return colors;
 }
 
-BodyDescription readPortrait(YamlMap& map) {
+/// Format 2 had fewer bins: strong colours were all one.
+constexpr int kBinsOfFormat2 = 12 * 12 * 6;
+int binOfFormat2(int bin) {
+  constexpr int kChroma = 12, kBrightness = 6, kBefore = (BodyDescriber::kChromaBins - kChroma) / 2;
+  const int red = bin / kBrightness / kChroma + kBefore;
+  const int blue = bin / kBrightness % kChroma + kBefore;
+  return (red * BodyDescriber::kChromaBins + blue) * kBrightness + bin % kBrightness;
+}
+
+BodyDescription readPortrait(YamlMap& map, int version) {
   BodyDescription portrait;
   portrait.colors.setZero(BodyDescriber::kBins, BodyDescriber::kStripes);
   Eigen::Index stripe = 0;
@@ -152,10 +161,11 @@ BodyDescription readPortrait(YamlMap& map) {
       float share = 0.0F;
       char rest = 0;
       const bool is_read = std::sscanf(line.c_str(), "%d %f %c", &bin, &share, &rest) == 2;
-      if (!is_read || bin < 0 || bin >= BodyDescriber::kBins || !(share >= 0.0F && share <= 1.0F)) {
+      if (!is_read || bin < 0 || bin >= (version == 2 ? kBinsOfFormat2 : BodyDescriber::kBins) ||
+          !(share >= 0.0F && share <= 1.0F)) {
         map.fail("portrait", "has a line that is not 'bin share': '" + line + "'");
       }
-      column[bin] = share;
+      column[version == 2 ? binOfFormat2(bin) : bin] = share;
     }
     if (column.sum() > 1.01F) {
       map.fail("portrait", "has a stripe with shares of more than 1 in all");
@@ -183,7 +193,7 @@ AppearanceModel readModel(YamlMap root) {
     band.done();
   }
   BodyDescription portrait;
-  if (version >= 2) portrait = readPortrait(root);
+  if (version >= 2) portrait = readPortrait(root, version);
   const bool has_stature = root.has("stature");
 
   Reader reader(std::move(root));

@@ -17,7 +17,7 @@ namespace {
 using Describer = BodyDescriber;
 
 constexpr double kDarkOffset = 12.0;
-constexpr double kChromaLimit = 1.0;  // log-chromaticities are clipped at +- this
+constexpr double kChromaLimit = 1.5;  // log-chromaticities are clipped at +- this
 
 /// Ends of the stripes over the floor [m]: about a head, three of the trunk, four of the legs.
 constexpr std::array<float, Describer::kStripes + 1> kEnds_m = {0.10F, 0.35F, 0.60F, 0.85F, 1.05F,

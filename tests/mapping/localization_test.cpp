@@ -108,6 +108,61 @@ TEST(Localization, NoticesThatItWasCarriedOffAndFindsItselfAgain) {
   driver.expectRight(localization);
 }
 
+TEST(Localization, FindsItselfAgainAfterATurnThatTheOdometryMissed) {
+  Driver driver;
+  Localization localization(driver.room);
+  localization.startAt(driver.truth);
+  driver.drive(localization, 20);
+  driver.truth.yaw_rad = wrapped(driver.truth.yaw_rad + 1.41);
+  const FloorPose turn{{0.0, 0.0}, 0.1};
+  for (int i = 0; i < 20; ++i) {
+    driver.truth = driver.truth * turn;
+    localization.predict(turn);
+    localization.update(scanOf(driver.room, driver.truth));
+  }
+  driver.expectRight(localization);
+}
+
+TEST(Localization, KeepsItsPlaceInACrowdThoughClosetsWouldExplainTheScans) {
+  OccupancyGrid building({-0.2, -0.2}, 0.05, 600, 140);  // the odd room, and closets 10 m off
+  test::drawBlock(building, -1.0, -1.0, 40.0, 10.0);
+  const auto clear = [&](double x0, double y0, double x1, double y1) {
+    for (GridCell c; c.y < building.height(); ++c.y) {
+      for (c.x = 0; c.x < building.width(); ++c.x) {
+        const Eigen::Vector2d p = building.center(c);
+        if (p.x() > x0 && p.x() < x1 && p.y() > y0 && p.y() < y1) building.at(c) = Occupancy::kFree;
+      }
+    }
+  };
+  clear(0.0, 0.0, 8.0, 6.0);
+  test::drawBlock(building, 5.0, 3.5, 5.4, 6.0);
+  test::drawBlock(building, 2.0, 1.5, 2.5, 2.0);
+  test::drawBlock(building, 0.0, 4.4, 1.2, 6.0);
+  test::drawBlock(building, 6.5, 0.0, 8.0, 0.8);
+  for (int i = 0; i < 12; ++i) {
+    const double side_m = 0.8 + 0.1 * i;
+    clear(10.0 + 1.6 * i, 1.0, 10.0 + 1.6 * i + side_m, 1.0 + side_m);
+  }
+  Driver driver;
+  Localization localization(building);
+  localization.startAt(driver.truth);
+  driver.drive(localization, 20);
+  for (int i = 0; i < 30; ++i) {
+    driver.truth = driver.truth * driver.step;
+    LaserScan scan = scanOf(driver.room, driver.truth);
+    for (std::size_t b = 0; b < scan.ranges_m.size(); ++b) {
+      const bool is_blocked = (b + static_cast<std::size_t>(5 * i)) % 40 >= 10;
+      if (is_blocked) scan.ranges_m[b] = std::min(scan.ranges_m[b], 0.6F);
+    }
+    localization.predict(driver.step);
+    localization.update(scan);
+    EXPECT_LT((localization.estimate().pose.position - driver.truth.position).norm(), 0.4)
+        << "scan " << i;
+  }
+  driver.drive(localization, 10);
+  driver.expectRight(localization);
+}
+
 TEST(Localization, NoticesInAWrongMap) {
   Driver driver;
   OccupancyGrid wrong = test::emptyRoom(5.0, 9.0);

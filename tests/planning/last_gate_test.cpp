@@ -111,6 +111,39 @@ TEST(LastGate, DrivesBehindSomebodyWhoWalksAhead) {
   EXPECT_EQ(passed(gate, 0.75, {{}, {0.3, 0.0}}, 10.0), 0.3);
 }
 
+/// What the gate lets through straight on from rest, after somebody came to 0.6 m ahead or behind
+/// and stood there for so long.
+double passedBesideSomebody(double ahead_m, double stood_s, double wheels_latency_s = 0.0) {
+  LastGateParams params = usual();
+  params.wheels_latency_s = wheels_latency_s;
+  LastGate gate(params);
+  double now_s = 10.0;
+  const double comes_s = now_s + 1.0;
+  for (; now_s < comes_s + stood_s + 0.05; now_s += 0.1) {
+    LaserScan scan = wallAhead(9.0);
+    const double at_m = ahead_m + std::max(comes_s - now_s, 0.0);  // it walks 1 m/s
+    for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+      const double angle = scan.angle(i) - (ahead_m < 0.0 ? kPi : 0.0);
+      const double off_m = std::abs(at_m - 0.1) * std::abs(std::sin(angle));
+      if (off_m < 0.08 && std::cos(angle) > 0.0) {
+        scan.ranges_m[i] = static_cast<float>(std::abs(at_m - 0.1));
+      }
+    }
+    gate.addScan(scan, {}, now_s);
+  }
+  return gate.pass({0.3, 0.0}, {}, 0.0, now_s - 0.1).velocity.forward_mps;
+}
+
+TEST(LastGate, StandsBeforeWhoCameAndMayComeOn) {
+  // From rest it stands again after 0.2 s: who starts then comes 0.04 m nearer.
+  EXPECT_EQ(passedBesideSomebody(0.6, 1.0), 0.3);
+  EXPECT_LT(passedBesideSomebody(0.6, 1.0, 0.5), 0.3) << "who starts as it does comes 0.5 m nearer";
+  EXPECT_LT(passedBesideSomebody(0.6, 0.0), 0.3) << "that walks on";
+  EXPECT_EQ(passedBesideSomebody(0.6, 5.0, 0.5), 0.3) << "that has stood for long";
+}
+
+TEST(LastGate, LeavesWhoCameFromBehind) { EXPECT_EQ(passedBesideSomebody(-0.4, 0.0, 0.5), 0.3); }
+
 TEST(LastGate, NeverComesBackToWhatItTouches) {
   const DriveState leaving{{}, {-0.04, 0.0}};
   EXPECT_EQ(Gate(0.25).pass(0.1, 0.0, leaving).velocity.forward_mps, 0.0)
@@ -258,8 +291,10 @@ TEST(LastGate, StopsOnWhatIsNotANumber) {
 
 TEST(LastGate, RefusesBadParameters) {
   LastGateParams late = usual(), near = usual(), forgetful = usual();
+  LastGateParams sudden = usual();
   late.wheels_latency_s = near.margin_m = forgetful.sight.remembers_s = -0.1;
-  for (const LastGateParams& params : {late, near, forgetful}) {
+  sudden.walkers_mps2 = -0.1;
+  for (const LastGateParams& params : {late, near, forgetful, sudden}) {
     EXPECT_THROW(LastGate{params}, std::invalid_argument);
   }
 }
