@@ -88,7 +88,7 @@ bool RecentSight::isSeen(const Vector2d& place, double short_m, double now_s) {
 std::size_t RecentSight::nearestBeam(const Look& look, const Vector2d& at, double reach_m) {
   const std::size_t beams = look.scan.ranges_m.size();
   std::size_t nearest = beams;
-  if (beams == 0) return nearest;
+  if (beams == 0 || !at.allFinite()) return nearest;
   const double away_m = at.norm(), step_rad = std::abs(look.scan.step_rad);
   const auto turn = static_cast<long>(std::round(2.0 * M_PI / step_rad));
   const auto half = std::min(

@@ -132,7 +132,9 @@ struct CarmenLog::State {
       range =
           range_m >= most_m ? std::numeric_limits<float>::infinity() : static_cast<float>(range_m);
     }
-    for (double left = is_new ? number() : 0.0; left >= 1.0; --left) word();  // remissions
+    const double remissions = is_new ? number() : 0.0;
+    if (remissions > kMostBeams) fail("a scan must have no more than 10000 remissions");
+    for (int left = static_cast<int>(std::max(remissions, 0.0)); left > 0; --left) word();
     laser = pose();
     robot = pose();
     for (int left = is_new ? 5 : 0; left > 0; --left) word();  // speeds and safe distances

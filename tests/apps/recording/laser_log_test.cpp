@@ -118,7 +118,8 @@ TEST(CarmenLog, ReadsItCompressedToo) {
 TEST(CarmenLog, SaysWhichLineIsBroken) {
   const test::TempFolder folder;
   for (const char* line : {"FLASER 4 1.0 2.0 x 3.5 1 0 0 1 0 0 1 host 1\n", "FLASER 4 1.0\n",
-                           "FLASER 99999999 1.0\n", "FLASER -1 1.0\n", "ODOM 1 nan 0\n"}) {
+                           "FLASER 99999999 1.0\n", "FLASER -1 1.0\n", "ODOM 1 nan 0\n",
+                           "ROBOTLASER1 0 -1 2 0.5 30 0 0 2 1 1 1e300 1 0 0 1 0 0\n"}) {
     const auto log = openLaserLog(folder.write("bad.log", std::string("# one\n") + line));
     LaserReading reading;
     const std::string message = test::messageOf([&] { log->next(reading); });
