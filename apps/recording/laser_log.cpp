@@ -203,12 +203,14 @@ CarmenLog::CarmenLog(const std::filesystem::path& file) : state_(std::make_uniqu
     }
   } catch (const std::runtime_error&) {  // next() will tell of it.
   }
-  if (differs) reference_ = Reference::kLaser;
-  if (!differs && (state_->is_corrected || !all.has_odometry)) reference_ = Reference::kRobot;
-  if (differs) T_base_scanner_ = {{all.laser_ahead_m, 0.0}, 0.0};
-  if (first && !differs) T_base_scanner_ = *first;
-  // Beside a reference of its own, the odometry is not corrected.
-  if (differs) state_->is_corrected = false;
+  if (differs) {
+    reference_ = Reference::kLaser;
+    T_base_scanner_ = {{all.laser_ahead_m, 0.0}, 0.0};
+    state_->is_corrected = false;  // What differs from the reference is the raw odometry.
+    return;
+  }
+  if (first) T_base_scanner_ = *first;
+  if (state_->is_corrected || !all.has_odometry) reference_ = Reference::kRobot;
 }
 CarmenLog::~CarmenLog() = default;
 

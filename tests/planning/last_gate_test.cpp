@@ -111,8 +111,8 @@ TEST(LastGate, DrivesBehindSomebodyWhoWalksAhead) {
   EXPECT_EQ(passed(gate, 0.75, {{}, {0.3, 0.0}}, 10.0), 0.3);
 }
 
-/// What the gate lets through straight on from rest, after somebody came to 0.6 m ahead or behind
-/// and stood there for so long.
+/// What the gate lets through straight on from rest, after somebody came to so far ahead, or behind
+/// if that is negative, and stood there for so long.
 double passedBesideSomebody(double ahead_m, double stood_s, double wheels_latency_s = 0.0) {
   LastGateParams params = usual();
   params.wheels_latency_s = wheels_latency_s;
@@ -121,7 +121,8 @@ double passedBesideSomebody(double ahead_m, double stood_s, double wheels_latenc
   const double comes_s = now_s + 1.0;
   for (; now_s < comes_s + stood_s + 0.05; now_s += 0.1) {
     LaserScan scan = wallAhead(9.0);
-    const double at_m = ahead_m + std::max(comes_s - now_s, 0.0);  // it walks 1 m/s
+    const double walks_m = std::max(comes_s - now_s, 0.0);  // at 1 m/s
+    const double at_m = ahead_m + std::copysign(walks_m, ahead_m);
     for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
       const double angle = scan.angle(i) - (ahead_m < 0.0 ? kPi : 0.0);
       const double off_m = std::abs(at_m - 0.1) * std::abs(std::sin(angle));
@@ -142,7 +143,7 @@ TEST(LastGate, StandsBeforeWhoCameAndMayComeOn) {
   EXPECT_EQ(passedBesideSomebody(0.6, 5.0, 0.5), 0.3) << "that has stood for long";
 }
 
-TEST(LastGate, LeavesWhoCameFromBehind) { EXPECT_EQ(passedBesideSomebody(-0.4, 0.0, 0.5), 0.3); }
+TEST(LastGate, LeavesWhoCameFromBehind) { EXPECT_EQ(passedBesideSomebody(-0.4, 1.0, 0.5), 0.3); }
 
 TEST(LastGate, NeverComesBackToWhatItTouches) {
   const DriveState leaving{{}, {-0.04, 0.0}};
