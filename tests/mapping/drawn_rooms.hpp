@@ -16,12 +16,13 @@ namespace heel::test {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// Occupied cells over a rectangle.
-inline void drawBlock(OccupancyGrid& grid, double x0, double y0, double x1, double y1) {
+/// Occupied cells over a rectangle, or others.
+inline void drawBlock(OccupancyGrid& grid, double x0, double y0, double x1, double y1,
+                      Occupancy what = Occupancy::kOccupied) {
   for (GridCell c; c.y < grid.height(); ++c.y) {
     for (c.x = 0; c.x < grid.width(); ++c.x) {
       const Eigen::Vector2d p = grid.center(c);
-      if (p.x() > x0 && p.x() < x1 && p.y() > y0 && p.y() < y1) grid.at(c) = Occupancy::kOccupied;
+      if (p.x() > x0 && p.x() < x1 && p.y() > y0 && p.y() < y1) grid.at(c) = what;
     }
   }
 }
@@ -38,12 +39,15 @@ inline OccupancyGrid emptyRoom(double width_m, double depth_m) {
 }
 
 /// A room of 8 m x 6 m that looks the same from no two places: an alcove, a pillar and a cupboard.
-inline OccupancyGrid oddRoom() {
-  OccupancyGrid grid = emptyRoom(8.0, 6.0);
+inline void furnishOddRoom(OccupancyGrid& grid) {
   drawBlock(grid, 5.0, 3.5, 5.4, 6.0);
   drawBlock(grid, 2.0, 1.5, 2.5, 2.0);
   drawBlock(grid, 0.0, 4.4, 1.2, 6.0);
   drawBlock(grid, 6.5, 0.0, 8.0, 0.8);
+}
+inline OccupancyGrid oddRoom() {
+  OccupancyGrid grid = emptyRoom(8.0, 6.0);
+  furnishOddRoom(grid);
   return grid;
 }
 

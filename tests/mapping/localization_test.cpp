@@ -126,22 +126,11 @@ TEST(Localization, FindsItselfAgainAfterATurnThatTheOdometryMissed) {
 TEST(Localization, KeepsItsPlaceInACrowdThoughClosetsWouldExplainTheScans) {
   OccupancyGrid building({-0.2, -0.2}, 0.05, 600, 140);  // the odd room, and closets 10 m off
   test::drawBlock(building, -1.0, -1.0, 40.0, 10.0);
-  const auto clear = [&](double x0, double y0, double x1, double y1) {
-    for (GridCell c; c.y < building.height(); ++c.y) {
-      for (c.x = 0; c.x < building.width(); ++c.x) {
-        const Eigen::Vector2d p = building.center(c);
-        if (p.x() > x0 && p.x() < x1 && p.y() > y0 && p.y() < y1) building.at(c) = Occupancy::kFree;
-      }
-    }
-  };
-  clear(0.0, 0.0, 8.0, 6.0);
-  test::drawBlock(building, 5.0, 3.5, 5.4, 6.0);
-  test::drawBlock(building, 2.0, 1.5, 2.5, 2.0);
-  test::drawBlock(building, 0.0, 4.4, 1.2, 6.0);
-  test::drawBlock(building, 6.5, 0.0, 8.0, 0.8);
+  test::drawBlock(building, 0.0, 0.0, 8.0, 6.0, Occupancy::kFree);
+  test::furnishOddRoom(building);
   for (int i = 0; i < 12; ++i) {
-    const double side_m = 0.8 + 0.1 * i;
-    clear(10.0 + 1.6 * i, 1.0, 10.0 + 1.6 * i + side_m, 1.0 + side_m);
+    const double x_m = 10.0 + 1.6 * i, side_m = 0.8 + 0.1 * i;
+    test::drawBlock(building, x_m, 1.0, x_m + side_m, 1.0 + side_m, Occupancy::kFree);
   }
   Driver driver;
   Localization localization(building);
