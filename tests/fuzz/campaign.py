@@ -9,7 +9,8 @@ Each one runs for so many seconds and so many inputs, whichever takes longer, bu
 than --most. What it draws follows from --seed, and with 0 from the time. It begins with the seeds
 that our own writers draw, and with what was found before (tests/fuzz/findings). Prints a table, and
 says where inputs are that a reader did not bear: crashes and leaks, what takes over 2 GB of memory
-or over 5 s of the processor. If there are any, the script fails.
+or over 5 s of the processor. If there are any, the script fails. What ended the fuzzer but does not
+happen again when the same bytes are read alone is printed, and does not count.
 """
 
 import argparse
@@ -38,11 +39,12 @@ def last(pattern, text):
     return int(numbers[-1]) if numbers else 0
 
 
-def is_slow(fuzzer, reader, file, environment):
-    """Whether an input takes over 5 s of the processor: libFuzzer asks a clock on the wall, and on a
-    busy machine that goes on while a program waits for its turn."""
-    child = subprocess.Popen([fuzzer, reader, "-timeout=300", file], env=environment,
-                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+def happens_again(fuzzer, reader, file, environment):
+    """Whether an input ends the fuzzer by itself, or takes over 5 s of the processor. On a busy
+    machine libFuzzer's clock on the wall goes on while a program waits for its turn, and the search
+    for leaks may find no turn at all."""
+    child = subprocess.Popen([fuzzer, reader, "-rss_limit_mb=2048", "-timeout=300", file],
+                             env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     _, status, used = os.wait4(child.pid, 0)
     child.returncode = os.waitstatus_to_exitcode(status)
     return child.returncode != 0 or used.ru_utime + used.ru_stime > 5.0
@@ -82,9 +84,16 @@ def run(fuzzer, reader, work, scratch, options):
             inputs += last(r"number_of_executed_units: (\d+)", text)
             edges = max(edges, last(r" cov: (\d+)", text))
             memory = max(memory, last(r"peak_rss_mb: +(\d+)", text))
-            for slow in found.glob("timeout-*"):
-                if not is_slow(fuzzer, reader, slow, environment):
-                    slow.unlink()
+            if code == 0:
+                continue
+            if code == INTERRUPTED:
+                break
+            print(f"campaign.py: {reader} ended with {code}; the end of its log:\n{text[-6000:]}",
+                  file=sys.stderr)
+            for file in list(found.iterdir()):
+                if not happens_again(fuzzer, reader, file, environment):
+                    print(f"campaign.py: {file.name} does not happen again", file=sys.stderr)
+                    file.rename(folder / file.name)
                     code = 0
             if code != 0:
                 break
