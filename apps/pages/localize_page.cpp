@@ -15,8 +15,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kJump_m = 1.5;  // The estimate found itself elsewhere: no way was gone.
-
 bool hasReference(const LocalizedLog& log) {
   return std::any_of(log.moments.begin(), log.moments.end(),
                      [](const LocalizedMoment& moment) { return moment.reference.has_value(); });
@@ -24,19 +22,23 @@ bool hasReference(const LocalizedLog& log) {
 
 std::string mapOf(const LocalizedLog& log, const OccupancyGrid& map, const MapFrame& frame) {
   const Vector2d nowhere(kNotKnown, kNotKnown);
-  std::vector<Vector2d> estimates, references;
-  Vector2d before = nowhere;
+  std::vector<Vector2d> found, lost, references;
+  bool was_lost = false;
   for (const LocalizedMoment& moment : log.moments) {
-    const Vector2d& at = moment.estimate.position;
-    if ((at - before).norm() > kJump_m) estimates.push_back(nowhere);
-    estimates.push_back(frame(at));
+    const Vector2d at = frame(moment.estimate.position);
+    const bool is_lost = moment.state == "lost";
+    // The step to or from a place that was not sure, however long, is a lost one.
+    if (is_lost && !was_lost && !found.empty()) lost.push_back(found.back());
+    found.push_back(is_lost ? nowhere : at);
+    lost.push_back(is_lost || was_lost ? at : nowhere);
     references.push_back(moment.reference ? frame(moment.reference->position) : nowhere);
-    before = at;
+    was_lost = is_lost;
   }
   std::string svg = svgMap(frame, "The map, and the robot's way on it");
   svg += svgWalls(map, frame);
   svg += svgShape("person-path", svgPath(simplified(references, 0.015)));
-  svg += svgShape("robot-path", svgPath(simplified(estimates, 0.015)));
+  svg += svgShape("robot-path", svgPath(simplified(found, 0.015)));
+  svg += svgShape("lost-path", svgPath(simplified(lost, 0.015)));
   return svg +
          "<circle id=\"now-reference\" class=\"now-estimate\" r=\".35\" visibility=\"hidden\"/>\n"
          "<g id=\"now-robot\" visibility=\"hidden\"><circle class=\"now-robot\" r=\".25\"/><line "
@@ -96,11 +98,12 @@ std::string localizePage(const LocalizedLog& log, const OccupancyGrid& map) {
   page.tiles = tile("Scans", std::to_string(log.moments.size()), "localized") +
                tile("Lost", shownNumber(100.0 * log.lost_share, 1, "%"), "of the scans") +
                tile("Error of the place", shownNumber(log.rms_m, 3, "m"),
-                    "RMS, and " + shownNumber(log.rms_deg, 2, "\u00b0")) +
+                    "RMS while not lost, and " + shownNumber(log.rms_deg, 2, "\u00b0")) +
                tile("Median error", shownNumber(log.median_m, 3, "m"),
                     "worst " + shownNumber(log.worst_m, 2, "m"));
   page.map = mapOf(log, map, frame);
   page.map_legend = legendLine("--robot", "none", "estimate");
+  if (log.lost_share > 0.0) page.map_legend += legendLine("--bad", "none", "estimate while lost");
   if (is_compared) page.map_legend += legendLine("--person", "6 4", "reference");
   BandRow states{"The robot's place", {}};
   for (const StateSpan& span : stateSpans(log.moments)) {

@@ -5,6 +5,7 @@
 #include "tests/support/follow_run.hpp"
 #include <heel/apps/pages/pages.hpp>
 
+#include <algorithm>
 #include <string>
 
 namespace {
@@ -40,6 +41,21 @@ TEST(LocalizePage, ShowsTheWayOnTheMap) {
   const auto data = heel::test::dataOf(document);
   EXPECT_EQ(data["lost"].size(), 1U);
   EXPECT_EQ(data["marks"]["now-robot"]["at"].size(), 101U);
+}
+
+TEST(LocalizePage, DrawsWhereItWasLostHoweverFarItJumped) {
+  LocalizedLog log = someLog();
+  for (int i = 40; i < 60; ++i) log.moments[i].estimate.position.y() += 40.0;
+  pugi::xml_document document;
+  heel::test::parseSelfContained(localizePage(log, heel::test::flatMap()), document);
+  const auto path = document.select_node("//path[@class='lost-path']").node();
+  const std::string way = path.attribute("d").value();
+  // From the last sure place to the first, by way of those that were not.
+  EXPECT_EQ(std::count(way.begin(), way.end(), 'M'), 1);
+  EXPECT_EQ(std::count(way.begin(), way.end(), 'L'), 3);
+  const std::string sure =
+      document.select_node("//path[@class='robot-path']").node().attribute("d").value();
+  EXPECT_EQ(std::count(sure.begin(), sure.end(), 'M'), 2);
 }
 
 TEST(LocalizePage, DoesWithoutAReference) {
