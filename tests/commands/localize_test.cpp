@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// heel localize: calls that can't be met.
+/// heel localize: calls that can't be met. What heel inspect tells of such logs.
 
 #include "tests/commands/heel.hpp"
 #include "tests/support/temp_folder.hpp"
@@ -39,6 +39,19 @@ TEST_F(Localize, NamesAMapThatIsNone) {
   EXPECT_TRUE(failsWith(localize("some.log", {"--map", folder_ / "none.yaml"}), {"none.yaml"}));
   writeText(folder_ / "lone.yaml", "image: none.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n");
   EXPECT_TRUE(failsWith(localize("some.log", {"--map", folder_ / "lone.yaml"}), {"none.pgm"}));
+}
+
+TEST_F(Localize, InspectTellsWhatIsInALog) {
+  writeText(folder_ / "two.log",
+            "# a comment\nFLASER 3 2.0 2.0 2.0 0.2 0 0 0 0 0 1.5 host 1.5\n"
+            "FLASER 3 2.0 2.0 2.0 3.2 4 0 3 4 0 3.5 host 3.5\n");
+  const HeelRun run = heel({"inspect", folder_ / "two.log"});
+  EXPECT_TRUE(succeeds(run));
+  EXPECT_THAT(run.out, testing::HasSubstr("2 scans over 2.0 s, 5.0 m"));
+  EXPECT_THAT(run.out, testing::HasSubstr("3 beams, 90.00 degrees apart, from -90.0 degrees"));
+  EXPECT_THAT(run.out, testing::HasSubstr("scanner at (0.200, 0.000) m"));
+  writeText(folder_ / "none.log", "no scans here\n");
+  EXPECT_TRUE(failsWith(heel({"inspect", folder_ / "none.log"}), {"none.log", "FLASER"}));
 }
 
 }  // namespace

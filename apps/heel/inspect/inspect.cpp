@@ -158,6 +158,10 @@ cv::Mat inspect(const InspectOptions& options) {
     inspectClouds(what);
     return inspectMaybeRecording(what, options.opening);
   }
+  if (isLaserLogName(what) && !fs::is_directory(what)) {
+    inspectLaserLog(what);
+    return {};
+  }
   const fs::path extension = what.extension();
   if (extension == ".bt") return inspectWallMap(what);
   if (extension == ".pnml") return inspectPlan(what);
@@ -194,11 +198,14 @@ void addInspect(CLI::App& app) {
       "  heel inspect recordings/kitchen\n"
       "  heel inspect robot.bag\n"
       "  heel inspect robot.mcap --from 600 --to 660\n"
+      "  heel inspect robot.log.gz\n"
       "  heel inspect scene.pcd --out scene.png\n"
       "  heel inspect 'clouds/*.ply'");
-  verb->add_option("WHAT", options->what,
-                   "model or map_server map (.yaml), wall map (.bt), plan (.pnml), recording "
-                   "(folder), bag, or PCD and PLY files (one, or a pattern in quotes)")
+  verb->add_option(
+          "WHAT", options->what,
+          "model or map_server map (.yaml), wall map (.bt), plan (.pnml), recording "
+          "(folder), bag, CARMEN's laser log (.log, .clf, .gz), or PCD and PLY files (one, or a "
+          "pattern in quotes)")
       ->required();
   verb->add_option("--out", options->out, "also draw it to this picture (.png)");
   addTimeSpan(*verb, options->opening.span);
