@@ -20,8 +20,6 @@ constexpr double kGrazed_m = 0.001;    // So far from where it stood, it stood t
 constexpr double kThinnest_m = 0.02;   // The radius of the thinnest thing: a chair's leg.
 constexpr double kGap_m = 0.01;        // Between places on the rim, at least.
 constexpr double kBeyondLegs_m = 0.2;  // So far beyond what a laser sees of legs is the body.
-// A leg stands at every step, and swings at twice its owner's speed.
-constexpr double kGait_mps = 0.4;
 constexpr double kRounding_m = 1e-9;
 constexpr double kOldest_s = 1.0;  // Of a motion from which to reckon.
 
@@ -89,7 +87,7 @@ void LastGate::approach(const Vector2d& robot, double reach_m, double then_s, do
     const double away_m = std::sqrt(away2);
     if (away_m >= body_m) nearest_m = std::min(nearest_m, away_m);
     near_.push_back({thing.place, away_m, roams ? thing.velocity : Vector2d::Zero(), roams,
-                     then_s - thing.seen_s});
+                     thing.gait_mps, then_s - thing.seen_s});
   }
   allow_m_ = nearest_m;
 }
@@ -97,8 +95,7 @@ void LastGate::approach(const Vector2d& robot, double reach_m, double then_s, do
 // How far it can be from where it was seen, as it walked, some time after [m].
 double LastGate::strays(const Near& thing, double after_s) const {
   if (!thing.roams) return 0.0;
-  const double gait_mps = thing.velocity.isZero() ? 0.0 : kGait_mps;
-  return kBeyondLegs_m + (gait_mps + 0.5 * params_.walkers_mps2 * after_s) * after_s;
+  return kBeyondLegs_m + (thing.gait_mps + 0.5 * params_.walkers_mps2 * after_s) * after_s;
 }
 
 // Whether a thing surely comes no nearer while the robot drives a piece of its way: it is behind

@@ -98,7 +98,8 @@ class LastGate {
     Eigen::Vector2d place;
     double away_m;  // from the robot's middle
     Eigen::Vector2d velocity;
-    bool roams;    // it may walk, and is a part of somebody
+    bool roams;  // it may walk, and is a part of somebody
+    double gait_mps;
     double age_s;  // of the place
   };
 

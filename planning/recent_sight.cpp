@@ -13,13 +13,16 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNotYet = -std::numeric_limits<double>::infinity();
-constexpr double kCell_m = 0.05;       // Of the camera's points,
-constexpr int kCells = 48;             // so many on each side of a square about the robot.
-constexpr double kSame_m = 0.1;        // So far apart two pictures may see one thing.
-constexpr double kSurface_m = 0.05;    // So far behind a beam's end is the thing that it hit.
-constexpr double kBody_m = 0.4;        // So far apart are parts of one body.
-constexpr double kWalks_mps = 1.2;     // Nobody walks faster.
+constexpr double kCell_m = 0.05;     // Of the camera's points,
+constexpr int kCells = 48;           // so many on each side of a square about the robot.
+constexpr double kSame_m = 0.1;      // So far apart two pictures may see one thing.
+constexpr double kSurface_m = 0.05;  // So far behind a beam's end is the thing that it hit.
+constexpr double kBody_m = 0.4;      // So far apart are parts of one body.
+constexpr double kWalks_mps = 1.2;   // Nobody walks faster.
+// A leg stands at every step, and swings at twice its owner's speed.
+constexpr double kGait_mps = 0.4;
 constexpr double kOldestLook_s = 1.0;  // Of a look from which to reckon who walks.
 constexpr double kRounding_rad = 1e-9;
 
@@ -110,12 +113,12 @@ std::size_t RecentSight::nearestBeam(const Look& look, const Vector2d& at, doubl
 }
 
 // How what is seen at a place has come there. Where the look before saw nothing, something came,
-// from the nearest that it saw; else it stands.
+// from the nearest that it saw, or too fast to tell (not a number); else it stands.
 Vector2d RecentSight::velocityOf(const Vector2d& place, const Look& before, double dt_s) {
   if (!(dt_s <= kOldestLook_s) || !sawFree(before, place, -kSurface_m)) return Vector2d::Zero();
   const Vector2d at = before.turn * (place - before.scanner);
   const std::size_t from = nearestBeam(before, at, kWalks_mps * dt_s);
-  if (from == before.scan.ranges_m.size()) return Vector2d::Zero();
+  if (from == before.scan.ranges_m.size()) return Vector2d::Constant(kUnknown);
   const double angle = before.scan.angle(from);
   const auto range_m = static_cast<double>(before.scan.ranges_m[from]);
   const Vector2d came = at - range_m * Vector2d(std::cos(angle), std::sin(angle));
@@ -160,7 +163,7 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
     moves_[i] = velocity.isZero() ? lastMoved(place) : stamp_s;
     const bool roams = stamp_s - moves_[i] <= params_.remembers_s;
     if (roams) roaming_.push_back({place, velocity});
-    keep({place, 0.0, stamp_s, true, true, roams, velocity});
+    keep({place, 0.0, stamp_s, true, true, roams, velocity, 0.0});
   }
   moved_s_.swap(moves_);
   last_ = look;
@@ -170,10 +173,12 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
     int count = 0;
     for (const Roaming& other : roaming_) {
       if ((other.place - thing.place).squaredNorm() > kBody_m * kBody_m) continue;
+      if (!other.velocity.allFinite()) continue;
       sum += other.velocity;
       ++count;
     }
-    thing.velocity = sum / count;
+    thing.velocity = count > 0 ? Vector2d(sum / count) : Vector2d::Zero();
+    thing.gait_mps = count == 0 ? kWalks_mps : thing.velocity.isZero() ? 0.0 : kGait_mps;
   }
 }
 
@@ -219,7 +224,7 @@ void RecentSight::addPoints(const std::vector<Eigen::Vector3f>& points, const Fl
   for (const Cell& cell : cells_) {
     if (cell.points < params_.min_points) continue;
     keep({placeOf(cell), static_cast<double>(cell.highest_m), stamp_s, false, cell.is_sure, false,
-          Vector2d::Zero()});
+          Vector2d::Zero(), 0.0});
   }
 }
 

@@ -113,7 +113,8 @@ TEST(LastGate, DrivesBehindSomebodyWhoWalksAhead) {
 
 /// What the gate lets through straight on from rest, after somebody came to so far ahead, or behind
 /// if that is negative, and stood there for so long.
-double passedBesideSomebody(double ahead_m, double stood_s, double wheels_latency_s = 0.0) {
+double passedBesideSomebody(double ahead_m, double stood_s, double wheels_latency_s = 0.0,
+                            double walks_mps = 1.0) {
   LastGateParams params = usual();
   params.wheels_latency_s = wheels_latency_s;
   LastGate gate(params);
@@ -121,7 +122,7 @@ double passedBesideSomebody(double ahead_m, double stood_s, double wheels_latenc
   const double comes_s = now_s + 1.0;
   for (; now_s < comes_s + stood_s + 0.05; now_s += 0.1) {
     LaserScan scan = wallAhead(9.0);
-    const double walks_m = std::max(comes_s - now_s, 0.0);  // at 1 m/s
+    const double walks_m = walks_mps * std::max(comes_s - now_s, 0.0);
     const double at_m = ahead_m + std::copysign(walks_m, ahead_m);
     for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
       const double angle = scan.angle(i) - (ahead_m < 0.0 ? kPi : 0.0);
@@ -141,6 +142,11 @@ TEST(LastGate, StandsBeforeWhoCameAndMayComeOn) {
   EXPECT_LT(passedBesideSomebody(0.6, 1.0, 0.5), 0.3) << "who starts as it does comes 0.5 m nearer";
   EXPECT_LT(passedBesideSomebody(0.6, 0.0), 0.3) << "that walks on";
   EXPECT_EQ(passedBesideSomebody(0.6, 5.0, 0.5), 0.3) << "that has stood for long";
+}
+
+TEST(LastGate, StandsBeforeALegThatCameTooFastToTell) {
+  EXPECT_EQ(passedBesideSomebody(0.75, 1.0, 0.0, 2.5), 0.3) << "that stands since";
+  EXPECT_LT(passedBesideSomebody(0.75, 0.0, 0.0, 2.5), 0.3);
 }
 
 TEST(LastGate, LeavesWhoCameFromBehind) { EXPECT_EQ(passedBesideSomebody(-0.4, 1.0, 0.5), 0.3); }
@@ -330,20 +336,22 @@ class WithoutMargin {
   /// How much nearer the robot came than it may; nothing if the gate held it back.
   double excess(bool& lets_through) {
     LastGate gate(params_);
-    Eigen::Vector2d place = Eigen::Vector2d::Zero();
+    Eigen::Vector2d place =
+        Eigen::Rotation2Dd(between(-kPi, kPi)) * Eigen::Vector2d(between(0.19, 0.6), 0.0);
     GatedVelocity out;
     int then = 0;
     for (int period = 0; period < kPeriods; ++period) {
       LaserScan scan;
       scan.step_rad = 2.0 * kPi / 360.0;
       scan.ranges_m.assign(360, static_cast<float>(kInfinite));
-      if (period == kPeriods - 1) {
-        const auto beam = static_cast<std::size_t>(between(0.0, 359.0));
-        scan.ranges_m[beam] = static_cast<float>(between(0.19, 0.5));
-        const double angle = scan.angle(beam), range_m = static_cast<double>(scan.ranges_m[beam]);
-        place = states_.back().pose *
-                Eigen::Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
-      }
+      const FloorPose& pose = states_.back().pose;
+      const Eigen::Vector2d at = pose.inverse() * place;
+      const double turned_rad = std::atan2(at.y(), at.x()) + 2.0 * kPi;
+      const auto beam = static_cast<std::size_t>(std::lround(turned_rad / scan.step_rad)) % 360;
+      scan.ranges_m[beam] = static_cast<float>(at.norm());
+      // It is where the last scan sees it, to the last digit.
+      const double angle = scan.angle(beam), range_m = static_cast<double>(scan.ranges_m[beam]);
+      place = pose * Eigen::Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
       const double now_s = 0.1 * period;
       gate.addScan(scan, states_.back().pose, now_s);
       then = std::max(static_cast<int>(states_.size()) - 1 - static_cast<int>(between(0, 80)), 0);
