@@ -98,9 +98,9 @@ class LastGate {
     Eigen::Vector2d place;
     double away_m;  // from the robot's middle
     Eigen::Vector2d velocity;
-    bool roams;  // it may walk, and is a part of somebody
-    double gait_mps;
-    double age_s;  // of the place
+    bool roams;       // it may walk, and is a part of somebody
+    double gait_mps;  // how far off its velocity may be
+    double age_s;     // of the place
   };
 
   void approach(const Eigen::Vector2d& robot, double reach_m, double then_s, double now_s);

@@ -15,14 +15,13 @@ using Eigen::Vector2d;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNotYet = -std::numeric_limits<double>::infinity();
-constexpr double kCell_m = 0.05;     // Of the camera's points,
-constexpr int kCells = 48;           // so many on each side of a square about the robot.
-constexpr double kSame_m = 0.1;      // So far apart two pictures may see one thing.
-constexpr double kSurface_m = 0.05;  // So far behind a beam's end is the thing that it hit.
-constexpr double kBody_m = 0.4;      // So far apart are parts of one body.
-constexpr double kWalks_mps = 1.2;   // Nobody walks faster.
-// A leg stands at every step, and swings at twice its owner's speed.
-constexpr double kGait_mps = 0.4;
+constexpr double kCell_m = 0.05;       // Of the camera's points,
+constexpr int kCells = 48;             // so many on each side of a square about the robot.
+constexpr double kSame_m = 0.1;        // So far apart two pictures may see one thing.
+constexpr double kSurface_m = 0.05;    // So far behind a beam's end is the thing that it hit.
+constexpr double kBody_m = 0.4;        // So far apart are parts of one body.
+constexpr double kWalks_mps = 1.2;     // Nobody walks faster.
+constexpr double kGait_mps = 0.4;      // A leg stands, or swings at twice its owner's speed.
 constexpr double kOldestLook_s = 1.0;  // Of a look from which to reckon who walks.
 constexpr double kRounding_rad = 1e-9;
 

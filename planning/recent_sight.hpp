@@ -42,7 +42,7 @@ struct SeenThing {
   bool is_sure;              ///< By the laser, or in two pictures one after the other.
   bool roams;                ///< It came from elsewhere in the last `remembers_s`.
   Eigen::Vector2d velocity;  ///< Of what roams, the mean of all that is within a body's width.
-  double gait_mps;           ///< Its owner's is so much another, any way; 0 for who stands.
+  double gait_mps;  ///< Its owner's velocity is so far from that, any way; 0 for who stands.
 };
 
 /// Remembers the newest scans, and the points that scans and pictures saw. All poses are of the

@@ -12,6 +12,7 @@
 #include <heel/apps/pictures/map_picture.hpp>
 #include <heel/apps/recording/clouds/cloud_file.hpp>
 #include <heel/apps/recording/folders/indexed_recording.hpp>
+#include <heel/apps/recording/laser_log.hpp>
 #include <heel/mapping/map_files.hpp>
 #include <heel/segmentation/appearance_model_io.hpp>
 #include <heel/segmentation/appearance_picture.hpp>
@@ -19,6 +20,7 @@
 #include <CLI/CLI.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -144,6 +146,38 @@ cv::Mat inspectFloorPlan(const fs::path& file) {
   std::printf("map_server map, corner at (%.2f, %.2f): %s\n", floor.origin_m().x(),
               floor.origin_m().y(), toText(floor).c_str());
   return drawMap(floor, file.filename().string());
+}
+
+/// CARMEN's: .log, .clf, and those with .gz.
+bool isLaserLogName(const fs::path& file) {
+  const auto ending = (file.extension() == ".gz" ? file.stem() : file).extension();
+  return ending == ".log" || ending == ".clf";
+}
+
+void inspectLaserLog(const fs::path& file) {
+  const auto log = openLaserLog(file);
+  LaserReading reading, first;
+  std::size_t scans = 0, referenced = 0;
+  double way_m = 0.0;
+  FloorPose before;
+  while (log->next(reading)) {
+    if (scans++ == 0) first = reading;
+    if (scans > 1) way_m += (reading.odometry.position - before.position).norm();
+    before = reading.odometry;
+    referenced += reading.reference.has_value() ? 1 : 0;
+  }
+  if (scans == 0) {
+    throw std::runtime_error(file.string() + ": holds no scans (lines of FLASER or ROBOTLASER1)");
+  }
+  std::printf("laser log: %zu scan%s over %.1f s, %.1f m by its odometry\n", scans,
+              scans == 1 ? "" : "s", reading.stamp_s - first.stamp_s, way_m);
+  std::printf("  %zu beams, %.2f degrees apart, from %.1f degrees on\n", first.scan.ranges_m.size(),
+              first.scan.step_rad * kDegrees, first.scan.first_rad * kDegrees);
+  if (const auto at = log->T_base_scanner()) {
+    std::printf("  scanner at (%.3f, %.3f) m on the robot, turned by %.1f degrees\n",
+                at->position.x(), at->position.y(), at->yaw_rad * kDegrees);
+  }
+  std::printf("  %zu of them with a pose to compare with\n", referenced);
 }
 
 cv::Mat inspect(const InspectOptions& options) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// What `heel inspect` tells of bags, clouds, laser logs and plans.
+/// What `heel inspect` tells of bags, clouds and plans.
 #pragma once
 
 #include <heel/apps/recording/recording.hpp>
@@ -29,13 +29,6 @@ cv::Mat inspectCloud(const std::filesystem::path& file);
 /// Tells what kinds of clouds a folder or a pattern names, and, if they are few, of each of them.
 /// @throws std::runtime_error  if some can't be used, after it has told of all.
 void inspectClouds(const std::filesystem::path& what);
-
-/// Whether a file's name is that of a CARMEN log: .log, .clf, and those with .gz.
-bool isLaserLogName(const std::filesystem::path& file);
-
-/// Tells what scans a CARMEN log holds.
-/// @throws std::runtime_error  with one sentence if it holds none, or a line of it is broken.
-void inspectLaserLog(const std::filesystem::path& file);
 
 /// Prints what is in a plan and returns it as a picture.
 /// @throws std::runtime_error  with one sentence if the file is no sound plan.

@@ -95,9 +95,8 @@ void run(LocalizeOptions& options) {
               result.way_m, result.weighed, per_s, 100.0 * result.lost_share);
   if (result.compared > 0) {
     std::printf(
-        "against the reference, in the %d scans not lost: RMS %.3f m and %.2f degrees, median %.3f "
-        "m, "
-        "worst %.2f m\n",
+        "against the reference, in the %d scans not lost: RMS %.3f m and %.2f degrees, "
+        "median %.3f m, worst %.2f m\n",
         result.compared, result.rms_m, result.rms_rad * kDegrees, result.median_m, result.worst_m);
   }
   std::printf("wrote %s\n", output.folder().c_str());
