@@ -230,13 +230,13 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const ObservationUse& use = report.uses[i];
     if (use.fate == ObservationFate::kFragment || use.verdict != GateVerdict::kAccepted) continue;
-    const Belief* belief = find(use.track_id);
-    double is_thing = belief != nullptr ? belief->probability[kThing] : 0.0;
-    if (belief == nullptr) {
+    if (const Belief* belief = find(use.track_id)) {
+      // Where it rests: that it is on its way through a place does not say that things come there.
+      clutter_.add(belief->place_m, belief->probability[kThing], time_s);
+    } else {
       const Evidence prior = relative(priorOf(observations[i].position_m, stamp_s));
-      is_thing = prior[kThing] / prior.sum();
+      clutter_.add(observations[i].position_m, prior[kThing] / prior.sum(), time_s);
     }
-    clutter_.add(observations[i].position_m, is_thing, time_s);
   }
 }
 

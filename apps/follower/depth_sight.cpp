@@ -9,7 +9,6 @@
 namespace heel {
 namespace {
 
-constexpr double kBody_m = 0.4;   // Depths this near to a place may be of somebody there.
 constexpr double kClose_m = 0.3;  // As much apart a surface may be and still go on.
 // Shares of what is observed in simulated rooms, of people and of things: those that are seen
 // through, and as many whose surface goes on at both sides.
@@ -34,10 +33,10 @@ DepthSight::Depth DepthSight::compare(const Eigen::Vector2d& place_m, double hei
   return behind_m < -tolerance_m ? Depth::kNearer : Depth::kSame;
 }
 
-Sight DepthSight::at(const Eigen::Vector2d& place_m) const {
+Sight DepthSight::at(const Eigen::Vector2d& place_m, double tolerance_m) const {
   int hidden = 0, free = 0, outside = 0;
   for (const double height_m : {0.9, 1.2, 1.5}) {
-    const Depth depth = compare(place_m, height_m, kBody_m);
+    const Depth depth = compare(place_m, height_m, tolerance_m);
     outside += depth == Depth::kOutside ? 1 : 0;
     free += depth == Depth::kFarther ? 1 : 0;
     hidden += depth == Depth::kNearer ? 1 : 0;
@@ -51,8 +50,8 @@ double DepthSight::logPerson(const Eigen::Vector2d& place_m, const Eigen::Vector
                              double depth_sigma_m) const {
   static const double odd = std::log(kOfPeople / kOfThings);
   static const double usual = std::log((1.0 - 2.0 * kOfPeople) / (1.0 - 2.0 * kOfThings));
-  if (at(place_m) == Sight::kFree) return odd;
   const double tolerance_m = std::max(kClose_m, 2.0 * depth_sigma_m);
+  if (at(place_m, tolerance_m) == Sight::kFree) return odd;
   int sides_seen = 0, sides_same = 0;
   for (const double side : {-1.0, 1.0}) {
     int same = 0, farther = 0;

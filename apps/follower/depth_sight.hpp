@@ -21,8 +21,8 @@ class DepthSight {
              const Eigen::Isometry3d& T_camera_frame)
       : depth_m_(depth_m), camera_(camera), T_camera_frame_(T_camera_frame) {}
 
-  /// By three points of somebody's trunk there.
-  Sight at(const Eigen::Vector2d& place_m) const;
+  /// By three points of somebody's trunk there: depths as near to it as this may be theirs.
+  Sight at(const Eigen::Vector2d& place_m, double tolerance_m = 0.4) const;
 
   /// Logarithm of the odds that what was observed there is a person, not a thing, by its shape: a
   /// person's trunk is not seen through, and what is as far away does not go on at both sides.

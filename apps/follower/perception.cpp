@@ -131,7 +131,7 @@ const PerceptionStep& Perception::step(const Frame& frame, const RobotPlace& rob
 
   plan_view_.build(*step_.cloud, step_.standing, &any_band_);
   finder_.find(plan_view_, step_.blobs);
-  findCandidates(frame, robot.pose);
+  findCandidates(robot.pose);
   finished(Stage::kPlanView);
 
   if (legs != nullptr) addLegs(*legs);
@@ -229,10 +229,9 @@ void Perception::keepStanding() {
   }
 }
 
-void Perception::findCandidates(const Frame& frame, const FloorPose& robot) {
+void Perception::findCandidates(const FloorPose& robot) {
   step_.observations.clear();
   step_.blob_of_observation.clear();
-  const DepthSight sight(depth_m_, camera_.left, T_base_camera_.inverse());
   for (std::size_t i = 0; i < step_.blobs.size(); ++i) {
     const WorldBlob& blob = step_.blobs[i];
     if (!isCandidate(blob, params_.candidates)) continue;
@@ -243,11 +242,6 @@ void Perception::findCandidates(const Frame& frame, const FloorPose& robot) {
     const Eigen::Matrix2d R = Eigen::Rotation2Dd(robot.yaw_rad).toRotationMatrix();
     seen.covariance_m2 = R * depthCovariance(blob.position_m) * R.transpose();
     step_.blob_of_observation.push_back(static_cast<int>(i));
-    if (frame.image_bgr.empty()) continue;
-    const Eigen::Vector2d ray = blob.position_m - T_base_camera_.translation().head<2>();
-    const Eigen::Vector2d side_m = kBeside_m * Eigen::Vector2d(-ray.y(), ray.x()).normalized();
-    seen.log_person =
-        sight.logPerson(blob.position_m, side_m, std::sqrt(seen.covariance_m2.trace()));
   }
 }
 
@@ -306,13 +300,18 @@ void Perception::describeBodies(const Frame& frame, const FloorPose& robot) {
   }
   measureBodies(frame);
   if (looks_.size() < bodies_.size()) looks_.resize(bodies_.size());
+  const DepthSight sight(view_.depth_m, camera_.left, T_base_camera_.inverse());
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    Observation& seen = step_.observations[k];
     if (frame.image_bgr.empty()) {
       describer_.describe(*step_.cloud, bodies_[k].position_m, looks_[k]);
     } else {
       describer_.describe(view_, bodies_[k], looks_[k]);
+      const Eigen::Vector2d& place = bodies_[k].position_m;
+      const Eigen::Vector2d ray = place - T_base_camera_.translation().head<2>();
+      const Eigen::Vector2d side_m = kBeside_m * Eigen::Vector2d(-ray.y(), ray.x()).normalized();
+      seen.log_person += sight.logPerson(place, side_m, std::sqrt(depthCovariance(place).trace()));
     }
-    Observation& seen = step_.observations[k];
     if (looks_[k].colors.sum() > 0.0F) seen.look = &looks_[k].colors;
     seen.stature_m = looks_[k].stature_m;
   }

@@ -117,7 +117,7 @@ class Perception {
   void filterColors(const Frame& frame);
   void measureDepth(const Frame& frame);
   void keepStanding();
-  void findCandidates(const Frame& frame, const FloorPose& robot);
+  void findCandidates(const FloorPose& robot);
   void addLegs(const LaserBodies& legs);
   void measureBodies(const Frame& frame);
   void describeBodies(const Frame& frame, const FloorPose& robot);

@@ -63,7 +63,7 @@ struct LocalizedLog {
   bool complete = true;
   double way_m = kNotKnown;
   double lost_share = kNotKnown;
-  double rms_m = kNotKnown;  ///< Against the reference, as the others.
+  double rms_m = kNotKnown;  ///< Against the reference while not lost, as the others.
   double rms_deg = kNotKnown;
   double median_m = kNotKnown;
   double worst_m = kNotKnown;

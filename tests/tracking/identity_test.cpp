@@ -359,6 +359,14 @@ TEST(Identity, WhoWalksOverFreeFloorIsAPerson) {
   EXPECT_LT(walker.probability(1, kThing), 0.01);
 }
 
+TEST(Identity, WhoSeemedAThingIsAPersonOnceTheyWalkHoweverSlowly) {
+  Home home;
+  home.see({{1, {0, 0}}}, 50);
+  ASSERT_GT(home.probability(1, kThing), 0.6);
+  for (int i = 1; i <= 40; ++i) home.see({{1, {0.05 * i, 0}}}, 0.1);  // nobody looked there before
+  EXPECT_LT(home.probability(1, kThing), 0.1);
+}
+
 TEST(Identity, WhatWasThereBeforeAnybodyCameIsNotTheTargetHoweverAlike) {
   Home home;
   home.see({{1, {3, 0}, &kBlue}, {2, {0, 0}, &kRed}});

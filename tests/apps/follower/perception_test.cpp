@@ -208,6 +208,18 @@ TEST(Perception, WhoHasNoLegsIsHardlyAPerson) {
   EXPECT_GT(thing({}), 5.0 * thing({{2.5, 0.4}}));
 }
 
+TEST(Perception, WhatIsSeenThroughWhereATrunkWouldBeIsHardlyAPerson) {
+  const auto thing = [](double high_m) {
+    ColoredStage stage;
+    stage.part(2.5, 0.4, 0.2, 0.0, high_m, kGreen);
+    Perception perception = perceptionOf();
+    const LaserBodies legs = legsAt({{2.5, 0.4}});
+    perception.step(stage.frame(0.0), {}, &legs);
+    return perception.identity().probabilities(perception.tracks().at(0).id)[kThing];
+  };
+  EXPECT_GT(thing(0.8), 1.5 * thing(1.7)) << "a chair";
+}
+
 TEST(Perception, TellsTheStagesInTheirOrder) {
   std::vector<Stage> done;
   perceptionOf().step(ColoredStage().frame(0.0), {}, nullptr,
