@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <heel/mapping/distance_transform.hpp>
 #include <heel/planning/doorways.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 
@@ -61,9 +63,20 @@ class DoorwaySearch {
   std::vector<DoorwayOnMap> narrowPlaces() const {
     std::vector<DoorwayOnMap> out;
     const double cell = map_.cell_size_m();
+    std::vector<std::uint8_t> taken(map_.cells().size());
+    std::transform(map_.cells().begin(), map_.cells().end(), taken.begin(),
+                   [](Occupancy what) -> std::uint8_t { return what != Occupancy::kFree; });
+    std::vector<float> away_m;
+    DistanceTransform().compute(taken, map_.width(), map_.height(), cell, away_m);
+    // Nothing is the middle of a gap that is further than this from all that is not free, and from
+    // the map's edge.
+    const double most_m = 0.5 * params_.max_width_m + 3.0 * cell;
     for (int y = 0; y < map_.height(); ++y) {
       for (int x = 0; x < map_.width(); ++x) {
-        if (map_.at(GridCell{x, y}) != Occupancy::kFree) continue;
+        if (taken[map_.index({x, y})] != 0) continue;
+        const double edge_m =
+            cell * (1 + std::min({x, y, map_.width() - 1 - x, map_.height() - 1 - y}));
+        if (std::min(static_cast<double>(away_m[map_.index({x, y})]), edge_m) > most_m) continue;
         const Vector2d p = map_.center({x, y});
         double least = kFar;
         DoorwayOnMap place;

@@ -105,7 +105,10 @@ FollowLog runClosedLoop(const Scene& scene, const PetriPlan& plan, const ClosedL
   robot.drive.period_s = params.period_s;
   robot.scan_latency_s = latencies.laser_s;
   robot.wheels_latency_s = latencies.wheels_s;
-  auto map = std::make_shared<WallMap>(wallMapOf(asMapped(scene, params.rough, params.seed)));
+  std::shared_ptr<const WallMap> map;
+  if (params.has_map) {
+    map = std::make_shared<WallMap>(wallMapOf(asMapped(scene, params.rough, params.seed)));
+  }
   Follower follower(robot, std::move(map), plan,
                     FloorPose{scene.robot.start, scene.robot.start_yaw_rad}, params.follower);
   FaultySensors sensors(params.faults, params.seed, latencies);

@@ -28,6 +28,7 @@ struct ClosedLoopParams {
   double wrong_apart_m = 0.5;  ///< See isWrongPerson().
   std::vector<Fault> faults;
   RoughWorld rough;
+  bool has_map = true;  ///< Else the robot follows without one.
   FollowerParams follower;
 };
 

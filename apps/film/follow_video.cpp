@@ -19,6 +19,7 @@ constexpr int kMargin = 12;
 constexpr int kHeader = 44;
 constexpr int kFooter = 30;
 constexpr double kPersonRadius_m = 0.22;
+constexpr double kAround_m = 6.0;  // Of the robot, so much is shown where there are no walls.
 
 const cv::Scalar kWall(196, 186, 176);
 const cv::Scalar kRobot(240, 170, 96);
@@ -55,8 +56,8 @@ FollowVideo::FollowVideo(const OccupancyGrid& map, double robot_radius_m,
     throw std::invalid_argument("FollowVideo: the map is empty, or a size is not above 0");
   }
   if (bounds_m_.isEmpty()) {
-    const Vector2d size = map.cell_size_m() * Vector2d(map.width(), map.height());
-    bounds_m_ = {map.origin_m(), map.origin_m() + size};
+    goes_along_ = true;
+    bounds_m_ = {Vector2d::Constant(-kAround_m), Vector2d::Constant(kAround_m)};
   }
   bounds_m_.min() -= Vector2d::Constant(0.2);
   bounds_m_.max() += Vector2d::Constant(0.2);
@@ -102,6 +103,7 @@ void FollowVideo::drawMap() {
   map_.create(params_.panel_height_px, width, CV_8UC3);
   map_.setTo(palette::kPanel);
   scale_ = std::min(width / size_m.x(), params_.panel_height_px / size_m.y());
+  if (goes_along_) return;
   for (int row = 0; row < map_.rows; ++row) {
     for (int column = 0; column < map_.cols; ++column) {
       const Vector2d place =
@@ -181,7 +183,8 @@ void FollowVideo::drawPeople(const FollowVideoFrame& frame, cv::Mat& panel) cons
   }
 }
 
-void FollowVideo::draw(const FollowVideoFrame& frame, cv::Mat& picture) const {
+void FollowVideo::draw(const FollowVideoFrame& frame, cv::Mat& picture) {
+  if (goes_along_) bounds_m_.translate(frame.robot_estimated.position - bounds_m_.center());
   picture.create(size(), CV_8UC3);
   picture.setTo(palette::kPaper);
   cv::Mat image = picture(imageArea());

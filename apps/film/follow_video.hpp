@@ -47,7 +47,8 @@ struct FollowVideoFrame {
 /// Draws the pictures of one film.
 class FollowVideo {
  public:
-  /// @param map  Its walls are drawn once, and bound what the camera is shown to see.
+  /// @param map  Its walls are drawn once, and bound what the camera is shown to see. Without any
+  ///             the robot's surroundings are shown.
   /// @throws std::invalid_argument  if the map is empty or a size is not above 0.
   FollowVideo(const OccupancyGrid& map, double robot_radius_m,
               const FollowVideoParams& params = {});
@@ -56,7 +57,7 @@ class FollowVideo {
   cv::Size size() const;
 
   /// @param picture  Out: CV_8UC3 of size(); its memory is reused.
-  void draw(const FollowVideoFrame& frame, cv::Mat& picture) const;
+  void draw(const FollowVideoFrame& frame, cv::Mat& picture);
 
   /// Where a place of the map is in a picture [px].
   cv::Point2d pixelOf(const Eigen::Vector2d& place_m) const;
@@ -76,8 +77,9 @@ class FollowVideo {
   OccupancyGrid grid_;
   double robot_radius_m_;
   Eigen::AlignedBox2d bounds_m_;
-  double scale_ = 1.0;  ///< Pixels a metre on the map.
-  cv::Mat map_;         ///< The map's panel with nothing but walls.
+  bool goes_along_ = false;  ///< The panel shows where the robot is.
+  double scale_ = 1.0;       ///< Pixels a metre on the map.
+  cv::Mat map_;              ///< The map's panel with nothing but walls.
 };
 
 }  // namespace heel

@@ -14,6 +14,13 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kFullTurn_rad = 6.283185307179586;
+constexpr double kOpenFloor_m = 100.0;  // Without a map, so far across.
+
+OccupancyGrid openFloor(const Vector2d& middle) {
+  constexpr double kCell_m = 0.1;
+  constexpr int kCells = static_cast<int>(kOpenFloor_m / kCell_m);
+  return {middle - Vector2d::Constant(0.5 * kOpenFloor_m), kCell_m, kCells, kCells};
+}
 
 }  // namespace
 
@@ -44,11 +51,10 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
                    const FollowerParams& params)
     : robot_(robot),
       params_(fittedTo(robot, params)),
-      walls_(walls ? std::move(walls) : throw std::invalid_argument("Follower: there is no map")),
-      floor_(walls_->floorGrid({0.05, robot.height_m})),
+      walls_(std::move(walls)),
+      start_(start.value_or(FloorPose{})),
+      floor_(walls_ ? walls_->floorGrid({0.05, robot.height_m}) : openFloor(start_.position)),
       watch_(robot.camera, params_.watch),
-      localization_(walls_->floorGrid(HeightBand::around(robot.scanner_height_m)),
-                    robot.T_base_scanner, params_.localization),
       layer_(params_.obstacles),
       obstacle_points_(robot.camera, params_.obstacle_points),
       legs_(params_.legs),
@@ -59,9 +65,15 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
       local_planner_(params_.drive),
       last_gate_(params_.last_gate),
       goal_chooser_(params_.goal),
-      search_(floor_, walls_->floorGrid({1.1, 1.4}), params_.search),
       doorways_(findDoorways(floor_)) {
-  if (start) localization_.startAt(*start);
+  step_.robot.pose = start_;
+  step_.robot.lost = false;
+  if (!walls_) return;
+  localization_.emplace(walls_->floorGrid(HeightBand::around(robot.scanner_height_m)),
+                        robot.T_base_scanner, params_.localization);
+  if (start) localization_->startAt(*start);
+  step_.robot = localization_->estimate();
+  search_.emplace(floor_, walls_->floorGrid({1.1, 1.4}), params_.search);
 }
 
 const FollowStep& Follower::step(const RobotReadings& readings, const StageDone& done) {
@@ -126,29 +138,40 @@ Frame Follower::onSteadyClock(const Frame& frame) {
   return steady;
 }
 
-// Monte Carlo localization; beams that end on people are left out.
+// Monte Carlo localization; beams that end on people are left out. Without a map, odometry.
 void Follower::localize(const RobotReadings& readings) {
   if (readings.odometry) {
     const FloorPose& moved = watch_.increment();
     const double in_s = watch_.increment_s();
-    localization_.predict(moved);
+    if (localization_) localization_->predict(moved);
     motion_.add(steady_s_ - watch_.odometryAge_s(), moved);
     if (in_s > 0.0) speed_ = {moved.position.x() / in_s, moved.yaw_rad / in_s};
   }
   if (readings.scan != nullptr) {
     scan_s_ = std::max(scan_s_, steady_s_ - watch_.scanAge_s());
     last_gate_.addScan(*readings.scan, motion_.at(scan_s_), scan_s_);
+  }
+  if (localization_) {
+    findOnMap(readings.scan);
+  } else {
+    step_.robot.pose = start_ * motion_.pose();
+  }
+  const auto to_walls = [this](const Vector2d& p) {
+    return localization_ ? localization_->field().distance_m(p) : kOpenFloor_m;
+  };
+  legs_.step(readings.scan, poseAt(scan_s_) * robot_.T_base_scanner, to_walls, dt_s_);
+}
+
+void Follower::findOnMap(const LaserScan* scan) {
+  if (scan != nullptr) {
     masked_.clear();
-    const FloorPose T_base_world = localization_.estimate().pose.inverse();
+    const FloorPose T_base_world = localization_->estimate().pose.inverse();
     for (const MovingPerson& person : people_) {
       masked_.push_back({T_base_world * person.position, params_.target_radius_m});
     }
-    localization_.update(*readings.scan, masked_, motion_.seenFromNow(scan_s_));
+    localization_->update(*scan, masked_, motion_.seenFromNow(scan_s_));
   }
-  step_.robot = localization_.estimate();
-  legs_.step(
-      readings.scan, poseAt(scan_s_) * robot_.T_base_scanner,
-      [this](const Vector2d& p) { return localization_.field().distance_m(p); }, dt_s_);
+  step_.robot = localization_->estimate();
 }
 
 // What stands and moves around the robot that no map shows.
@@ -244,10 +267,10 @@ void Follower::learn(const Frame& frame) {
 
 void Follower::skipLearning(const AppearanceModel& whom) {
   PerceptionParams params = params_.perception;
-  params.gate = wallGate(walls_, params_.gate);
+  if (walls_) params.gate = wallGate(walls_, params_.gate);
   perception_.emplace(robot_.camera, whom, params);
-  last_.position = localization_.estimate().pose.position;  // for want of a better place
-  search_.lose(last_, 0.0);
+  last_.position = step_.robot.pose.position;  // for want of a better place
+  if (search_) search_->lose(last_, 0.0);
   learner_.reset();
   step_.is_learning = false;
 }
@@ -285,17 +308,17 @@ void Follower::noteTarget() {
     last_ = *person_;
     unseen_s_ = 0.0;
   }
-  if (was_known && !person_) search_.lose(last_, unseen_s_);
+  if (was_known && !person_ && search_) search_->lose(last_, unseen_s_);
 }
 
 // The Petri net plan (section 3.4).
 void Follower::decide(const RobotReadings& readings) {
   if (step_.is_learning) return;
-  if (!person_) {
-    search_.wait(dt_s_);
-    if (readings.frame != nullptr) search_.look(poseAt(frame_s_), dt_s_);
+  if (!person_ && search_) {
+    search_->wait(dt_s_);
+    if (readings.frame != nullptr) search_->look(poseAt(frame_s_), dt_s_);
     if (readings.scan != nullptr) {
-      search_.scan(*readings.scan, poseAt(scan_s_) * robot_.T_base_scanner, dt_s_);
+      search_->scan(*readings.scan, poseAt(scan_s_) * robot_.T_base_scanner, dt_s_);
     }
   }
   checkFacts();
@@ -319,7 +342,7 @@ void Follower::checkFacts() {
       turned_rad_ > kFullTurn_rad ||
       (!suspect() && std::abs(bearingOf(pose, expected().position)) < params_.ahead_rad);
   facts_[Fact::kFullTurn] = turned_rad_ > kFullTurn_rad;
-  facts_[Fact::kSearchOver] = search_.isOver();
+  facts_[Fact::kSearchOver] = search_ && search_->isOver();
   facts_[Fact::kBlind] = !watch_.blindness().empty() || step_.robot.lost;
   facts_[Fact::kDone] = false;
 }
@@ -328,7 +351,7 @@ void Follower::begin(FollowingAction action) {
   local_planner_.reset();
   goal_chooser_.reset();
   has_arrived_ = false;
-  search_.restart();
+  if (search_) search_->restart();
   is_there_ = false;
   if (action != FollowingAction::kFollow && action != FollowingAction::kFace) making_room_.reset();
   if (action == FollowingAction::kSeek) {

@@ -58,7 +58,10 @@ class Follower {
   /// Told after each stage, so that the caller, who has the clock, can time them.
   using StageDone = std::function<void(FollowStage)>;
 
-  /// @param start  Where the robot is at the beginning; absent: found on the map.
+  /// @param walls  Null: there is no map. The robot is then where its odometry says, its obstacles
+  ///               are those that it sees, and it waits where it would search. It does not leave
+  ///               100 m by 100 m around its start.
+  /// @param start  Where the robot is at the beginning; absent: found on the map, or the origin.
   /// @throws std::invalid_argument  if a parameter is out of its range.
   Follower(const RobotDescription& robot, std::shared_ptr<const WallMap> walls, PetriPlan plan,
            const std::optional<FloorPose>& start, const FollowerParams& params = {});
@@ -72,7 +75,6 @@ class Follower {
   const RobotDescription& robot() const { return robot_; }
   const ObstacleLayer& obstacles() const { return layer_; }
   const OccupancyGrid& floor() const { return floor_; }
-  const WallMap& walls() const { return *walls_; }
   const TargetEstimate& target() const { return target_; }
   /// Null in phase 1.
   const Perception* perception() const { return perception_ ? &*perception_ : nullptr; }
@@ -83,6 +85,7 @@ class Follower {
   Frame onSteadyClock(const Frame& frame);
   FloorPose poseAt(double steady_s) const;
   void localize(const RobotReadings& readings);
+  void findOnMap(const LaserScan* scan);
   void lookAround(const RobotReadings& readings);
   void learn(const Frame& frame);
   void see(const Frame* frame);
@@ -116,12 +119,13 @@ class Follower {
 
   RobotDescription robot_;
   FollowerParams params_;
-  std::shared_ptr<const WallMap> walls_;
+  std::shared_ptr<const WallMap> walls_;  // null: there is no map
+  FloorPose start_;                       // without a map
   OccupancyGrid floor_;
 
   SensorWatch watch_;
-  MotionHistory motion_;  // by odometry, on the steady clock
-  Localization localization_;
+  MotionHistory motion_;                      // by odometry, on the steady clock
+  std::optional<Localization> localization_;  // on the map
   ObstacleLayer layer_;
   ObstaclePoints obstacle_points_;
   LaserBodies legs_;
@@ -133,7 +137,7 @@ class Follower {
   LocalPlanner local_planner_;
   LastGate last_gate_;
   GoalChooser goal_chooser_;
-  PersonSearch search_;
+  std::optional<PersonSearch> search_;  // the same
   std::vector<DoorwayOnMap> doorways_;
 
   FollowStep step_;

@@ -66,7 +66,8 @@ void Follower::follow() {
   const auto clearance = [this](const Vector2d& p) { return planner_.clearance().clearance(p); };
   const auto sees = [this](const Vector2d& from, const Vector2d& to) {
     const double eye_m = robot_.camera.T_base_camera.translation().z();
-    return walls_->lineOfSight({from.x(), from.y(), eye_m}, {to.x(), to.y(), eye_m}, kHalfBody_m);
+    return !walls_ ||
+           walls_->lineOfSight({from.x(), from.y(), eye_m}, {to.x(), to.y(), eye_m}, kHalfBody_m);
   };
   const auto place = goal_chooser_.choose(target, step_.robot.pose, clearance, sees, doorways_);
   driveTo(place ? place->pose.position : *step_.target);
@@ -127,13 +128,17 @@ void Follower::seek() {
 // Goes where the chance to see the person is best, and looks there.
 void Follower::search() {
   if (looksAtSuspect()) return;
+  if (!search_) {
+    step_.reason += (step_.reason.empty() ? "" : "; ") + std::string("waits: there is no map");
+    return;
+  }
   const auto is_open = [this](const Vector2d& place) {
     planner_.plan(step_.robot.pose.position, place, plan_);
     return plan_.found();
   };
-  if (search_.choose(dt_s_, step_.robot.pose, is_there_, is_open)) local_planner_.reset();
+  if (search_->choose(dt_s_, step_.robot.pose, is_there_, is_open)) local_planner_.reset();
   is_there_ = false;
-  const std::optional<SearchView>& view = search_.view();
+  const std::optional<SearchView>& view = search_->view();
   if (!view) return;
   driveTo(view->camera.position);
   if (!has_arrived_) return;

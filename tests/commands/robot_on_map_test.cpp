@@ -220,9 +220,19 @@ TEST_F(RobotsOnAMap, AreFollowedInTheShadow) {
               HasSubstr("Speed that Heel would have driven"));
 }
 
-TEST_F(RobotsOnAMap, AreNotFollowedInTheShadowWithoutAMap) {
-  EXPECT_TRUE(failsWith(heel({"follow", made() / "roam.bag", "--out", folder_ / "out"}),
-                        {"roam.bag", "--map"}));
+TEST_F(RobotsOnAMap, AreFollowedInTheShadowWithoutAMapToo) {
+  const HeelRun run = heel(
+      {"follow", made() / "roam.bag", "--model", made() / "rosa.yaml", "--out", folder_ / "out"});
+  ASSERT_TRUE(succeeds(run));
+  const nlohmann::json summary = this->summary("out");
+  EXPECT_EQ(summary["outcome"], "end of log");
+  EXPECT_GT(summary["with_target_s"], 2.0);
+}
+
+TEST_F(RobotsOnAMap, AModelIsOfALog) {
+  EXPECT_TRUE(
+      failsWith(heel({"follow", "home", "--model", made() / "rosa.yaml", "--out", folder_ / "out"}),
+                {"--model"}));
 }
 
 TEST_F(RobotsOnAMap, AreShownOnIt) {

@@ -44,9 +44,10 @@ struct FollowOptions {
   RandomEpisodeParams episode;
   bool alone = false;
   bool no_film = false;
+  bool is_log = false;
   bool has_limit = false;       // given; else a log ends with its last frame
   std::filesystem::path model;  // of the person in a log
-  LogMapOptions map;            // empty: no log
+  LogMapOptions map;
   RecordingParams opening;
 };
 
@@ -71,8 +72,9 @@ Scene sceneOf(const FollowOptions& options, const std::optional<RobotConfig>& co
 std::string commandOf(const FollowOptions& options) {
   const FollowOptions shortest;
   std::ostringstream command;
-  if (!options.map.map.empty()) {
-    command << "heel follow " << options.scene << " --map " << options.map.map;
+  if (options.is_log) {
+    command << "heel follow " << options.scene;
+    if (!options.map.map.empty()) command << " --map " << options.map.map;
     if (!options.model.empty()) command << " --model " << options.model.string();
     if (!options.config.empty()) command << " --config " << options.config;
     command << " --plan " << options.plan << " --out again";
@@ -86,6 +88,7 @@ std::string commandOf(const FollowOptions& options) {
   if (!options.image_size.empty()) command << " --image-size " << options.image_size;
   if (!options.light.empty()) command << " --light " << options.light;
   if (!options.rough.empty()) command << " --rough " << options.rough;
+  if (!options.loop.has_map) command << " --no-map";
   if (!options.config.empty()) command << " --config " << options.config;
   if (options.rate_hz > 0.0) command << " --rate " << options.rate_hz;
   command << " --plan " << options.plan << " --seed " << options.loop.seed;
@@ -139,13 +142,15 @@ void run(FollowOptions& options) {
   if (!(options.loop.limit_s > 0.0 && std::isfinite(options.loop.limit_s))) {
     throw std::invalid_argument("--limit must be positive");
   }
-  const bool is_log = !options.map.map.empty();
   const bool is_scene = std::filesystem::exists(sceneFolder() / (options.scene + ".yaml"));
-  if (!is_log && !is_scene &&
-      (isBag(options.scene) || std::filesystem::is_directory(options.scene))) {
-    throw std::invalid_argument(options.scene +
-                                ": to follow on a log, give the robot's map, too "
-                                "(--map)");
+  const bool is_log = options.is_log =
+      !options.map.map.empty() ||
+      (!is_scene && (isBag(options.scene) || std::filesystem::is_directory(options.scene)));
+  if (!is_log && !options.model.empty()) {
+    throw std::invalid_argument("--model is for logs: a simulated person is learned first");
+  }
+  if (is_log && (options.random || !options.rough.empty())) {
+    throw std::invalid_argument(options.scene + ": a log is as it is (--random, --rough)");
   }
   if (options.rate_hz > 0.0) {  // The simulator's clock ticks in hundredths of a second.
     options.loop.period_s = std::max(1.0, std::round(100.0 / options.rate_hz)) / 100.0;
@@ -159,7 +164,8 @@ void run(FollowOptions& options) {
   const PetriPlan plan = loadPlan(plan_file, followingVocabulary());
   std::vector<std::filesystem::path> inputs = {plan_file};
   if (is_log) {
-    inputs.insert(inputs.end(), {options.scene, options.model, mapSource(options.map.map)});
+    inputs.insert(inputs.end(), {options.scene, options.model});
+    if (!options.map.map.empty()) inputs.push_back(mapSource(options.map.map));
   } else if (!options.random) {
     inputs.push_back(sceneFile(options.scene));
   }
@@ -208,8 +214,8 @@ void addFollow(CLI::App& app) {
       "--rough laser: it sees 220 degrees ahead. --rough light: the camera's light is drawn.\n"
       "--rough odometry: the wheels' errors of up to 3 % stay.");
   verb->add_option("SCENE", options->scene,
-                   "a scene's name (home, office, ...) or its YAML file; with --map, a log: a bag "
-                   "or the folder of a recording with camera, laser and odometry")
+                   "a scene's name (home, office, ...) or its YAML file; or a log: a bag or the "
+                   "folder of a recording with camera, laser and odometry")
       ->capture_default_str();
   CLI::Option* random =
       verb->add_flag("--random", options->random,
@@ -237,15 +243,16 @@ void addFollow(CLI::App& app) {
   addRobotConfig(*verb, options->config);
   addLight(*verb, options->light);
   addRough(*verb, options->rough);
+  verb->add_flag("!--no-map", options->loop.has_map,
+                 "the robot has no map: it goes by its odometry, and by what it sees");
   verb->add_flag("--no-film", options->no_film, "write no film");
-  CLI::Option* map =
-      verb->add_option("--map", options->map.map, "of a log: a .bt or a map_server YAML")
-          ->excludes(random)
-          ->excludes(verb->get_option("--rough"));
+  verb->add_option("--map", options->map.map,
+                   "of a log: a .bt or a map_server YAML (default: none, as with --no-map)")
+      ->excludes(random)
+      ->excludes(verb->get_option("--rough"));
   verb->add_option("--model", options->model,
                    "of a log: the person, as 'heel learn' wrote it (default: the log begins with "
-                   "phase 1)")
-      ->needs(map);
+                   "phase 1)");
   addLogMap(*verb, options->map, options->opening.topics);
   addTimeSpan(*verb, options->opening.span);
   addCameraTopics(*verb, options->opening.topics);

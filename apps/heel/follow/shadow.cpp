@@ -95,14 +95,18 @@ class DrivenSpeed {
 };
 
 Follower makeFollower(const ShadowParams& params, const PetriPlan& plan, const CameraSetup& setup,
-                      const LogLaser& laser, const LaserReading& first) {
+                      const LogLaser& laser, const LaserReading& first,
+                      const std::optional<FloorPose>& odometry) {
   RobotDescription robot = describeRobot(params.config.robot);
   robot.camera = setup;
   robot.T_base_scanner = laser.T_base_scanner;
   robot.scanner_height_m = laser.height_m;
-  const auto in_map = motionInMap(params.recording, params.opening);
-  return Follower(robot, params.map.walls, plan, startOnMap(params.map, in_map, first, setup),
-                  params.config.follow);
+  const auto start = [&]() -> std::optional<FloorPose> {
+    if (!params.map.walls) return odometry;
+    const auto in_map = motionInMap(params.recording, params.opening);
+    return startOnMap(params.map, in_map, first, setup);
+  };
+  return Follower(robot, params.map.walls, plan, start(), params.config.follow);
 }
 
 }  // namespace
@@ -114,9 +118,11 @@ FollowLog runShadow(const ShadowParams& params, const PetriPlan& plan, const Loo
   for (const std::string& warning : setup.warnings) warn(warning);
   auto recording = open();
   RobotPlaces odometry(*recording, setup);
+  std::optional<FloorPose> first_place;
+  if (const auto place = odometry.at(recording->info().first_s)) first_place = place->pose;
   LogLaser laser = openLogLaser(params.recording, params.opening.topics, params.map);
   LogReadings readings(std::move(recording), std::move(laser.scans), std::move(odometry));
-  Follower follower = makeFollower(params, plan, setup, laser, readings.nextScan());
+  Follower follower = makeFollower(params, plan, setup, laser, readings.nextScan(), first_place);
   if (params.model) follower.skipLearning(*params.model);
 
   FollowLog log;
@@ -148,7 +154,7 @@ FollowLog runShadow(const ShadowParams& params, const PetriPlan& plan, const Loo
       break;
     }
     FollowSample& sample = log.samples.emplace_back(sampleOf(*step, follower));
-    if (readings.reference()) sample.robot_true = *readings.reference();
+    if (params.map.walls && readings.reference()) sample.robot_true = *readings.reference();
     sample.speed_true = driven.at(now);
     if (observer) observer(shownOf(now, picture), *step, follower, sample);
     if (step->outcome != PlanOutcome::kRunning) {

@@ -137,7 +137,8 @@ void run(const LiveOptions& options) {
   std::optional<AppearanceModel> model;
   if (!options.model.empty()) model = loadAppearance(options.model);
   RobotConfig config;
-  std::vector<std::filesystem::path> inputs = {options.model, mapSource(options.map.map)};
+  std::vector<std::filesystem::path> inputs = {options.model};
+  if (!options.map.map.empty()) inputs.push_back(mapSource(options.map.map));
   if (!options.config.empty()) {
     inputs.push_back(robotFile(options.config));
     config = loadRobotConfig(inputs.back().string());
@@ -231,8 +232,9 @@ void addLive(CLI::App& app) {
       "that\n"
       "is killed sends nothing: the robot's base must stop by itself then.\n"
       "First let it run with --dry, and with the wheels off the floor.");
-  verb->add_option("--map", options->map.map, "a .bt, a map_server YAML, or a scene's name")
-      ->required();
+  verb->add_option("--map", options->map.map,
+                   "a .bt, a map_server YAML, or a scene's name (default: none: the robot goes by "
+                   "its odometry and what it sees, and does not search)");
   verb->add_option("--model", options->model,
                    "the person, as 'heel learn' wrote it (default: the robot learns them first)");
   verb->add_option("--plan", options->plan,

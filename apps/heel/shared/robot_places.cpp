@@ -47,14 +47,16 @@ void addLogMap(CLI::App& verb, LogMapOptions& options, BagTopics& topics) {
 }
 
 LogMap openLogMap(const LogMapOptions& options) {
-  const std::filesystem::path file = mapSource(options.map);
-  SourcedMap sourced = openMap(file);
   LogMap map;
-  if (sourced.source == "scene") {
-    const Eigen::Vector3d at = loadScene(file.string()).robot.laser.at;
-    map.setScanner({at.head<2>(), 0.0}, at.z());
+  if (!options.map.empty()) {
+    const std::filesystem::path file = mapSource(options.map);
+    SourcedMap sourced = openMap(file);
+    if (sourced.source == "scene") {
+      const Eigen::Vector3d at = loadScene(file.string()).robot.laser.at;
+      map.setScanner({at.head<2>(), 0.0}, at.z());
+    }
+    map.walls = std::make_shared<const WallMap>(std::move(sourced.map));
   }
-  map.walls = std::make_shared<const WallMap>(std::move(sourced.map));
   if (!options.start.empty()) map.start = floorPoseOf(options.start);
   if (!options.scanner.empty()) map.scanner = floorPoseOf(options.scanner);
   return map;

@@ -38,8 +38,8 @@ void addLogMap(CLI::App& verb, LogMapOptions& options, BagTopics& topics);
 
 /// The same, read.
 struct LogMap {
-  std::shared_ptr<const WallMap> walls;
-  std::optional<FloorPose> start;    ///< Else from tf, the log's reference, or anywhere.
+  std::shared_ptr<const WallMap> walls;  ///< Null: there is none.
+  std::optional<FloorPose> start;        ///< Else from tf, the log's reference, or anywhere.
   std::optional<FloorPose> scanner;  ///< In the base frame; else the log's own, else the scene's.
   /// Where nothing else tells it: what the robot's file says, or the scene.
   FloorPose default_scanner;

@@ -152,6 +152,34 @@ TEST(ClosedLoop, LearnsAPersonAndReachesThem) {
   EXPECT_LT(error_m / seen, 0.3) << "on average; small images make it coarse";
 }
 
+TEST(ClosedLoop, WithoutAMapItGoesByItsOdometryAndWhatItSees) {
+  ClosedLoopParams params = quickLoop();
+  params.limit_s = 30.0;
+  params.has_map = false;
+  const FollowLog log = runClosedLoop(test::smallHome(), searchPlan(), params);
+  expectGoodEnd(log);
+  for (const FollowSample& sample : log.samples) {
+    EXPECT_LT((sample.robot_estimated.position - sample.robot_true.position).norm(), 0.1);
+  }
+}
+
+TEST(ClosedLoop, WithoutAMapItWaitsWhereItWouldSearch) {
+  Scene scene = test::smallHome();
+  PathStep& last = scene.people[0].path.emplace_back();  // Out of sight, behind the wall.
+  last.kind = PathStep::Kind::kWalk;
+  last.to = {30.0, 2.0};
+  last.speed_mps = 1.0;
+  ClosedLoopParams params = quickLoop();
+  params.limit_s = 60.0;
+  params.has_map = false;
+  const FollowLog log = runClosedLoop(scene, searchPlan(), params);
+  EXPECT_EQ(log.outcome, "timeout") << "it neither fails nor goes away";
+  const FollowSample& end = log.samples.back();
+  EXPECT_EQ(end.state, "search");
+  EXPECT_THAT(end.reason, testing::HasSubstr("waits"));
+  EXPECT_TRUE(stands(end.command));
+}
+
 /// Ida walks on into an aisle without another end, and out again when the robot has come after her.
 Scene deadEnd() {
   Scene scene = test::smallHome();

@@ -27,7 +27,7 @@ cv::Vec3b colorAt(const cv::Mat& picture, cv::Point2d at) {
 }
 
 TEST(FollowVideo, PictureIsOfTheStatedEvenSizeAndOfTheSameBytes) {
-  const FollowVideo video(flatMap(), 0.26);
+  FollowVideo video(flatMap(), 0.26);
   cv::Mat first, second;
   video.draw(videoFrame(flatRun(), 600), first);
   video.draw(videoFrame(flatRun(), 600), second);
@@ -37,7 +37,7 @@ TEST(FollowVideo, PictureIsOfTheStatedEvenSizeAndOfTheSameBytes) {
 }
 
 TEST(FollowVideo, EverybodyIsWhereTheyAre) {
-  const FollowVideo video(flatMap(), 0.26);
+  FollowVideo video(flatMap(), 0.26);
   FollowVideoFrame frame;
   frame.robot_true.position = frame.robot_estimated.position = {1.0, 3.0};
   frame.person_true = Vector2d(3.0, 3.0);
@@ -56,7 +56,7 @@ TEST(FollowVideo, EverybodyIsWhereTheyAre) {
 }
 
 TEST(FollowVideo, WhatIsSeenEndsAtWalls) {
-  const FollowVideo video(flatMap(), 0.26);
+  FollowVideo video(flatMap(), 0.26);
   FollowVideoFrame frame = videoFrame(flatRun(), 0);
   frame = {};
   cv::Mat blind, seeing;
@@ -71,7 +71,7 @@ TEST(FollowVideo, WhatIsSeenEndsAtWalls) {
 }
 
 TEST(FollowVideo, DrawsNonsenseWithoutHarm) {
-  const FollowVideo video(flatMap(), 0.26);
+  FollowVideo video(flatMap(), 0.26);
   cv::Mat picture;
   EXPECT_NO_THROW(video.draw({}, picture));
   FollowVideoFrame frame = videoFrame(flatRun(), 600);
@@ -83,6 +83,17 @@ TEST(FollowVideo, DrawsNonsenseWithoutHarm) {
   frame.view.tracks.clear();
   frame.view.blobs.clear();
   EXPECT_NO_THROW(video.draw(frame, picture));
+}
+
+TEST(FollowVideo, GoesAlongWithTheRobotWhereThereAreNoWalls) {
+  FollowVideo video(heel::OccupancyGrid({-50, -50}, 0.1, 1000, 1000), 0.26);
+  FollowVideoFrame frame;
+  cv::Mat picture;
+  video.draw(frame, picture);
+  const cv::Point2d before = video.pixelOf({0.0, 0.0});
+  frame.robot_estimated.position = frame.robot_true.position = {30.0, -20.0};
+  video.draw(frame, picture);
+  EXPECT_NEAR(cv::norm(video.pixelOf({30.0, -20.0}) - before), 0.0, 1e-9);
 }
 
 TEST(FollowVideo, RefusesAnEmptyMap) {
