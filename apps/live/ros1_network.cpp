@@ -6,6 +6,7 @@
 #include <ros/callback_queue.h>
 #include <ros/network.h>
 #include <ros/ros.h>
+#include <ros/xmlrpc_manager.h>
 
 #include <algorithm>
 #include <condition_variable>
@@ -73,6 +74,13 @@ struct Ros1Network::State {
     return topic == "/tf" || topic == "/tf_static" ? topic : before + topic;
   }
 
+  /// As it is called here; empty if it is not in the namespace.
+  std::string ownName(const std::string& full) const {
+    if (fullName(full) == full) return full;
+    const std::string own = full.substr(std::min(before.size(), full.size()));
+    return own.rfind('/', 0) == 0 && fullName(own) == full ? own : "";
+  }
+
   void take(const std::string& topic, const ros::MessageEvent<const Ros1Bytes>& event) {
     ros::M_string& about = event.getConnectionHeader();
     came = {{topic, about["type"], about["md5sum"]},
@@ -80,25 +88,42 @@ struct Ros1Network::State {
             event.getConstMessage()->bytes};
   }
 
-  /// False if the master gives no answer.
-  bool askMaster() {
-    XmlRpc::XmlRpcValue call, answer, published;
-    call[0] = ros::this_node::getName();
-    call[1] = "";
-    if (!ros::master::execute("getPublishedTopics", call, answer, published, false)) return false;
+  /// Asks what is sent. A master that was gone is told what we send and hear: it may be a new one.
+  void askMaster() {
+    const std::optional<XmlRpc::XmlRpcValue> answer = asked("getPublishedTopics", {""});
+    if (answer && !has_answered) registerAgain();
+    has_answered = answer.has_value();
+    if (!answer) return;
+    XmlRpc::XmlRpcValue published = *answer;
     std::vector<BagTopic> found;
     for (int i = 0; i < published.size(); ++i) {
-      const std::string name = published[i][0];
-      for (const std::string& own : {name, name.substr(std::min(before.size(), name.size()))}) {
-        if (fullName(own) != name) continue;
-        found.push_back({own, published[i][1], {}});
-        break;
-      }
+      const std::string name = ownName(published[i][0]);
+      if (!name.empty()) found.push_back({name, published[i][1], {}});
     }
     const std::lock_guard<std::mutex> lock(mutex);
     topics = std::move(found);
     answered_s = steadyClock_s();
-    return true;
+  }
+
+  /// The master's answer, if it gives one.
+  static std::optional<XmlRpc::XmlRpcValue> asked(const char* method,
+                                                  const std::vector<std::string>& arguments) {
+    XmlRpc::XmlRpcValue call, whole, answer;
+    call[0] = ros::this_node::getName();
+    for (const std::string& argument : arguments) call[call.size()] = argument;
+    if (!ros::master::execute(method, call, whole, answer, false)) return std::nullopt;
+    return answer;
+  }
+
+  void registerAgain() {
+    const std::string uri = ros::XMLRPCManager::instance()->getServerURI();
+    ros::V_string sent, heard;
+    ros::this_node::getAdvertisedTopics(sent);
+    ros::this_node::getSubscribedTopics(heard);
+    for (const std::string& name : sent) {
+      asked("registerPublisher", {name, typeSent(name), uri});
+    }
+    for (const std::string& name : heard) asked("registerSubscriber", {name, "*", uri});
   }
 
   /// In a thread of its own: a machine that is gone may take minutes to refuse.
@@ -109,6 +134,12 @@ struct Ros1Network::State {
       askMaster();
       lock.lock();
     }
+  }
+
+  std::string typeSent(const std::string& full) const {
+    const std::lock_guard<std::mutex> lock(mutex);
+    const auto type = types_sent.find(full);
+    return type == types_sent.end() ? "*" : type->second;
   }
 
   bool isMasterThere() const {
@@ -122,12 +153,14 @@ struct Ros1Network::State {
   ros::NodeHandle node;  // The first one begins what roscpp does, and the last one ends it.
   std::map<std::string, ros::Subscriber> subscribers;
   std::optional<LiveMessage> came;
+  bool has_answered = true;  // the master, the last time
 
   mutable std::mutex mutex;  // guards what follows
   std::condition_variable wakes;
   bool ends = false;
   std::vector<BagTopic> topics;
-  double answered_s = 0.0;  // the master, on the steady clock
+  std::map<std::string, std::string> types_sent;  // by the full names of topics
+  double answered_s = 0.0;                        // the master, on the steady clock
   std::thread asking;
 };
 
@@ -229,6 +262,10 @@ std::optional<LiveMessage> Ros1Network::next(double timeout_s) {
 std::unique_ptr<BagWriter> Ros1Network::writer() {
   return std::make_unique<Ros1Writer>([state = state_.get()](ros::AdvertiseOptions options) {
     options.topic = state->fullName(options.topic);
+    {
+      const std::lock_guard<std::mutex> lock(state->mutex);
+      state->types_sent[options.topic] = options.datatype;
+    }
     const ros::Publisher publisher = state->node.advertise(options);
     if (!publisher) throw std::runtime_error("ROS 1: nothing can be sent on " + options.topic);
     return publisher;

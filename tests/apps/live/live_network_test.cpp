@@ -23,6 +23,7 @@ namespace {
 using test::filled;
 using test::Roscore;
 using testing::HasSubstr;
+using testing::Not;
 
 /// Those that this build has.
 std::vector<BagForm> networks() {
@@ -141,7 +142,8 @@ TEST_P(EachNetwork, AMessageArrivesAsItWasSent) {
 }
 
 TEST_P(EachNetwork, TopicsAreKnownByRosNamesAndTypes) {
-  const auto robot = open("/robot1"), heel = open("robot1/"), elsewhere = open();
+  const auto robot = open("/robot1"), heel = open("robot1/"), elsewhere = open(),
+             other = open("/robot");
   const auto writer = robot->writer();
   writer->write("/scan", 0, filled<LaserScanMsg>());
   writer->write("/camera/image_raw", 0, filled<ImageMsg>());
@@ -152,6 +154,7 @@ TEST_P(EachNetwork, TopicsAreKnownByRosNamesAndTypes) {
   }));
   EXPECT_EQ(typeOn(*heel, "/odom"), "");
   EXPECT_EQ(typeOn(*elsewhere, "/scan"), "");
+  for (const BagTopic& topic : other->topics()) EXPECT_THAT(topic.name, Not(HasSubstr("scan")));
 }
 
 TEST_P(EachNetwork, WhoComesLateGetsWhatIsLatched) {
@@ -301,6 +304,8 @@ TEST_F(OnRos1, NothingComesWhileRoscoreIsGone) {
   roscore().start();
   EXPECT_TRUE(waitFor(isHeard)) << "and is heard again";
   EXPECT_EQ(heel->trouble(), "");
+  EXPECT_TRUE(waitFor([&] { return typeOn(*heel, "/scan") == LaserScanMsg::kType; }))
+      << "and the new roscore knows it";
 }
 
 #endif
