@@ -62,6 +62,7 @@ class LiveNetwork {
 
   /// Waits for a message.
   /// @return  Absent if none has come in time.
+  /// @throws std::runtime_error  if the network has shut this program out ('rosnode kill').
   virtual std::optional<LiveMessage> next(double timeout_s) = 0;
 
   /// Sends what is written, as long as the network lives. Its commit() does nothing.

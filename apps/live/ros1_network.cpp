@@ -254,6 +254,7 @@ std::optional<LiveMessage> Ros1Network::next(double timeout_s) {
   for (double left_s = timeout_s;; left_s = until_s - steadyClock_s()) {
     state_->came.reset();
     state_->queue.callOne(ros::WallDuration(std::max(left_s, 0.0)));
+    if (!ros::ok()) throw std::runtime_error("ROS 1: this node was told to shut down");
     if (state_->came && state_->isMasterThere()) return std::move(state_->came);
     if (left_s <= 0.0) return std::nullopt;
   }
