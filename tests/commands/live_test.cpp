@@ -77,6 +77,7 @@ class Live : public testing::TestWithParam<std::string> {
   std::optional<Roscore> roscore_;
 };
 
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Live);
 INSTANTIATE_TEST_SUITE_P(Networks, Live, testing::ValuesIn(networks()),
                          [](const auto& tested) { return tested.param; });
 

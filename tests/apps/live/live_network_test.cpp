@@ -118,6 +118,7 @@ class EachNetwork : public OnNetwork, public testing::WithParamInterface<BagForm
   EachNetwork() : OnNetwork(GetParam()) {}
 };
 
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(EachNetwork);
 INSTANTIATE_TEST_SUITE_P(Live, EachNetwork, testing::ValuesIn(networks()), [](const auto& tested) {
   return tested.param == BagForm::kRos1 ? "Ros1" : "Ros2";
 });
