@@ -9,9 +9,11 @@
 #include <ros/xmlrpc_manager.h>
 
 #include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <stdexcept>
@@ -120,9 +122,7 @@ struct Ros1Network::State {
     ros::V_string sent, heard;
     ros::this_node::getAdvertisedTopics(sent);
     ros::this_node::getSubscribedTopics(heard);
-    for (const std::string& name : sent) {
-      asked("registerPublisher", {name, typeSent(name), uri});
-    }
+    for (const std::string& name : sent) asked("registerPublisher", {name, typeSent(name), uri});
     for (const std::string& name : heard) asked("registerSubscriber", {name, "*", uri});
   }
 
