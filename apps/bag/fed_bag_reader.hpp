@@ -13,14 +13,17 @@
 
 namespace heel {
 
-/// Gives back what it was fed, in that order, so that what reads bags reads a live robot, too. Of
-/// ROS 2's form. next() is false when nothing waits, and true again after more was fed. Messages of
+/// Gives back what it was fed, in that order, so that what reads bags reads a live robot, too.
+/// next() is false when nothing waits, and true again after more was fed. Messages of
 /// topics that were not selected are not kept.
 class FedBagReader final : public BagReader {
  public:
   using BagReader::wants;
 
-  BagForm form() const override { return BagForm::kRos2; }
+  /// @param form  Of what it will be fed.
+  explicit FedBagReader(BagForm form) : form_(form) {}
+
+  BagForm form() const override { return form_; }
   const BagIndex* index() override { return nullptr; }
   void select(const BagQuery& query) override { query_ = query; }
 
@@ -47,6 +50,7 @@ class FedBagReader final : public BagReader {
     std::int64_t stamp_ns = 0;
     std::vector<std::uint8_t> bytes;
   };
+  BagForm form_;
   std::deque<Message> waiting_;
   Message present_;
 };

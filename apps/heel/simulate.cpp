@@ -24,20 +24,20 @@ namespace heel {
 namespace {
 
 struct LiveArguments {
-  bool is_wanted = false;
-  Ros2NetworkParams network;
+  std::string ros;  // "ros1" or "ros2"; empty: it is not live
+  LiveNetworkParams network;
   LiveSimulationParams run;
 };
 
 void runLive(const Scene& scene, const LiveArguments& options) {
   keepResultsOnSignals();
-  Ros2Network network(options.network);
+  const std::unique_ptr<LiveNetwork> network = openNetwork(options.network);
   LiveSimulationParams params = options.run;
   ProgressBar progress("simulating", static_cast<std::size_t>(params.duration_s));
   params.progress = [&](const WorldTruth&, double stamp_s) {
     progress.show(static_cast<std::size_t>(stamp_s));
   };
-  const LiveSimulationResult result = runLiveSimulation(scene, params, network);
+  const LiveSimulationResult result = runLiveSimulation(scene, params, *network);
   std::printf(
       "%.1f s: the robot drove %.2f m by %zu commands and is %.2f m from the person, who "
       "%s\n  contacts by the robot %d, by people %d; %.1f s a simulated second at the "
@@ -71,7 +71,8 @@ std::function<VelocityCommand(const WorldTruth&)> driverOf(const Scene& scene,
 void run(SimulateArguments& options) {
   Scene scene = loadScene(sceneFile(options.scene).string());
   setLight(scene, options.light);
-  if (options.live.is_wanted) {
+  if (!options.live.ros.empty()) {
+    options.live.network.ros = options.live.ros == "ros1" ? BagForm::kRos1 : BagForm::kRos2;
     options.live.run.seed = options.simulate.seed;
     if (options.simulate.duration_s) options.live.run.duration_s = *options.simulate.duration_s;
     return runLive(scene, options.live);
@@ -114,15 +115,18 @@ void addSimulate(CLI::App& app) {
       ->required();
   CLI::Option* out =
       verb->add_option("--out", options->simulate.out, "folder for the recording; must be empty");
-  CLI::Option* live = verb->add_flag(
-      "--live", options->live.is_wanted,
-      "write nothing: be a robot on ROS 2's network, in real time, that /cmd_vel drives");
-  live->excludes(out);
+  addNetwork(*verb, options->live.network);
+  CLI::Option* live = verb->add_option(
+      "--live", options->live.ros,
+      "write nothing: be a robot on the network of ROS, in real time, that /cmd_vel drives");
+  live->expected(0, 1)
+      ->default_str(options->live.network.ros == BagForm::kRos1 ? "ros1" : "ros2")
+      ->check(CLI::IsMember({"ros1", "ros2"}))
+      ->excludes(out);
   verb->add_option("--speed", options->live.run.speed, "simulated seconds a second")
       ->needs(live)
       ->check(CLI::Range(0.01, 100.0))
       ->capture_default_str();
-  addNetwork(*verb, options->live.network);
   verb->add_option(
       "--bag", options->simulate.bag,
       "also write a bag: NAME.bag for ROS 1; NAME.mcap, NAME.db3, or a folder, for ROS 2");

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/live/command_sender.hpp>
-#include <heel/apps/live/find_robot.hpp>
+#include <heel/apps/live/live_network.hpp>
 
 #include <chrono>
 #include <exception>

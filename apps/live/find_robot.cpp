@@ -5,7 +5,6 @@
 #include <heel/apps/recording/bags/bag_recording.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -54,11 +53,7 @@ class Lately {
 
 }  // namespace
 
-double steadyClock_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-FoundRobot findRobot(Ros2Network& network, const BagTopics& topics,
+FoundRobot findRobot(LiveNetwork& network, const BagTopics& topics,
                      const CameraSetupParams& camera_setup,
                      const std::function<bool(const std::string&)>& goes_on) {
   std::set<std::string> subscribed;
@@ -79,12 +74,12 @@ FoundRobot findRobot(Ros2Network& network, const BagTopics& topics,
     }
     if (first_s > 0.0 && steadyClock_s() - first_s > kLeast_s) {
       try {
-        FedBagReader messages;
+        FedBagReader messages(network.form());
         lately.feed(messages);
         const BagSurvey survey = surveyMessages(messages, "the network");
         FoundRobot robot;
         robot.readings = std::make_unique<LiveReadings>(survey, topics);
-        auto again = std::make_unique<FedBagReader>();
+        auto again = std::make_unique<FedBagReader>(network.form());
         FedBagReader& replayed = *again;
         RecordingParams opening;
         opening.topics = topics;
@@ -102,7 +97,9 @@ FoundRobot findRobot(Ros2Network& network, const BagTopics& topics,
         missing = error.what();
       }
     }
-    if (!goes_on(missing)) throw std::runtime_error(missing);
+    const std::string trouble = network.trouble();
+    const std::string& reason = trouble.empty() ? missing : trouble;
+    if (!goes_on(reason)) throw std::runtime_error(reason);
   }
 }
 

@@ -6,8 +6,8 @@
 #pragma once
 
 #include <heel/apps/follower/camera_setup.hpp>
+#include <heel/apps/live/live_network.hpp>
 #include <heel/apps/live/live_readings.hpp>
-#include <heel/apps/live/ros2_network.hpp>
 
 #include <functional>
 #include <memory>
@@ -25,11 +25,8 @@ struct FoundRobot {
 /// @param goes_on  Asked about once a second, and told what is missing still; false ends the
 /// search.
 /// @throws std::runtime_error  if it was ended, with what is missing; as findCameraSetup().
-FoundRobot findRobot(Ros2Network& network, const BagTopics& topics,
+FoundRobot findRobot(LiveNetwork& network, const BagTopics& topics,
                      const CameraSetupParams& camera_setup,
                      const std::function<bool(const std::string& missing)>& goes_on);
-
-/// A clock that does not jump [s].
-double steadyClock_s();
 
 }  // namespace heel

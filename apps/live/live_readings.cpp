@@ -11,9 +11,9 @@
 namespace heel {
 
 LiveReadings::LiveReadings(const BagSurvey& survey, const BagTopics& topics)
-    : poses_(survey, topics) {
-  auto camera_messages = std::make_unique<FedBagReader>();
-  auto laser_messages = std::make_unique<FedBagReader>();
+    : pose_messages_(survey.form), poses_(survey, topics) {
+  auto camera_messages = std::make_unique<FedBagReader>(survey.form);
+  auto laser_messages = std::make_unique<FedBagReader>(survey.form);
   camera_messages_ = camera_messages.get();
   laser_messages_ = laser_messages.get();
   RecordingParams opening;

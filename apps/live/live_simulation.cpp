@@ -13,7 +13,7 @@
 namespace heel {
 
 LiveSimulationResult runLiveSimulation(const Scene& scene, const LiveSimulationParams& params,
-                                       Ros2Network& network) {
+                                       LiveNetwork& network) {
   constexpr double kTen_s = 10.0;
   const BagTopic cmd_vel{"/cmd_vel", TwistMsg::kType, {}};
   SimulatorOptions options;
@@ -57,10 +57,10 @@ LiveSimulationResult runLiveSimulation(const Scene& scene, const LiveSimulationP
     for (double left_s = 1.0; left_s > 0.0;) {
       left_s = wake_s - steadyClock_s();
       const auto message = network.next(std::max(left_s, 0.0));
-      if (!message) continue;
+      if (!message || !message->topic.holds<TwistMsg>()) continue;
       TwistMsg twist;
       try {
-        readMessage(BagForm::kRos2, message->bytes.data(), message->bytes.size(), twist);
+        readMessage(network.form(), message->bytes.data(), message->bytes.size(), twist);
       } catch (const std::runtime_error&) {
         continue;
       }

@@ -5,7 +5,7 @@
 /// A simulated robot on the network.
 #pragma once
 
-#include <heel/apps/live/ros2_network.hpp>
+#include <heel/apps/live/live_network.hpp>
 #include <heel/apps/simulation/simulator.hpp>
 
 #include <cstddef>
@@ -37,6 +37,6 @@ struct LiveSimulationResult {
 /// Sends what the scene's robot measures (see SensorBag; images are raw, the truth is not sent),
 /// and drives as /cmd_vel (geometry_msgs/Twist) tells.
 LiveSimulationResult runLiveSimulation(const Scene& scene, const LiveSimulationParams& params,
-                                       Ros2Network& network);
+                                       LiveNetwork& network);
 
 }  // namespace heel

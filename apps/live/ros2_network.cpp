@@ -3,17 +3,6 @@
 
 #include <heel/apps/live/ros2_network.hpp>
 
-#include <algorithm>
-#include <chrono>
-#include <condition_variable>
-#include <cstdlib>
-#include <cstring>
-#include <deque>
-#include <map>
-#include <mutex>
-#include <stdexcept>
-
-#ifdef HEEL_HAS_ROS2
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
@@ -29,30 +18,22 @@
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <cstring>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+
 #ifdef __SANITIZE_ADDRESS__
 // Fast DDS deletes its readers as one of their bases, which has no virtual destructor.
 extern "C" const char* __asan_default_options() { return "new_delete_type_mismatch=0"; }
 #endif
-#endif
 
 namespace heel {
 
-Ros2NetworkParams ros2Environment() {
-  Ros2NetworkParams params;
-  if (const char* domain = std::getenv("ROS_DOMAIN_ID"); domain != nullptr && *domain != '\0') {
-    char* end = nullptr;
-    const long number = std::strtol(domain, &end, 10);
-    if (*end != '\0' || number < 0 || number > 232) {
-      throw std::invalid_argument("ROS_DOMAIN_ID must be a number from 0 to 232");
-    }
-    params.domain = static_cast<int>(number);
-  }
-  const char* local = std::getenv("ROS_LOCALHOST_ONLY");
-  params.localhost_only = local != nullptr && std::string(local) == "1";
-  return params;
-}
-
-#ifdef HEEL_HAS_ROS2
 namespace {
 
 namespace dds = eprosima::fastdds::dds;
@@ -147,39 +128,24 @@ struct Ros2Network::State final : dds::DomainParticipantListener {
 
   void on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryInfo&& found) override {
     using Info = rtps::WriterDiscoveryInfo;
-    const int change = found.status == Info::DISCOVERED_WRITER ? 1
-                       : found.status == Info::REMOVED_WRITER  ? -1
-                                                               : 0;
-    count(writers, found.info.topicName().to_string(), found.info.typeName().to_string(), change,
-          found.info.m_qos.m_reliability.kind == dds::RELIABLE_RELIABILITY_QOS);
-  }
-  void on_subscriber_discovery(dds::DomainParticipant*,
-                               rtps::ReaderDiscoveryInfo&& found) override {
-    using Info = rtps::ReaderDiscoveryInfo;
-    const int change = found.status == Info::DISCOVERED_READER ? 1
-                       : found.status == Info::REMOVED_READER  ? -1
-                                                               : 0;
-    count(listeners, found.info.topicName().to_string(), found.info.typeName().to_string(), change);
+    const std::string type = rosType(found.info.typeName().to_string());
+    const std::string name = found.info.topicName().to_string();
+    const std::string before = "rt" + params.ros_namespace;
+    if (type.empty() || name.rfind(before + "/", 0) != 0) return;
+    const std::lock_guard<std::mutex> lock(mutex);
+    Writers& these = writers[name.substr(before.size())];
+    these.type = type;
+    these.is_reliable = found.info.m_qos.m_reliability.kind == dds::RELIABLE_RELIABILITY_QOS;
+    if (found.status == Info::DISCOVERED_WRITER) ++these.count;
+    if (found.status == Info::REMOVED_WRITER && these.count > 0) --these.count;
   }
 
-  struct Ends {
+  /// Of one topic.
+  struct Writers {
     std::string type;
     int count = 0;
     bool is_reliable = false;  // the last one
   };
-  using Topics = std::map<std::string, Ends>;  // by name, as ROS tells it
-
-  void count(Topics& topics, const std::string& dds_name, const std::string& dds_type, int change,
-             bool is_reliable = false) {
-    const std::string type = rosType(dds_type);
-    const std::string before = "rt" + params.ros_namespace;
-    if (type.empty() || dds_name.rfind(before + "/", 0) != 0) return;
-    const std::lock_guard<std::mutex> lock(mutex);
-    Ends& ends = topics[dds_name.substr(before.size())];
-    ends.type = type;
-    ends.is_reliable = is_reliable;
-    ends.count = std::max(ends.count + change, 0);
-  }
 
   dds::Topic* topicOf(const std::string& name, const std::string& type) {
     const std::string dds_name = "rt" + params.ros_namespace + name;
@@ -192,7 +158,7 @@ struct Ros2Network::State final : dds::DomainParticipantListener {
     return topic;
   }
 
-  Ros2NetworkParams params;
+  LiveNetworkParams params;
   dds::DomainParticipant* participant = nullptr;
   dds::Publisher* publisher = nullptr;
   dds::Subscriber* subscriber = nullptr;
@@ -201,7 +167,7 @@ struct Ros2Network::State final : dds::DomainParticipantListener {
   mutable std::mutex mutex;  // guards what follows, and `waiting` of the inboxes
   std::condition_variable came;
   std::deque<LiveMessage> messages;
-  Topics writers, listeners;
+  std::map<std::string, Writers> writers;  // by the topic, as ROS tells it
 };
 
 namespace {
@@ -228,7 +194,7 @@ class Ros2Writer final : public BagWriter {
 
 }  // namespace
 
-Ros2Network::Ros2Network(const Ros2NetworkParams& params) : state_(std::make_unique<State>()) {
+Ros2Network::Ros2Network(const LiveNetworkParams& params) : state_(std::make_unique<State>()) {
   state_->params = params;
   dds::DomainParticipantQos qos;
   qos.name("heel");
@@ -257,22 +223,10 @@ Ros2Network::~Ros2Network() {
 std::vector<BagTopic> Ros2Network::topics() const {
   const std::lock_guard<std::mutex> lock(state_->mutex);
   std::vector<BagTopic> topics;
-  for (const auto& [name, ends] : state_->writers) {
-    if (ends.count > 0) topics.push_back({name, ends.type, {}});
+  for (const auto& [name, these] : state_->writers) {
+    if (these.count > 0) topics.push_back({name, these.type, {}});
   }
   return topics;
-}
-
-bool Ros2Network::hasWriter(const std::string& topic) const {
-  const std::lock_guard<std::mutex> lock(state_->mutex);
-  const auto found = state_->writers.find(topic);
-  return found != state_->writers.end() && found->second.count > 0;
-}
-
-bool Ros2Network::hasListener(const std::string& topic) const {
-  const std::lock_guard<std::mutex> lock(state_->mutex);
-  const auto found = state_->listeners.find(topic);
-  return found != state_->listeners.end() && found->second.count > 0;
 }
 
 void Ros2Network::subscribe(const BagTopic& topic, bool latched, std::size_t depth) {
@@ -344,25 +298,5 @@ std::unique_ptr<BagWriter> Ros2Network::writer() {
         return writer;
       });
 }
-
-#else
-
-struct Ros2Network::State {};
-
-Ros2Network::Ros2Network(const Ros2NetworkParams& /*params*/) {
-  throw std::runtime_error(
-      "ROS 2: this build of Heel is without it; it needs Fast DDS 2 (libfastrtps-dev of Debian 12 "
-      "and of Ubuntu; Debian 13 has Fast DDS 3) and cmake -DHEEL_WITH_ROS2=ON");
-}
-Ros2Network::~Ros2Network() = default;
-std::vector<BagTopic> Ros2Network::topics() const { return {}; }
-bool Ros2Network::hasWriter(const std::string& /*topic*/) const { return false; }
-bool Ros2Network::hasListener(const std::string& /*topic*/) const { return false; }
-void Ros2Network::subscribe(const BagTopic& /*topic*/, bool /*latched*/, std::size_t /*depth*/) {}
-void Ros2Network::unsubscribe(const std::string& /*topic*/) {}
-std::optional<LiveMessage> Ros2Network::next(double /*timeout_s*/) { return std::nullopt; }
-std::unique_ptr<BagWriter> Ros2Network::writer() { return nullptr; }
-
-#endif
 
 }  // namespace heel

@@ -124,8 +124,8 @@ HeelRun heel(const std::vector<std::string>& arguments, std::optional<std::size_
   return run(arguments, largest_file, [](pid_t, const Capture&) {});
 }
 
-HeelRun heelSignalled(const std::vector<std::string>& arguments, const std::string& text,
-                      const std::vector<int>& signals) {
+HeelRun heelUntil(const std::vector<std::string>& arguments, const std::string& text,
+                  const std::function<void(pid_t)>& then) {
   return run(arguments, std::nullopt, [&](pid_t child, const Capture& err) {
     siginfo_t ended{};
     while (err.text().find(text) == std::string::npos) {
@@ -133,6 +133,13 @@ HeelRun heelSignalled(const std::vector<std::string>& arguments, const std::stri
       if (ended.si_pid != 0) return;  // too early: the test will see
       usleep(200);
     }
+    then(child);
+  });
+}
+
+HeelRun heelSignalled(const std::vector<std::string>& arguments, const std::string& text,
+                      const std::vector<int>& signals) {
+  return heelUntil(arguments, text, [&](pid_t child) {
     for (const int signal : signals) kill(child, signal);
   });
 }

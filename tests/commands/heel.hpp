@@ -6,8 +6,10 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <sys/types.h>
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,8 +37,12 @@ struct HeelRun {
 HeelRun heel(const std::vector<std::string>& arguments,
              std::optional<std::size_t> largest_file = std::nullopt);
 
-/// Runs `heel ARGUMENTS`, and sends it these signals, one after the other, once it has said `text`
-/// on stderr.
+/// Runs `heel ARGUMENTS`, and does something once it has said `text` on stderr.
+/// @param then  Called with the process, if that has not ended too early.
+HeelRun heelUntil(const std::vector<std::string>& arguments, const std::string& text,
+                  const std::function<void(pid_t)>& then);
+
+/// The same: sends it these signals, one after the other.
 HeelRun heelSignalled(const std::vector<std::string>& arguments, const std::string& text,
                       const std::vector<int>& signals);
 

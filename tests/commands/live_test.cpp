@@ -6,6 +6,7 @@
 
 #include "tests/commands/hall_scene.hpp"
 #include "tests/commands/heel.hpp"
+#include "tests/support/roscore.hpp"
 #include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -13,6 +14,7 @@
 
 #include <cstdlib>
 #include <future>
+#include <optional>
 #include <regex>
 
 namespace heel::test {
@@ -28,35 +30,58 @@ constexpr const char* kRosa =
 constexpr const char* kCamera =
     "{at: [0.05, 0.06, 1.13], pitch_deg: 5.7, width: 160, height: 120, view_deg: 60, rate_hz: 5}";
 
-class Live : public testing::Test {
+/// Those that this build has.
+std::vector<std::string> networks() {
+  std::vector<std::string> known;
+#ifdef HEEL_HAS_ROS1
+  known.emplace_back("ros1");
+#endif
+#ifdef HEEL_HAS_ROS2
+  known.emplace_back("ros2");
+#endif
+  return known;
+}
+
+class Live : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
+    if (isRos1()) {
+      if (!Roscore::isInstalled()) GTEST_SKIP() << "roscore is not installed (python3-roslaunch)";
+      roscore_.emplace();
+    }
     setenv("ROS_LOCALHOST_ONLY", "1", 1);
     domain_ = std::to_string(1 + getpid() % 200);
     folder_.write("hall.yaml", hallScene("60", kRosa, kCamera));
   }
   void TearDown() override { unsetenv("ROS_LOCALHOST_ONLY"); }
 
+  static bool isRos1() { return GetParam() == "ros1"; }
+
   /// Simulated time is as slow as the machine needs.
   std::future<HeelRun> robot(const std::string& duration_s, const std::string& speed = "1") {
     return std::async(std::launch::async, [=] {
-      return heel({"simulate", folder_ / "hall.yaml", "--live", "--domain", domain_, "--duration",
-                   duration_s, "--speed", speed});
+      return heel({"simulate", folder_ / "hall.yaml", "--live", GetParam(), "--domain", domain_,
+                   "--duration", duration_s, "--speed", speed});
     });
   }
   std::vector<std::string> live(std::vector<std::string> more) const {
-    std::vector<std::string> call = {"live",          "--map",   folder_ / "hall.yaml",
-                                     "--robot-start", "0.5,0,0", "--domain",
-                                     domain_,         "--out",   folder_ / "live"};
+    std::vector<std::string> call = {
+        "live",  "--map", folder_ / "hall.yaml", "--robot-start", "0.5,0,0",           "--domain",
+        domain_, "--out", folder_ / "live",      "--ros",         isRos1() ? "1" : "2"};
     call.insert(call.end(), more.begin(), more.end());
     return call;
   }
 
   TempFolder folder_;
   std::string domain_;
+  std::optional<Roscore> roscore_;
 };
 
-TEST_F(Live, ARobotOnTheNetworkLearnsAPersonAndFollowsThem) {
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Live);
+INSTANTIATE_TEST_SUITE_P(Networks, Live, testing::ValuesIn(networks()),
+                         [](const auto& tested) { return tested.param; });
+
+TEST_P(Live, ARobotOnTheNetworkLearnsAPersonAndFollowsThem) {
   auto robot = this->robot("35");
   const HeelRun follower = heel(live({"--limit", "28", "--wait", "60"}));
   const HeelRun world = robot.get();
@@ -73,11 +98,11 @@ TEST_F(Live, ARobotOnTheNetworkLearnsAPersonAndFollowsThem) {
   EXPECT_THAT(world.out, HasSubstr("contacts by the robot 0"));
 }
 
-TEST_F(Live, WithoutARobotItSaysWhatIsMissing) {
+TEST_P(Live, WithoutARobotItSaysWhatIsMissing) {
   EXPECT_TRUE(failsWith(heel(live({"--wait", "1"})), {"nothing is sent on the network"}));
 }
 
-TEST_F(Live, WhenTheRobotIsGoneItStandsAndSaysSo) {
+TEST_P(Live, WhenTheRobotIsGoneItStandsAndSaysSo) {
   auto robot = this->robot("4");
   const HeelRun follower = heel(live({"--limit", "12", "--wait", "60"}));
   ASSERT_TRUE(succeeds(robot.get()));
@@ -85,17 +110,48 @@ TEST_F(Live, WhenTheRobotIsGoneItStandsAndSaysSo) {
   EXPECT_THAT(follower.err, HasSubstr("no picture has come for a second"));
 }
 
-TEST_F(Live, WithDryItSendsNothing) {
+TEST_P(Live, WithDryItSendsNothing) {
   auto robot = this->robot("8");
   const HeelRun follower = heel(live({"--limit", "3", "--wait", "60", "--dry"}));
   EXPECT_EQ(follower.exit_code, 0) << follower.err;
   EXPECT_THAT(robot.get().out, HasSubstr("drove 0.00 m by 0 commands"));
 }
 
-TEST_F(Live, RefusesANetworkThatCannotBe) {
+TEST_P(Live, RefusesANetworkThatCannotBe) {
   EXPECT_TRUE(
       failsWith(heel({"live", "--map", folder_ / "hall.yaml", "--domain", "300"}), {"--domain"}));
 }
+
+#ifdef HEEL_HAS_ROS1
+
+class LiveByRoscore : public Live {};
+
+INSTANTIATE_TEST_SUITE_P(Networks, LiveByRoscore, testing::Values("ros1"),
+                         [](const auto& tested) { return tested.param; });
+
+TEST_P(LiveByRoscore, WithoutItItSaysSo) {
+  setenv("ROS_MASTER_URI", "http://127.0.0.1:1", 1);
+  const std::vector<std::string> sentence = {"no roscore at http://127.0.0.1:1", "ROS_MASTER_URI"};
+  EXPECT_TRUE(failsWith(heel(live({})), sentence));
+  EXPECT_TRUE(failsWith(robot("4").get(), sentence));
+  setenv("ROS_MASTER_URI", "nowhere", 1);
+  EXPECT_TRUE(failsWith(heel(live({})), {"ROS_MASTER_URI must be like http://localhost:11311"}));
+}
+
+TEST_P(LiveByRoscore, WhenItIsGoneTheRobotStandsAndThenGoesOn) {
+  auto robot = this->robot("20");
+  const HeelRun follower = heelUntil(live({"--limit", "12", "--wait", "60"}), "learn", [&](pid_t) {
+    roscore_->stop();
+    sleep(4);
+    roscore_->start();
+  });
+  ASSERT_TRUE(succeeds(robot.get()));
+  EXPECT_EQ(follower.exit_code, 0) << follower.err;
+  EXPECT_THAT(follower.err, HasSubstr("roscore does not answer"));
+  EXPECT_THAT(follower.err, HasSubstr("a picture has come again"));
+}
+
+#endif
 
 }  // namespace
 }  // namespace heel::test

@@ -34,7 +34,7 @@ struct LiveOptions {
   std::string plan = "search";
   std::string config;  // empty: a robot of the default size and speed
   BagTopics topics;
-  Ros2NetworkParams network;
+  LiveNetworkParams network;
   std::string command_topic = "/cmd_vel";
   bool dry = false;
   double wait_s = std::numeric_limits<double>::infinity();
@@ -42,7 +42,7 @@ struct LiveOptions {
   std::filesystem::path out;
 };
 
-FoundRobot waitForRobot(Ros2Network& network, const LiveOptions& options,
+FoundRobot waitForRobot(LiveNetwork& network, const LiveOptions& options,
                         const RobotConfig& config) {
   const double began_s = steadyClock_s();
   std::string told;
@@ -83,10 +83,17 @@ class StateTeller {
   std::string last_;
 };
 
-/// Tells when a sensor has been silent for too long, and when it is heard again.
+/// Tells when a sensor, or all of the network, has been silent for too long, and when it is heard
+/// again.
 class SilenceTeller {
  public:
-  void tell(const RobotReadings& now, double clock_s) {
+  /// @param trouble  The network's.
+  void tell(const RobotReadings& now, const std::string& trouble, double clock_s) {
+    if (trouble != trouble_) {
+      if (trouble.empty()) std::fprintf(stderr, "heel: the network answers again\n");
+      if (!trouble.empty()) warn(trouble + ": the robot is told to stand");
+      trouble_ = trouble;
+    }
     camera_.tell("picture", now.frame != nullptr, clock_s);
     laser_.tell("laser scan", now.scan != nullptr, clock_s);
     wheels_.tell("odometry", now.odometry.has_value(), clock_s);
@@ -109,6 +116,7 @@ class SilenceTeller {
     bool is_silent = false;
   };
   Sensor camera_, laser_, wheels_;
+  std::string trouble_;
 };
 
 double share95(std::vector<double>& values) {
@@ -120,7 +128,7 @@ double share95(std::vector<double>& values) {
 
 /// Takes in what comes until it is time for the next command: after a period, or, not much before
 /// that, as soon as there is a new frame.
-void listen(Ros2Network& network, LiveReadings& readings, double period_s) {
+void listen(LiveNetwork& network, LiveReadings& readings, double period_s) {
   constexpr double kLeastShare = 0.7;
   const double began_s = steadyClock_s();
   bool has_frame = false;
@@ -144,8 +152,8 @@ void run(const LiveOptions& options) {
     config = loadRobotConfig(inputs.back().string());
   }
   FollowOutput output(options.out, false, {}, inputs);
-  Ros2Network network(options.network);
-  const FoundRobot found = waitForRobot(network, options, config);
+  const std::unique_ptr<LiveNetwork> network = openNetwork(options.network);
+  const FoundRobot found = waitForRobot(*network, options, config);
   for (const std::string& warning : found.camera.warnings) warn(warning);
   LiveReadings& readings = *found.readings;
   std::fprintf(stderr, "heel: the robot's camera: %s\n", readings.info().layout.c_str());
@@ -169,7 +177,7 @@ void run(const LiveOptions& options) {
   if (!options.dry) {
     CommandSenderParams params;
     params.topic = options.command_topic;
-    sender = std::make_unique<CommandSender>(network.writer(), params);
+    sender = std::make_unique<CommandSender>(network->writer(), params);
   }
   const double period_s = follower.robot().drive.period_s;
   const double began_s = steadyClock_s();
@@ -178,13 +186,13 @@ void run(const LiveOptions& options) {
   StereoReading picture;
   std::vector<double> latencies_s;
   while (true) {
-    listen(network, readings, period_s);
+    listen(*network, readings, period_s);
     if (isStopRequested()) {
       log.outcome = kStoppedRun;
       break;
     }
     const RobotReadings& now = readings.read(steadyClock_s());
-    silence.tell(now, steadyClock_s());
+    silence.tell(now, network->trouble(), steadyClock_s());
     const FollowStep* step = nullptr;
     try {
       step = &follower.step(now, stage_done);
@@ -222,7 +230,7 @@ void run(const LiveOptions& options) {
 
 void addLive(CLI::App& app) {
   auto options = std::make_shared<LiveOptions>();
-  CLI::App* verb = app.add_subcommand("live", "Follow a person with a robot that runs ROS 2");
+  CLI::App* verb = app.add_subcommand("live", "Follow a person with a robot that runs ROS");
   verb->footer(
       "Example (in two terminals; no robot and no ROS are needed):\n"
       "  heel simulate home --live\n"
@@ -250,6 +258,13 @@ void addLive(CLI::App& app) {
       ->capture_default_str();
   addRobotConfig(*verb, options->config);
   addNetwork(*verb, options->network);
+  verb->add_option_function<int>(
+          "--ros",
+          [options](int version) {
+            options->network.ros = version == 1 ? BagForm::kRos1 : BagForm::kRos2;
+          },
+          "which ROS the robot runs (default: ROS_VERSION, else 2)")
+      ->check(CLI::IsMember({1, 2}));
   addLogMap(*verb, options->map, options->topics);
   addCameraTopics(*verb, options->topics);
   addOdometryTopic(*verb, options->topics);

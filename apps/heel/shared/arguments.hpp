@@ -5,7 +5,7 @@
 /// What several verbs are called with: scenes, maps and plans, and the topics of a bag.
 #pragma once
 
-#include <heel/apps/live/ros2_network.hpp>
+#include <heel/apps/live/live_network.hpp>
 #include <heel/apps/recording/bags/bag_topics.hpp>
 #include <heel/apps/recording/time_span.hpp>
 #include <heel/apps/simulation/scene.hpp>
@@ -88,8 +88,8 @@ void addLaserTopics(CLI::App& verb, BagTopics& topics);
 void addResultBag(CLI::App& verb, std::filesystem::path& bag);
 
 /// Adds --domain and --namespace.
-inline void addNetwork(CLI::App& verb, Ros2NetworkParams& params) {
-  params = ros2Environment();
+inline void addNetwork(CLI::App& verb, LiveNetworkParams& params) {
+  params = rosEnvironment();
   verb.add_option("--domain", params.domain, "of ROS 2 (default: ROS_DOMAIN_ID, else 0)")
       ->check(CLI::Range(0, 232));
   verb.add_option("--namespace", params.ros_namespace, "before all topics, as /robot1");

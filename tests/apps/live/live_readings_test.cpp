@@ -73,7 +73,7 @@ class Robot {
 
 /// Readings of a robot that was heard for a second.
 std::unique_ptr<LiveReadings> begin() {
-  FedBagReader messages;
+  FedBagReader messages(BagForm::kRos2);
   Robot robot([&](const BagTopic& t, std::int64_t ns, const auto& b) { messages.feed(t, ns, b); });
   for (int tick = 0; tick < 20; ++tick) robot.measure(tick);
   return std::make_unique<LiveReadings>(surveyMessages(messages, "the network"), BagTopics());
@@ -153,7 +153,7 @@ TEST(LiveReadings, APictureWithoutItsPartnerIsLeftOut) {
 }
 
 TEST(LiveReadings, SaysWhatIsMissing) {
-  FedBagReader messages;
+  FedBagReader messages(BagForm::kRos2);
   Robot robot([&](const BagTopic& t, std::int64_t ns, const auto& b) {
     if (t.name != "/scan") messages.feed(t, ns, b);
   });
