@@ -121,7 +121,7 @@ void run(const PlanOptions& options) {
                               {source},
                               {"plan.png", "path.csv", "summary.json"}});
   }
-  const OccupancyGrid map = openMap(source, options.source).map.floorGrid();
+  const OccupancyGrid map = openFloor(source, options.source);
   if (map.empty()) throw NothingFound(source.string() + ": there is nothing to map in it");
   GlobalPlanner planner(map, options.planner);
   const GlobalPlan plan =

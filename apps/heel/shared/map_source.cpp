@@ -126,7 +126,29 @@ WallMap extruded(const fs::path& file, const OccupancyGrid& plan, const MapSourc
   });
 }
 
+/// What a picture or a map_server pair shows; absent for anything else.
+std::optional<OccupancyGrid> floorPlanIn(const fs::path& path, const MapSourceParams& params) {
+  if (!fs::is_regular_file(path) || isBag(path)) return std::nullopt;
+  if (isImageName(path)) {
+    if (!params.cell_size_m) {
+      throw std::runtime_error(
+          path.string() +
+          ": a picture does not tell how large a pixel is; say it (--resolution, or --cell)");
+    }
+    return gridFromImage(path, *params.cell_size_m);
+  }
+  if (path.extension() != ".bt" && isMapServerFile(path)) return loadMapServer(path);
+  return std::nullopt;
+}
+
 }  // namespace
+
+OccupancyGrid openFloor(const fs::path& path, const MapSourceParams& params) {
+  if (auto plan = floorPlanIn(path, params)) {
+    if (params.cell_size_m.value_or(plan->cell_size_m()) == plan->cell_size_m()) return *plan;
+  }
+  return openMap(path, params).map.floorGrid();
+}
 
 SourcedMap openMap(const fs::path& path, const MapSourceParams& params) {
   const double cell_m = params.cell_size_m.value_or(kUsualCell_m);
@@ -141,15 +163,9 @@ SourcedMap openMap(const fs::path& path, const MapSourceParams& params) {
     return {mapOfRecording(path, recorded), "recording"};
   }
   if (path.extension() == ".bt") return {loadWallMap(path), "wall map"};
-  if (isImageName(path)) {
-    if (!params.cell_size_m) {
-      throw std::runtime_error(
-          path.string() +
-          ": a picture does not tell how large a pixel is; say it (--resolution, or --cell)");
-    }
-    return {extruded(path, gridFromImage(path, cell_m), params), "picture"};
+  if (const auto plan = floorPlanIn(path, params)) {
+    return {extruded(path, *plan, params), isImageName(path) ? "picture" : "map_server map"};
   }
-  if (isMapServerFile(path)) return {extruded(path, loadMapServer(path), params), "map_server map"};
   const Scene scene = loadScene(path.string());
   return {builtFrom(path, [&] { return wallMapOf(scene, cell_m); }), "scene"};
 }

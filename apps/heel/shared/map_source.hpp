@@ -53,4 +53,8 @@ struct SourcedMap {
 /// @throws std::runtime_error  one sentence that names the file and the reason.
 SourcedMap openMap(const std::filesystem::path& path, const MapSourceParams& params = {});
 
+/// The same map seen from above. A floor plan is taken as it is, which is faster than by OctoMap.
+/// @throws std::runtime_error  as openMap().
+OccupancyGrid openFloor(const std::filesystem::path& path, const MapSourceParams& params = {});
+
 }  // namespace heel
