@@ -24,8 +24,9 @@ StereoCamera rectifiedCamera(const cv::Mat& left, const cv::Mat& right, cv::Size
                  left.at<double>(1, 1),
                  left.at<double>(0, 2),
                  left.at<double>(1, 2)};
-  // The right projection is that of the left's frame: P(0, 3) = -fx * baseline.
-  camera.baseline_m = -right.at<double>(0, 3) / right.at<double>(0, 0);
+  // Both projections are of one frame, the left's: P(0, 3) = -fx * the way to the camera.
+  camera.baseline_m = left.at<double>(0, 3) / left.at<double>(0, 0) -
+                      right.at<double>(0, 3) / right.at<double>(0, 0);
   camera.disparity_offset = right.at<double>(0, 2) - left.at<double>(0, 2);
   return camera;
 }

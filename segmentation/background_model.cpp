@@ -19,6 +19,7 @@ constexpr int kGainStride = 4;       // one pixel in 16 is plenty for one number
 constexpr int kMinGainPixels = 100;  // fewer say nothing about the exposure
 constexpr float kDarkest = 20.0F;    // below, noise; above the brightest, the sensor saturates
 constexpr float kBrightest = 245.0F;
+constexpr int kEdge = 80;  // Edges whose depth flickers are no wider than this part of the picture.
 
 void checkFrame(const cv::Mat& image_bgr, const cv::Mat& depth_m, cv::Size expected) {
   if (image_bgr.type() != CV_8UC3 || image_bgr.empty()) {
@@ -113,19 +114,23 @@ BackgroundModel BackgroundLearner::model() const {
   const auto spreads = static_cast<float>(params_.disparity_spreads);
   const auto min_gray_step = static_cast<float>(params_.min_intensity_step);
   const auto gray_spreads = static_cast<float>(params_.intensity_spreads);
+  cv::Mat restless = cv::Mat::zeros(valid_.size(), CV_8UC1);
   for (int v = 0; v < valid_.rows; ++v) {
     for (int u = 0; u < valid_.cols; ++u) {
       const float valid = valid_.at<float>(v, u);
       const bool known = valid > 0.0F && valid >= min_valid;
       if (!known) model.disparity_.at<float>(v, u) = 0.0F;
+      const float spread = known ? std::sqrt(disparity_squares_.at<float>(v, u) / valid) : 0.0F;
       model.disparity_tolerance_.at<float>(v, u) =
-          known
-              ? std::max(min_step, spreads * std::sqrt(disparity_squares_.at<float>(v, u) / valid))
-              : kUnknown;
+          known ? std::max(min_step, spreads * spread) : kUnknown;
+      restless.at<std::uint8_t>(v, u) = spread > min_step ? 1 : 0;
       model.intensity_tolerance_.at<float>(v, u) = std::max(
           min_gray_step, gray_spreads * std::sqrt(intensity_squares_.at<float>(v, u) / frames));
     }
   }
+  const int edge = std::max(1, restless.cols / kEdge);
+  cv::erode(restless, restless, cv::Mat::ones(edge, edge, CV_8UC1));
+  model.restless_share_ = cv::countNonZero(restless) / static_cast<double>(restless.total());
   return model;
 }
 

@@ -47,6 +47,10 @@ class BackgroundModel {
 
   bool empty() const { return disparity_.empty(); }
 
+  /// Share of the picture in which depth did not stay, over areas and not only along edges: large
+  /// where somebody walked about while the scene should have been empty.
+  double restlessShare() const { return restless_share_; }
+
   /// Marks what differs from the empty scene.
   ///
   /// A pixel is foreground if its disparity puts it before the background, or if its intensity
@@ -69,6 +73,7 @@ class BackgroundModel {
   cv::Mat disparity_tolerance_;  // CV_32FC1, infinite where depth is unknown
   cv::Mat intensity_;            // CV_32FC1, mean
   cv::Mat intensity_tolerance_;  // CV_32FC1
+  double restless_share_ = 0.0;
 };
 
 /// Collects frames of the empty scene: mean, spread and, for disparity, how often it was valid.

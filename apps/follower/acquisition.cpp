@@ -12,6 +12,11 @@
 #include <stdexcept>
 
 namespace heel {
+namespace {
+
+constexpr double kSweptShare = 0.1;  // Of the picture: who walks through sweeps as much, and more.
+
+}  // namespace
 
 const char* toText(AcquisitionEnd end) {
   switch (end) {
@@ -61,6 +66,7 @@ const AcquisitionStep& Acquisition::step(double stamp_s, const cv::Mat& image_bg
   } else {
     if (background_.empty()) {
       background_ = learner_.model();
+      result_.was_empty = background_.restlessShare() < kSweptShare;
       result_.state = AcquisitionState::kWaiting;
     }
     step_.view = &detector_.detect(background_, image_bgr, depth_m);

@@ -60,6 +60,7 @@ struct AcquisitionResult {
   AcquisitionState state = AcquisitionState::kEmptyScene;
   AcquisitionEnd end = AcquisitionEnd::kNotYet;
   int empty_frames = 0;       ///< The background's.
+  bool was_empty = true;      ///< Nobody walked about in them.
   int waiting_frames = 0;     ///< With nobody in view.
   int person_frames = 0;      ///< With the person in view.
   int missed_frames = 0;      ///< Since the person entered, without them in view.

@@ -73,7 +73,7 @@ LearnedPerson learnPerson(Recording& recording, const CameraSetup& setup,
         (several ? ": several people entered together" : ": nobody entered after the empty scene") +
         "; a person model needs about 5 s of the empty room, then one person "
         "for about 10 s" +
-        leftOutNote(skipped));
+        (result.was_empty ? "" : std::string("; ") + kWasNotEmpty) + leftOutNote(skipped));
   }
   return {learner.learn(), result, std::move(skipped)};
 }

@@ -66,6 +66,11 @@ struct LearnedPerson {
   std::vector<SkippedFrame> skipped;  ///< Frames that could not be used.
 };
 
+/// What a lesson in a room that was not empty is worth; see AcquisitionResult::was_empty.
+inline constexpr const char* kWasNotEmpty =
+    "something moved in the first seconds, in which the room must be empty: who was there then is "
+    "taken for the room";
+
 /// Told of every frame that was used, to draw it or to show the progress.
 using AcquisitionObserver = std::function<void(const Frame&, const AcquisitionStep&)>;
 

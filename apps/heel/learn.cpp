@@ -179,6 +179,7 @@ void run(LearnOptions options) {
   output.commit();
   print(learned);
   const AcquisitionResult& seen = learned.acquisition;
+  if (!seen.was_empty) warn(kWasNotEmpty);
   if (seen.person_frames < kFewFrames || seen.confidence() < 0.5) {
     warn("that is little to learn from: look at " + view.named.string() +
          ", whether it is the person, and whether the room was empty at first");

@@ -186,6 +186,13 @@ TEST_F(LearnAndTrack, LearnsNobodyWhereNobodyEnters) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 
+TEST_F(LearnAndTrack, SaysThatTheRoomWasNotEmptyAtFirst) {
+  SmallRecording{32, 60}.write(folder_ / "room");
+  const HeelRun run =
+      heel({"learn", folder_ / "room", "--from", "3", "--out", folder_ / "rosa.yaml"});
+  EXPECT_THAT(run.err, HasSubstr("something moved in the first seconds"));
+}
+
 TEST_F(LearnAndTrack, RefusesANameThatIsNoModels) {
   SmallRecording{1, 0}.write(folder_ / "room");
   EXPECT_TRUE(failsWith(heel({"learn", folder_ / "room", "--out", folder_ / "rosa.png"}),

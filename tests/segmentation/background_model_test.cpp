@@ -142,6 +142,21 @@ TEST(BackgroundModel, KnowsDepthOnlyWhereItWasValidOftenEnough) {
   }
 }
 
+TEST(BackgroundModel, TellsInHowMuchOfThePictureDepthDidNotStay) {
+  BackgroundLearner empty, walked, edge;
+  for (int i = 0; i < 10; ++i) {
+    empty.add(Scene().image, Scene().depth);
+    const Scene somebody = Scene().place({4 * i, 4, 10, 40}, 2.0F);
+    walked.add(somebody.image, somebody.depth);
+    const Scene rim = Scene().place({30, 0, 1, 48}, i % 2 == 0 ? 2.0F : 3.0F);
+    edge.add(rim.image, rim.depth);
+  }
+  EXPECT_EQ(empty.model().restlessShare(), 0.0);
+  const double swept = 46.0 * 40.0 / (64.0 * 48.0);
+  EXPECT_NEAR(walked.model().restlessShare(), swept, 0.2 * swept);
+  EXPECT_LT(edge.model().restlessShare(), 0.02);
+}
+
 TEST(BackgroundModel, RefusesWhatDoesNotFit) {
   const Scene scene;
   const BackgroundModel model = learn(scene);
