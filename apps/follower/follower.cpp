@@ -22,6 +22,12 @@ OccupancyGrid openFloor(const Vector2d& middle) {
   return {middle - Vector2d::Constant(0.5 * kOpenFloor_m), kCell_m, kCells, kCells};
 }
 
+/// Without a map what was seen is all that is known of the walls.
+FollowerParams withoutMap(FollowerParams params) {
+  params.obstacles.max_memory_s = params.obstacles.held_s;
+  return params;
+}
+
 }  // namespace
 
 const char* toText(FollowStage stage) {
@@ -50,7 +56,7 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
                    PetriPlan plan, const std::optional<FloorPose>& start,
                    const FollowerParams& params)
     : robot_(robot),
-      params_(fittedTo(robot, params)),
+      params_(walls ? fittedTo(robot, params) : withoutMap(fittedTo(robot, params))),
       walls_(std::move(walls)),
       start_(start.value_or(FloorPose{})),
       floor_(walls_ ? walls_->floorGrid({0.05, robot.height_m}) : openFloor(start_.position)),
