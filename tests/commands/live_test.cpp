@@ -6,12 +6,15 @@
 
 #include "tests/commands/hall_scene.hpp"
 #include "tests/commands/heel.hpp"
+#include "tests/commands/small_model.hpp"
 #include "tests/support/roscore.hpp"
 #include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <csignal>
 #include <cstdlib>
 #include <future>
 #include <optional>
@@ -60,9 +63,19 @@ class Live : public testing::TestWithParam<std::string> {
   /// Simulated time is as slow as the machine needs.
   std::future<HeelRun> robot(const std::string& duration_s, const std::string& speed = "1") {
     return std::async(std::launch::async, [=] {
-      return heel({"simulate", folder_ / "hall.yaml", "--live", GetParam(), "--domain", domain_,
-                   "--duration", duration_s, "--speed", speed});
+      return heelUntil({"simulate", folder_ / "hall.yaml", "--live", GetParam(), "--domain",
+                        domain_, "--duration", duration_s, "--speed", speed},
+                       "", [this](pid_t process) { robot_process_ = process; });
     });
+  }
+  /// One of the robot's other programs says a word; whether the robot does as told.
+  testing::AssertionResult obeys(const std::string& word, const std::string& state,
+                                 const std::string& wheels) const {
+    const std::string call = std::string(HEEL_LIVE_PEER) + (isRos1() ? " 1 " : " 2 ") + domain_ +
+                             " " + word + " " + state + " " + wheels;
+    if (std::system(call.c_str()) == 0) return testing::AssertionSuccess();
+    return testing::AssertionFailure()
+           << "after '" << word << "' it is not so that it is '" << state << "' and " << wheels;
   }
   std::vector<std::string> live(std::vector<std::string> more) const {
     std::vector<std::string> call = {
@@ -74,6 +87,7 @@ class Live : public testing::TestWithParam<std::string> {
 
   TempFolder folder_;
   std::string domain_;
+  std::atomic<pid_t> robot_process_{-1};
   std::optional<Roscore> roscore_;
 };
 
@@ -82,8 +96,12 @@ INSTANTIATE_TEST_SUITE_P(Networks, Live, testing::ValuesIn(networks()),
                          [](const auto& tested) { return tested.param; });
 
 TEST_P(Live, ARobotOnTheNetworkLearnsAPersonAndFollowsThem) {
-  auto robot = this->robot("35");
-  const HeelRun follower = heel(live({"--limit", "28", "--wait", "60"}));
+  auto robot = this->robot("40");
+  const HeelRun follower =
+      heelUntil(live({"--limit", "30", "--wait", "60"}), "follow", [this](pid_t) {
+        sleep(8);
+        EXPECT_TRUE(obeys("forget", "learn", "stands"));
+      });
   const HeelRun world = robot.get();
   ASSERT_EQ(follower.exit_code, 0) << follower.err;
   ASSERT_TRUE(succeeds(world));
@@ -96,6 +114,26 @@ TEST_P(Live, ARobotOnTheNetworkLearnsAPersonAndFollowsThem) {
   EXPECT_GT(std::stod(drove[1]), 0.05);
   EXPECT_GT(std::stoi(drove[2]), 100);
   EXPECT_THAT(world.out, HasSubstr("contacts by the robot 0"));
+}
+
+TEST_P(Live, OtherProgramsPauseItAndStopIt) {
+  writeSmallModel(folder_ / "somebody.yaml");  // whom it looks for
+  auto robot = this->robot("300");
+  const HeelRun follower = heelUntil(live({"--model", folder_ / "somebody.yaml", "--wait", "60"}),
+                                     "seek", [this](pid_t) {
+                                       EXPECT_TRUE(obeys("go", "seek", "moves"));
+                                       EXPECT_TRUE(obeys("pause", "paused", "stands"));
+                                       EXPECT_TRUE(obeys("dance", "paused", "stands"));
+                                       EXPECT_TRUE(obeys("forget", "paused", "stands"));
+                                       EXPECT_TRUE(obeys("go", "seek", "moves"));
+                                       EXPECT_TRUE(obeys("stop", "seek", "ends"));
+                                     });
+  kill(robot_process_, SIGINT);
+  robot.get();
+  EXPECT_EQ(follower.exit_code, 130) << follower.err;
+  EXPECT_THAT(follower.err, HasSubstr("told to stand"));
+  EXPECT_THAT(follower.warnings(), testing::Contains(HasSubstr("'dance' is not known; it takes")));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "live/report.html"));
 }
 
 TEST_P(Live, WithoutARobotItSaysWhatIsMissing) {
