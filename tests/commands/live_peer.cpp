@@ -6,7 +6,7 @@
 /// and then looks at what the wheels are told.
 ///   live_peer ROS DOMAIN WORD STATE moves|stands|ends
 /// It ends with 0 if within half a minute the robot moves, or has stood for a second, or the
-/// follower tells nothing any more, whatever its last state.
+/// follower tells nothing any more. STATE may be "any": then the word is said until the end.
 
 #include <heel/apps/live/live_network.hpp>
 
@@ -25,11 +25,11 @@ int run(const LiveNetworkParams& params, const std::string& word, const std::str
   network->subscribe({"/diagnostics", DiagnosticArrayMsg::kType, {}}, Delivery::kReliable);
   network->subscribe({"/cmd_vel", TwistMsg::kType, {}}, Delivery::kReliable);
   const double began_s = steadyClock_s();
-  double said_s = 0.0, heard_s = 0.0, stood_s = 0.0;
+  double said_s = 0.0, heard_s = began_s + 1.5, stood_s = 0.0;
   bool is_told = false;
   for (double now_s = began_s; now_s < began_s + 30.0; now_s = steadyClock_s()) {
-    if (wheels == "ends" && heard_s > 0.0 && now_s > heard_s + 2.5) return 0;
-    if ((!is_told || wheels == "ends") && now_s > said_s + 0.2) {
+    if (wheels == "ends" && now_s > heard_s + 2.5) return 0;
+    if ((!is_told || state == "any") && now_s > said_s + 0.2) {
       writer->write("/heel/command", 0, StringMsg{word});
       said_s = now_s;
     }
@@ -42,7 +42,7 @@ int run(const LiveNetworkParams& params, const std::string& word, const std::str
       DiagnosticArrayMsg diagnostics;
       read(diagnostics);
       heard_s = now_s;
-      is_told = is_told || diagnostics.status.at(0).values.at(0).value == state;
+      is_told = is_told || state == "any" || diagnostics.status.at(0).values.at(0).value == state;
     } else if (is_told) {
       TwistMsg twist;
       read(twist);

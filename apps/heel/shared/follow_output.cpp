@@ -28,7 +28,7 @@ StageTime summaryOf(const char* name, const std::vector<float>& times_ms) {
 }
 
 Tone toneOf(const FollowStep& step) {
-  if (step.is_learning) return Tone::kNeutral;
+  if (step.is_learning || step.is_paused) return Tone::kNeutral;
   if (step.target) return Tone::kGood;
   return step.outcome == PlanOutcome::kFailed ? Tone::kBad : Tone::kWarning;
 }

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "tests/apps/live/on_network.hpp"
-#include <heel/apps/experiment/closed_loop.hpp>
-#include <heel/apps/experiment/robot_config.hpp>
 #include <heel/apps/heel/live/live_reports.hpp>
 #include <heel/planning/plan_file.hpp>
 
@@ -28,7 +26,9 @@ Track somebody() {
 
 /// Who has seen nothing yet.
 Follower beginner() {
-  return {describeRobot(RobotConfig().robot), nullptr,
+  RobotDescription robot;
+  robot.camera.camera.left = {64, 48, 60.0, 60.0, 32.0, 24.0};
+  return {robot, nullptr,
           loadPlan(HEEL_SOURCE_DIR "/apps/plans/search.pnml", followingVocabulary()), FloorPose{}};
 }
 
