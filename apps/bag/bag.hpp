@@ -122,6 +122,13 @@ class BagWriter {
 
   virtual BagForm form() const = 0;
 
+  /// Makes a topic of a network known before its first message.
+  /// @throws std::runtime_error  as write().
+  template <class Message>
+  void announce(const std::string& topic, bool latched = false) {
+    topicNamed<Message>(topic, latched);
+  }
+
   /// @param latched  Whoever comes late shall get the last message, too.
   /// @throws std::runtime_error  if it can't be written, for instance when the disk is full.
   template <class Message>

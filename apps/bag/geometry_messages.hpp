@@ -133,6 +133,19 @@ struct TwistMsg {
   }
 };
 
+struct TwistStampedMsg {
+  static constexpr const char* kType = "geometry_msgs/TwistStamped";
+  static constexpr const char* kMd5 = "98d34b0043a2093cf9d9345ab6eef12e";
+  HeaderMsg header;
+  TwistMsg twist;
+
+  template <class Self, class Archive>
+  static void fields(Self& m, Archive& a) {
+    a("header", m.header);
+    a("twist", m.twist);
+  }
+};
+
 struct TwistWithCovarianceMsg {
   static constexpr const char* kType = "geometry_msgs/TwistWithCovariance";
   TwistMsg twist;

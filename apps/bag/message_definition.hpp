@@ -17,6 +17,8 @@ template <BagForm Form, class T>
 std::string typeName() {
   if constexpr (std::is_same_v<T, bool>) {
     return "bool";
+  } else if constexpr (std::is_same_v<T, char>) {
+    return "byte";
   } else if constexpr (std::is_integral_v<T>) {
     return (std::is_signed_v<T> ? "int" : "uint") + std::to_string(8 * sizeof(T));
   } else if constexpr (std::is_floating_point_v<T>) {

@@ -9,6 +9,7 @@
 /// (message_definition.hpp).
 #pragma once
 
+#include <heel/apps/bag/diagnostic_messages.hpp>
 #include <heel/apps/bag/geometry_messages.hpp>
 #include <heel/apps/bag/marker_messages.hpp>
 #include <heel/apps/bag/navigation_messages.hpp>

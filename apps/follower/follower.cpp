@@ -50,7 +50,9 @@ const char* toText(FollowStage stage) {
   return "unknown";
 }
 
-const char* FollowStep::state() const { return is_learning ? "learn" : nameOf(action); }
+const char* FollowStep::state() const {
+  return is_paused ? "paused" : is_learning ? "learn" : nameOf(action);
+}
 
 Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap> walls,
                    PetriPlan plan, const std::optional<FloorPose>& start,
@@ -327,6 +329,7 @@ void Follower::decide(const RobotReadings& readings) {
       search_->scan(*readings.scan, poseAt(scan_s_) * robot_.T_base_scanner, dt_s_);
     }
   }
+  if (step_.is_paused) return;
   checkFacts();
   const PlanStep& now = runner_.step(facts_);
   step_.outcome = now.outcome;

@@ -37,6 +37,7 @@ struct FollowStep {
   double stamp_s = 0.0;
   VelocityCommand velocity;
   bool is_learning = true;  ///< Phase 1: the robot stands and learns whom to follow.
+  bool is_paused = false;   ///< The robot stands, and only looks.
   FollowingAction action = FollowingAction::kStop;
   PlanOutcome outcome = PlanOutcome::kRunning;
   std::string reason;  ///< Why it does what it does, in a few words.
@@ -48,7 +49,7 @@ struct FollowStep {
   std::optional<Eigen::Vector2d> goal;           ///< Where the robot wants to stand.
   const FloorPath* path = nullptr;               ///< The way there.
 
-  /// The state in a word: "learn", or the plan's action.
+  /// The state in a word: "paused", "learn", or the plan's action.
   const char* state() const;
 };
 
@@ -69,6 +70,9 @@ class Follower {
   /// Ends phase 1 before its time: follows whom the model tells, wherever they are.
   void skipLearning(const AppearanceModel& whom);
 
+  /// While it is paused the robot stands. It goes on to look, in phase 1 to learn; the plan waits.
+  void pause(bool is_paused) { step_.is_paused = is_paused; }
+
   /// @throws NobodyLearned  if nobody entered in phase 1, or several did together.
   const FollowStep& step(const RobotReadings& readings, const StageDone& done = {});
 
@@ -76,6 +80,8 @@ class Follower {
   const ObstacleLayer& obstacles() const { return layer_; }
   const OccupancyGrid& floor() const { return floor_; }
   const TargetEstimate& target() const { return target_; }
+  /// Why the readings do not let the robot move; empty if they do.
+  const std::string& blindness() const { return watch_.blindness(); }
   /// Null in phase 1.
   const Perception* perception() const { return perception_ ? &*perception_ : nullptr; }
 

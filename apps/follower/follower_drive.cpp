@@ -24,6 +24,10 @@ void Follower::drive() {
   step_.path = nullptr;
   step_.velocity = {};
   looks_away_ = false;
+  if (step_.is_paused) {
+    step_.reason = "told to wait";
+    return;
+  }
   if (step_.is_learning) {
     step_.reason = "learns whom to follow";
     return;

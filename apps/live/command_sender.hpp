@@ -9,6 +9,7 @@
 #include <heel/planning/trajectory.hpp>
 
 #include <condition_variable>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -17,11 +18,14 @@
 namespace heel {
 
 struct CommandSenderParams {
-  std::string topic = "/cmd_vel";  ///< geometry_msgs/Twist
+  std::string topic = "/cmd_vel";
+  bool stamped = false;  ///< geometry_msgs/TwistStamped, in the frame base_link, and not Twist.
   double rate_hz = 20.0;
   /// A command that is older is not sent any more: then the robot is told to stand. As long as the
   /// follower's own sensors may be late.
   double timeout_s = 0.4;
+  /// Whether the robot must stand now, whatever the command; asked in the thread that sends.
+  std::function<bool()> must_stand = [] { return false; };
 };
 
 /// Sends the last command again and again, in a thread of its own, for as long as it is fresh; else
@@ -35,21 +39,24 @@ class CommandSender {
   CommandSender(const CommandSender&) = delete;
   CommandSender& operator=(const CommandSender&) = delete;
 
-  void set(const VelocityCommand& command);
+  /// @param stamp_s  Now, on the clock that stamps are of. Until the first one it is the system's.
+  void set(const VelocityCommand& command, double stamp_s);
 
   /// How often a command was too old to be sent.
   std::size_t stopped() const;
 
  private:
   void run();
-  void send(const VelocityCommand& command);
+  void send(const VelocityCommand& command, double stamp_s);
+  double stampNow_s() const;
 
   CommandSenderParams params_;
   std::unique_ptr<BagWriter> writer_;
   mutable std::mutex mutex_;
   std::condition_variable wakes_;
   VelocityCommand command_;
-  double set_s_ = 0.0;  // on the steady clock; 0: never
+  double stamp_s_ = 0.0;  // when it was set,
+  double set_s_ = 0.0;    // and that on the steady clock; 0: never
   std::size_t stopped_ = 0;
   bool is_fresh_ = false;
   bool ends_ = false;

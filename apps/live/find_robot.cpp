@@ -64,7 +64,7 @@ FoundRobot findRobot(LiveNetwork& network, const BagTopics& topics,
     while (steadyClock_s() < turn_s + kTurn_s) {
       for (const BagTopic& topic : network.topics()) {
         if (!isRead(topic) || subscribed.count(topic.name) > 0) continue;
-        network.subscribe(topic, isStatic(topic));
+        network.subscribe(topic, isStatic(topic) ? Delivery::kLatched : Delivery::kAsSent);
         subscribed.insert(topic.name);
       }
       auto message = network.next(0.1);

@@ -39,6 +39,13 @@ struct LiveMessage {
   std::vector<std::uint8_t> bytes;  ///< As in a bag of the network's form.
 };
 
+/// What is asked of who sends on a topic. In ROS 1 this is theirs to say.
+enum class Delivery {
+  kAsSent,    ///< As those promise who send now.
+  kReliable,  ///< All of it; in ROS 2 who does not promise that is not heard.
+  kLatched,   ///< The same, and what was sent last, before this.
+};
+
 /// What others send, and a way to send. Messages wait until they are taken; of each topic the last
 /// few only.
 class LiveNetwork {
@@ -52,10 +59,10 @@ class LiveNetwork {
   virtual std::vector<BagTopic> topics() const = 0;
 
   /// Takes in what comes on a topic, whose type must be known.
-  /// @param latched  Also what was sent last, before this. (In ROS 1 the sender says so.)
-  /// @param depth    So many wait at the most; older ones are left out.
+  /// @param depth  So many wait at the most; older ones are left out.
   /// @throws std::runtime_error  if it can't be listened to.
-  virtual void subscribe(const BagTopic& topic, bool latched = false, std::size_t depth = 8) = 0;
+  virtual void subscribe(const BagTopic& topic, Delivery delivery = Delivery::kAsSent,
+                         std::size_t depth = 8) = 0;
 
   /// Listens no more to a topic; what waits of it is gone.
   virtual void unsubscribe(const std::string& topic) = 0;

@@ -34,6 +34,8 @@ class LiveReadings {
   /// Of the camera.
   const RecordingInfo& info() const { return recording_->info(); }
   const LaserLog& laser() const { return *laser_; }
+  /// The frame of the odometry; empty before the first.
+  const std::string& odometryFrame() const { return poses_.odometryFrame(); }
 
   /// Takes in a message.
   /// @param clock_s  Now, on any clock of ours that does not jump.

@@ -21,7 +21,7 @@ LiveSimulationResult runLiveSimulation(const Scene& scene, const LiveSimulationP
   options.threads = params.threads;
   Simulator simulator(scene, options);
   SensorBag bag = sensorBag(network.writer(), simulator, false);
-  network.subscribe(cmd_vel, false, 1);
+  network.subscribe(cmd_vel, Delivery::kAsSent, 1);
   LiveSimulationResult result;
   const double step_s = stepFor(scene.robot);
   VelocityCommand command;

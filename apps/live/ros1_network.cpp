@@ -234,7 +234,7 @@ std::vector<BagTopic> Ros1Network::topics() const {
   return state_->topics;
 }
 
-void Ros1Network::subscribe(const BagTopic& topic, bool /*latched*/, std::size_t depth) {
+void Ros1Network::subscribe(const BagTopic& topic, Delivery /*delivery*/, std::size_t depth) {
   ros::SubscribeOptions options;
   options.initByFullCallbackType<const ros::MessageEvent<const Ros1Bytes>&>(
       state_->fullName(topic.name), static_cast<std::uint32_t>(depth),

@@ -229,20 +229,20 @@ std::vector<BagTopic> Ros2Network::topics() const {
   return topics;
 }
 
-void Ros2Network::subscribe(const BagTopic& topic, bool latched, std::size_t depth) {
+void Ros2Network::subscribe(const BagTopic& topic, Delivery delivery, std::size_t depth) {
   State::Inbox& inbox =
       *state_->inboxes.emplace_back(std::make_unique<State::Inbox>(*state_, topic, depth));
   dds::DataReaderQos qos = dds::DATAREADER_QOS_DEFAULT;
   // Who asks for more than the writer promises hears nothing.
-  bool is_reliable = latched;
+  bool is_reliable = delivery != Delivery::kAsSent;
   {
     const std::lock_guard<std::mutex> lock(state_->mutex);
     is_reliable = is_reliable || state_->writers[topic.name].is_reliable;
   }
   qos.reliability().kind =
       is_reliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
-  qos.durability().kind =
-      latched ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
+  qos.durability().kind = delivery == Delivery::kLatched ? dds::TRANSIENT_LOCAL_DURABILITY_QOS
+                                                         : dds::VOLATILE_DURABILITY_QOS;
   qos.history().depth = static_cast<int>(depth);
   qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.data_sharing().off();

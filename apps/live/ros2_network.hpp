@@ -18,7 +18,7 @@ class Ros2Network final : public LiveNetwork {
 
   BagForm form() const override { return BagForm::kRos2; }
   std::vector<BagTopic> topics() const override;
-  void subscribe(const BagTopic& topic, bool latched, std::size_t depth) override;
+  void subscribe(const BagTopic& topic, Delivery delivery, std::size_t depth) override;
   void unsubscribe(const std::string& topic) override;
   std::optional<LiveMessage> next(double timeout_s) override;
   std::unique_ptr<BagWriter> writer() override;

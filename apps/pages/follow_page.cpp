@@ -25,6 +25,9 @@ std::string lead(const FollowLog& log, const FollowSummary& sum) {
     return "The robot went <strong>" + shownNumber(sum.distance_m, 1, "m") +
            "</strong> in <strong>" + shownNumber(sum.elapsed_s, 0, "s") +
            "</strong>. It lost them " + timesText(static_cast<std::size_t>(sum.losses)) +
+           ". From a picture to the velocity it took " +
+           shownNumber(1e3 * sum.latency_median_s, 0, "ms") + ", in 95 of 100 no more than " +
+           shownNumber(1e3 * sum.latency_p95_s, 0, "ms") +
            ". Contacts, clearance and the truth of people are not known.";
   }
   const std::string who = log.person.empty() ? "the person" : escapedHtml(log.person);

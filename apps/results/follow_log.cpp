@@ -191,7 +191,16 @@ FollowSummary summarize(const FollowLog& log) {
   sum.command_off_mps = forward.root();
   sum.command_off_radps = turn.root();
   if (pictures > 0) sum.candidate_share = candidates / pictures;
+  sum.latency_median_s = shareOf(log.latencies_s, 0.5);
+  sum.latency_p95_s = shareOf(log.latencies_s, 0.95);
   return sum;
+}
+
+double shareOf(std::vector<double> values, double share) {
+  if (values.empty()) return kNotKnown;
+  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[static_cast<std::size_t>(rank)];
 }
 
 nlohmann::ordered_json followJson(const FollowLog& log, const FollowSummary& sum) {
@@ -226,6 +235,10 @@ nlohmann::ordered_json followJson(const FollowLog& log, const FollowSummary& sum
   if (log.is_shadow) {
     json["command_off_mps"] = numberOrNull(sum.command_off_mps, 4);
     json["command_off_radps"] = numberOrNull(sum.command_off_radps, 4);
+  }
+  if (log.is_live) {
+    json["latency_median_s"] = numberOrNull(sum.latency_median_s, 4);
+    json["latency_p95_s"] = numberOrNull(sum.latency_p95_s, 4);
   }
   json["candidate_share"] = numberOrNull(sum.candidate_share, 4);
   return json;

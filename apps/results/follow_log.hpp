@@ -90,8 +90,9 @@ struct FollowLog {
   std::vector<FollowSample> samples;  ///< In order of time.
   std::vector<FollowSnapshot> snapshots;
   std::vector<StageTime> stages;
-  StageTime step;               ///< All stages of a step together, once the person is learned.
-  double camera_rate_hz = 0.0;  ///< What the stages must keep up with; 0 = not told.
+  StageTime step;                   ///< All stages of a step together, once the person is learned.
+  std::vector<double> latencies_s;  ///< Of a live run: from each picture to its velocity.
+  double camera_rate_hz = 0.0;      ///< What the stages must keep up with; 0 = not told.
 };
 
 /// The moment when the target was lost, or found again.
@@ -156,7 +157,9 @@ struct FollowSummary {
   /// Of a shadow: root mean squares of what it would have driven against what the robot did.
   double command_off_mps = kNotKnown;
   double command_off_radps = kNotKnown;
-  double candidate_share = kNotKnown;  ///< Mean over the pictures: pixels of the target's colours.
+  double candidate_share = kNotKnown;   ///< Mean over the pictures: pixels of the target's colours.
+  double latency_median_s = kNotKnown;  ///< Of a live run: from a picture to its velocity,
+  double latency_p95_s = kNotKnown;     ///< and in 95 of 100.
 
   double seekShare() const { return elapsed_s > 0.0 ? seek_s / elapsed_s : 0.0; }
   int contactsByPeople() const { return contacts - contacts_by_robot; }
@@ -169,6 +172,9 @@ struct FollowSummary {
 bool isSeeking(const std::string& state);
 
 FollowSummary summarize(const FollowLog& log);
+
+/// The value that this share of them does not exceed; NaN if there are none.
+double shareOf(std::vector<double> values, double share);
 
 /// A row of the paper's Table 1.
 struct PaperRow {

@@ -64,6 +64,15 @@ class Live : public testing::TestWithParam<std::string> {
                    "--duration", duration_s, "--speed", speed});
     });
   }
+  /// One of the robot's other programs says a word; whether the robot does as told.
+  testing::AssertionResult obeys(const std::string& word, const std::string& state,
+                                 const std::string& wheels) const {
+    const std::string call = std::string(HEEL_LIVE_PEER) + (isRos1() ? " 1 " : " 2 ") + domain_ +
+                             " " + word + " " + state + " " + wheels;
+    if (std::system(call.c_str()) == 0) return testing::AssertionSuccess();
+    return testing::AssertionFailure()
+           << "after '" << word << "' it is not so that it is '" << state << "' and " << wheels;
+  }
   std::vector<std::string> live(std::vector<std::string> more) const {
     std::vector<std::string> call = {
         "live",  "--map", folder_ / "hall.yaml", "--robot-start", "0.5,0,0",           "--domain",
@@ -81,12 +90,22 @@ GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Live);
 INSTANTIATE_TEST_SUITE_P(Networks, Live, testing::ValuesIn(networks()),
                          [](const auto& tested) { return tested.param; });
 
-TEST_P(Live, ARobotOnTheNetworkLearnsAPersonAndFollowsThem) {
-  auto robot = this->robot("35");
-  const HeelRun follower = heel(live({"--limit", "28", "--wait", "60"}));
+TEST_P(Live, ARobotOnTheNetworkLearnsAPersonFollowsThemAndDoesAsItIsTold) {
+  auto robot = this->robot("45");
+  const HeelRun follower =
+      heelUntil(live({"--limit", "90", "--wait", "60"}), " follow", [this](pid_t) {
+        EXPECT_TRUE(obeys("go", "any", "moves"));
+        EXPECT_TRUE(obeys("pause", "paused", "stands"));
+        EXPECT_TRUE(obeys("dance", "any", "stands"));
+        EXPECT_TRUE(obeys("go", "any", "moves"));
+        sleep(1);
+        EXPECT_TRUE(obeys("forget", "learn", "stands"));
+        EXPECT_TRUE(obeys("stop", "any", "ends"));
+      });
   const HeelRun world = robot.get();
-  ASSERT_EQ(follower.exit_code, 0) << follower.err;
+  ASSERT_EQ(follower.exit_code, 130) << follower.err;
   ASSERT_TRUE(succeeds(world));
+  EXPECT_THAT(follower.warnings(), testing::Contains(HasSubstr("'dance' is not known; it takes")));
   EXPECT_THAT(follower.err, HasSubstr("/camera/left/image_rect_color"));
   EXPECT_THAT(follower.err, HasSubstr("follow"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "live/report.html"));
@@ -120,6 +139,11 @@ TEST_P(Live, WithDryItSendsNothing) {
 TEST_P(Live, RefusesANetworkThatCannotBe) {
   EXPECT_TRUE(
       failsWith(heel({"live", "--map", folder_ / "hall.yaml", "--domain", "300"}), {"--domain"}));
+}
+
+TEST_P(Live, RefusesAPlaceWithoutAMap) {
+  EXPECT_TRUE(failsWith(heel({"live", "--robot-start", "0,0,0", "--out", folder_ / "live"}),
+                        {"--robot-start", "--map"}));
 }
 
 #ifdef HEEL_HAS_ROS1

@@ -149,9 +149,10 @@ struct MessageList {
     return std::string(1, static_cast<char>(i)) + std::string(bytes.begin(), bytes.end());
   }
 };
-using AllMessages = MessageList<ImageMsg, CompressedImageMsg, CameraInfoMsg, PointCloud2Msg,
-                                LaserScanMsg, OdometryMsg, PathMsg, OccupancyGridMsg, TFMessageMsg,
-                                PoseArrayMsg, PoseStampedMsg, MarkerArrayMsg>;
+using AllMessages =
+    MessageList<ImageMsg, CompressedImageMsg, CameraInfoMsg, PointCloud2Msg, LaserScanMsg,
+                OdometryMsg, PathMsg, OccupancyGridMsg, TFMessageMsg, PoseArrayMsg, PoseStampedMsg,
+                MarkerArrayMsg, TwistStampedMsg, StringMsg, DiagnosticArrayMsg>;
 
 Seeds mapSeeds(const fs::path& folder) {
   const OccupancyGrid grid({0.0, 0.0}, 0.5, 3, 2);

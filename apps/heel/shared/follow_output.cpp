@@ -18,19 +18,17 @@ constexpr double kSnapshotsApart_s = 4.0;
 constexpr std::size_t kMostSnapshots = 12;
 constexpr double kFilmRate_hz = 10.0;
 
-StageTime summaryOf(const char* name, std::vector<float> times_ms) {
+StageTime summaryOf(const char* name, const std::vector<float>& times_ms) {
   StageTime time{name, 0.0, 0.0};
   if (times_ms.empty()) return time;
   time.mean_ms =
       std::accumulate(times_ms.begin(), times_ms.end(), 0.0) / static_cast<double>(times_ms.size());
-  const auto rank = static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(times_ms.size() - 1));
-  std::nth_element(times_ms.begin(), times_ms.begin() + rank, times_ms.end());
-  time.p95_ms = static_cast<double>(times_ms[static_cast<std::size_t>(rank)]);
+  time.p95_ms = shareOf({times_ms.begin(), times_ms.end()}, 0.95);
   return time;
 }
 
 Tone toneOf(const FollowStep& step) {
-  if (step.is_learning) return Tone::kNeutral;
+  if (step.is_learning || step.is_paused) return Tone::kNeutral;
   if (step.target) return Tone::kGood;
   return step.outcome == PlanOutcome::kFailed ? Tone::kBad : Tone::kWarning;
 }

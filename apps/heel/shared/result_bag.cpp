@@ -14,6 +14,10 @@
 namespace heel {
 namespace {
 
+constexpr const char* kTracksTopic = "/heel/tracks";
+constexpr const char* kMarkersTopic = "/heel/markers";
+constexpr const char* kTargetTopic = "/heel/target";
+constexpr const char* kPathTopic = "/heel/path";
 constexpr double kBody_m = 0.45, kStature_m = 1.7;  // of the cylinders
 
 /// Where someone is, facing where they go.
@@ -51,6 +55,14 @@ MarkerMsg label(MarkerMsg marker, const Track& track, bool is_target) {
 ResultBag::ResultBag(const BagPlan& plan, std::string frame)
     : path_(plan.path), frame_(std::move(frame)), bag_(createBag(plan)) {}
 
+ResultBag::ResultBag(std::unique_ptr<BagWriter> network, std::string frame)
+    : frame_(std::move(frame)), bag_(std::move(network)) {
+  bag_->announce<PoseArrayMsg>(kTracksTopic);
+  bag_->announce<MarkerArrayMsg>(kMarkersTopic);
+  bag_->announce<PoseStampedMsg>(kTargetTopic);
+  bag_->announce<PathMsg>(kPathTopic);
+}
+
 HeaderMsg ResultBag::header(double stamp_s) const {
   HeaderMsg result;
   result.stamp.ns = nanosecondsOf(stamp_s);
@@ -80,10 +92,10 @@ void ResultBag::addTracks(double stamp_s, const std::vector<Track>& tracks,
     markers.markers.push_back(label(markers.markers.back(), track, is_target));
   }
   const std::int64_t ns = poses.header.stamp.ns;
-  bag_->write("/heel/tracks", ns, poses);
-  bag_->write("/heel/markers", ns, markers);
+  bag_->write(kTracksTopic, ns, poses);
+  bag_->write(kMarkersTopic, ns, markers);
   if (target.hasPlace()) {
-    bag_->write("/heel/target", ns, PoseStampedMsg{poses.header, poseOf(target.motion)});
+    bag_->write(kTargetTopic, ns, PoseStampedMsg{poses.header, poseOf(target.motion)});
   }
 }
 
@@ -93,7 +105,7 @@ void ResultBag::addPath(double stamp_s, const FloorPath& path) {
   for (const Eigen::Vector2d& point : path) {
     message.poses.push_back({message.header, toPoseMsg(FloorPose{point, 0.0})});
   }
-  bag_->write("/heel/path", message.header.stamp.ns, message);
+  bag_->write(kPathTopic, message.header.stamp.ns, message);
 }
 
 void ResultBag::addMap(double stamp_s, const OccupancyGrid& map) {

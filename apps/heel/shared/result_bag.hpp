@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// Results as a bag with standard messages.
+/// Results as standard messages, in a bag or on a network.
 #pragma once
 
 #include <heel/apps/bag/bag.hpp>
@@ -37,7 +37,10 @@ class ResultBag {
   /// @throws std::invalid_argument, std::runtime_error  as createBag(); the latter, so do the
   /// others.
   explicit ResultBag(const BagPlan& plan, std::string frame = "map");
+  /// On a network, where tracks, target and path are made known at once.
+  ResultBag(std::unique_ptr<BagWriter> network, std::string frame);
 
+  /// Empty on a network.
   const std::filesystem::path& path() const { return path_; }
 
   void addRobot(double stamp_s, const FloorPose& pose);

@@ -17,8 +17,6 @@
 namespace heel {
 namespace {
 
-constexpr const char* kMapFrame = "map";  // of REP-105
-
 FloorPose onFloor(const Eigen::Isometry3d& T) {
   return {T.translation().head<2>(), std::atan2(T(1, 0), T(0, 0))};
 }

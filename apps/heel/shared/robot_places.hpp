@@ -26,6 +26,8 @@ class App;
 
 namespace heel {
 
+inline constexpr const char* kMapFrame = "map";  ///< Of REP-105.
+
 /// The map that the robot of a log is found on, as a user names it.
 struct LogMapOptions {
   std::string map;              ///< See mapSource(); empty: there is none.

@@ -73,6 +73,7 @@ void BagPoses::take(const BagReader& bag, const BagMessage& raw) {
   try {
     if (topic.name == odometry_topic_) {
       takeOdometry(bag, raw, odometry_);
+      parent_frame_ = frameName(message_.header.frame_id);
     } else if (topic.name == truth_topic_) {
       takeOdometry(bag, raw, truth_);
     } else if (!odometry_frame_.empty() && topic.holds<TFMessageMsg>()) {
@@ -82,6 +83,7 @@ void BagPoses::take(const BagReader& bag, const BagMessage& raw) {
         PoseMsg pose;
         setPoint(pose.position, {t.transform.translation.x, t.transform.translation.y, 0.0});
         pose.orientation = t.transform.rotation;
+        parent_frame_ = frameName(t.header.frame_id);
         add(odometry_, {secondsOf(t.header.stamp.ns), floorPoseOf(pose)});
       }
     }

@@ -52,6 +52,8 @@ class BagPoses {
   const StampedPose* lastOdometry() const {
     return odometry_.empty() ? nullptr : &odometry_.back();
   }
+  /// The frame of the odometry, as messages tell; empty before the first.
+  const std::string& odometryFrame() const { return parent_frame_; }
   const StampedPose* lastTruth() const { return truth_.empty() ? nullptr : &truth_.back(); }
 
  private:
@@ -62,6 +64,7 @@ class BagPoses {
 
   std::string odometry_topic_, truth_topic_;
   std::string odometry_frame_;  // the base, if tf alone has the odometry
+  std::string parent_frame_;
   Poses odometry_, truth_;
   OdometryMsg message_;
   TFMessageMsg transforms_;

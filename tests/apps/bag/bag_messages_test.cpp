@@ -12,9 +12,10 @@ using Bytes = std::vector<std::uint8_t>;
 
 template <class Message>
 class EveryMessage : public testing::Test {};
-using Messages = testing::Types<ImageMsg, CompressedImageMsg, CameraInfoMsg, PointCloud2Msg,
-                                LaserScanMsg, OdometryMsg, PathMsg, OccupancyGridMsg, TFMessageMsg,
-                                PoseArrayMsg, PoseStampedMsg, MarkerArrayMsg>;
+using Messages =
+    testing::Types<ImageMsg, CompressedImageMsg, CameraInfoMsg, PointCloud2Msg, LaserScanMsg,
+                   OdometryMsg, PathMsg, OccupancyGridMsg, TFMessageMsg, PoseArrayMsg,
+                   PoseStampedMsg, MarkerArrayMsg, TwistStampedMsg, StringMsg, DiagnosticArrayMsg>;
 TYPED_TEST_SUITE(EveryMessage, Messages);
 
 TYPED_TEST(EveryMessage, ComesBackAsItWasInBothForms) {

@@ -8,8 +8,10 @@
 #include "tests/support/temp_folder.hpp"
 #include <heel/apps/bag/bag.hpp>
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/PoseArray.h>
 #include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/TwistStamped.h>
 #include <gmock/gmock.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
@@ -21,6 +23,7 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <std_msgs/String.h>
 #include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/MarkerArray.h>
 
@@ -46,13 +49,16 @@ using Pairs = testing::Types<
     Pair<PathMsg, nav_msgs::Path>, Pair<OccupancyGridMsg, nav_msgs::OccupancyGrid>,
     Pair<TFMessageMsg, tf2_msgs::TFMessage>, Pair<PoseArrayMsg, geometry_msgs::PoseArray>,
     Pair<PoseStampedMsg, geometry_msgs::PoseStamped>,
+    Pair<TwistStampedMsg, geometry_msgs::TwistStamped>, Pair<StringMsg, std_msgs::String>,
+    Pair<DiagnosticArrayMsg, diagnostic_msgs::DiagnosticArray>,
     Pair<MarkerArrayMsg, visualization_msgs::MarkerArray>>;
 TYPED_TEST_SUITE(AgainstRos, Pairs);
 
 /// A definition's parts by their names, without comments, blanks and packages.
 std::set<std::string> partsOf(std::string text) {
   text = std::regex_replace(text, std::regex("[ \t]*#[^\n]*"), "");
-  text = std::regex_replace(text, std::regex("(std|geometry|sensor|nav|visualization)_msgs/"), "");
+  text = std::regex_replace(
+      text, std::regex("(std|geometry|sensor|nav|visualization|diagnostic)_msgs/"), "");
   text = std::regex_replace(text, std::regex("[ \t]+"), " ");
   text = std::regex_replace(text, std::regex(" ?= ?"), "=");
   text = std::regex_replace(text, std::regex(" ?\n[ \n]*"), "\n");

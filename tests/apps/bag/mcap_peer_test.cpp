@@ -86,8 +86,8 @@ TEST_P(McapPeer, TakesEveryMessageApartAndItsCopyIsTheSameToUs) {
   std::int64_t ns = 0;
   for (int i = 0; i < 20; ++i) {
     writeAll<ImageMsg, CompressedImageMsg, CameraInfoMsg, PointCloud2Msg, LaserScanMsg, OdometryMsg,
-             PathMsg, OccupancyGridMsg, TFMessageMsg, PoseArrayMsg, PoseStampedMsg, MarkerArrayMsg>(
-        *bag, ns);
+             PathMsg, OccupancyGridMsg, TFMessageMsg, PoseArrayMsg, PoseStampedMsg, MarkerArrayMsg,
+             TwistStampedMsg, StringMsg, DiagnosticArrayMsg>(*bag, ns);
   }
   bag->commit();
   const std::string told = copy(folder_ / "ours.mcap", folder_ / "theirs.mcap");

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "tests/apps/live/on_network.hpp"
 #include "tests/support/filled_message.hpp"
-#include "tests/support/roscore.hpp"
 #include <heel/apps/live/command_sender.hpp>
-#include <heel/apps/live/live_network.hpp>
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -20,38 +19,15 @@
 namespace heel {
 namespace {
 
+using test::decoded;
+using test::EachNetwork;
 using test::filled;
-using test::Roscore;
+using test::OnNetwork;
+using test::Program;
+using test::roscore;
+using test::waitFor;
 using testing::HasSubstr;
 using testing::Not;
-
-/// Those that this build has.
-std::vector<BagForm> networks() {
-  std::vector<BagForm> known;
-#ifdef HEEL_HAS_ROS1
-  known.push_back(BagForm::kRos1);
-#endif
-#ifdef HEEL_HAS_ROS2
-  known.push_back(BagForm::kRos2);
-#endif
-  return known;
-}
-
-/// A program is one node of ROS 1, and so has one roscore.
-Roscore& roscore() {
-  static Roscore core;
-  return core;
-}
-
-/// Waits for what comes sooner or later.
-template <class Is>
-bool waitFor(const Is& is) {
-  for (int i = 0; i < 600; ++i) {
-    if (is()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
-  return false;
-}
 
 const BagTopic kScan{"/scan", LaserScanMsg::kType, {}};
 
@@ -63,65 +39,17 @@ std::string typeOn(const LiveNetwork& network, const std::string& topic) {
   return {};
 }
 
-template <class Message>
-Message decoded(const LiveMessage& message, BagForm form) {
-  Message read;
-  EXPECT_TRUE(message.topic.holds<Message>()) << message.topic.type << " " << message.topic.md5;
-  readMessage(form, message.bytes.data(), message.bytes.size(), read);
-  return read;
+/// Sends velocities until another program, which prints what came, has ended.
+std::string saidOfVelocities(LiveNetwork& network, FILE* program) {
+  const auto writer = network.writer();
+  TwistMsg twist;
+  twist.linear.x = 0.25;
+  twist.angular.z = -0.5;
+  return test::saidMeanwhile(program, [&] { writer->write("/cmd_vel", 0, twist); });
 }
 
-class OnNetwork : public testing::Test {
- protected:
-  explicit OnNetwork(BagForm ros) : ros_(ros) {}
-  void SetUp() override {
-    if (ros_ != BagForm::kRos1) return;
-    if (!Roscore::isInstalled()) GTEST_SKIP() << "roscore is not installed (python3-roslaunch)";
-    roscore();
-  }
-
-  /// Of this machine only, and of this test only.
-  std::unique_ptr<LiveNetwork> open(const std::string& ros_namespace = {}) const {
-    LiveNetworkParams params;
-    params.ros = ros_;
-    params.ros_namespace = ros_namespace;
-    params.domain = 1 + static_cast<int>(getpid() % 200);
-    params.localhost_only = true;
-    return openNetwork(params);
-  }
-
-  /// Sends velocities until another program, which prints what came, has ended.
-  std::string saidOfVelocities(LiveNetwork& network, FILE* program) const {
-    const auto writer = network.writer();
-    TwistMsg twist;
-    twist.linear.x = 0.25;
-    twist.angular.z = -0.5;
-    std::atomic<bool> is_said{false};
-    std::thread sending([&] {
-      while (!is_said) {
-        writer->write("/cmd_vel", 0, twist);
-        std::this_thread::sleep_for(std::chrono::milliseconds(50));
-      }
-    });
-    std::string said;
-    for (int c = fgetc(program); c != EOF; c = fgetc(program)) said += static_cast<char>(c);
-    is_said = true;
-    sending.join();
-    return said;
-  }
-
-  BagForm ros_;
-};
-
-class EachNetwork : public OnNetwork, public testing::WithParamInterface<BagForm> {
- protected:
-  EachNetwork() : OnNetwork(GetParam()) {}
-};
-
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(EachNetwork);
-INSTANTIATE_TEST_SUITE_P(Live, EachNetwork, testing::ValuesIn(networks()), [](const auto& tested) {
-  return tested.param == BagForm::kRos1 ? "Ros1" : "Ros2";
-});
+INSTANTIATE_TEST_SUITE_P(Live, EachNetwork, testing::ValuesIn(test::networks()), test::networkName);
 
 TEST_P(EachNetwork, AMessageArrivesAsItWasSent) {
   const auto robot = open(), heel = open();
@@ -163,7 +91,7 @@ TEST_P(EachNetwork, WhoComesLateGetsWhatIsLatched) {
   const auto writer = robot->writer();
   writer->write("/tf_static", 0, filled<TFMessageMsg>(), true);
   const auto heel = open();
-  heel->subscribe({"/tf_static", TFMessageMsg::kType, {}}, true);
+  heel->subscribe({"/tf_static", TFMessageMsg::kType, {}}, Delivery::kLatched);
   std::optional<LiveMessage> message;
   ASSERT_TRUE(waitFor([&] { return (message = heel->next(0.2)).has_value(); }));
   EXPECT_FALSE(decoded<TFMessageMsg>(*message, ros_).transforms.empty());
@@ -171,7 +99,7 @@ TEST_P(EachNetwork, WhoComesLateGetsWhatIsLatched) {
 
 TEST_P(EachNetwork, OfWhatWaitsTheNewestAreKept) {
   const auto robot = open(), heel = open();
-  heel->subscribe(kScan, false, 2);
+  heel->subscribe(kScan, Delivery::kAsSent, 2);
   const auto writer = robot->writer();
   LaserScanMsg scan;
   EXPECT_TRUE(waitFor([&] {
@@ -208,8 +136,6 @@ TEST_P(EachNetwork, ATopicThatIsLeftIsSilent) {
   heel->subscribe(kScan);
   EXPECT_TRUE(waitFor(isHeard)) << "and can be heard again";
 }
-
-using Program = std::unique_ptr<FILE, int (*)(FILE*)>;
 
 #ifdef HEEL_HAS_ROS1
 
@@ -385,12 +311,69 @@ TEST(CommandSender, SendsWhatIsFreshThenZeros) {
   std::size_t stopped = 0;
   {
     CommandSender sender(std::make_unique<Wheels>(sent), params);
-    sender.set({0.25, 0.1});
+    sender.set({0.25, 0.1}, 0.0);
     EXPECT_TRUE(waitFor([&] { return (stopped = sender.stopped()) == 1; }));
   }
   EXPECT_EQ(stopped, 1U) << "nothing came for too long";
   EXPECT_THAT(sent, testing::Contains(0.25));
   EXPECT_EQ(sent.back(), 0.0);
+}
+
+TEST(CommandSender, SendsZerosWhileTheRobotMustStand) {
+  std::vector<double> sent;
+  std::atomic<bool> must_stand{false};
+  CommandSenderParams params;
+  params.rate_hz = 100.0;
+  params.timeout_s = 1000.0;
+  params.must_stand = [&] { return must_stand.load(); };
+  std::size_t when_told = 0, when_over = 0;
+  {
+    CommandSender sender(std::make_unique<Wheels>(sent), params);
+    const auto sleep = [] { std::this_thread::sleep_for(std::chrono::milliseconds(100)); };
+    sender.set({0.25, 0.1}, 0.0);
+    sleep();
+    must_stand = true;
+    sleep();
+    when_told = sender.stopped();
+    sender.set({0.5, 0.1}, 0.0);
+    sleep();
+    must_stand = false;
+    sleep();
+    when_over = sender.stopped();
+  }
+  EXPECT_EQ(when_told + when_over, 0U) << "the command was in time";
+  const auto stood = std::find(std::find(sent.begin(), sent.end(), 0.25), sent.end(), 0.0);
+  const auto drove = std::find_if(stood, sent.end(), [](double v) { return v != 0.0; });
+  EXPECT_GT(drove - stood, 10);
+  ASSERT_NE(drove, sent.end());
+  EXPECT_EQ(*drove, 0.5) << "the newest";
+}
+
+TEST_P(EachNetwork, VelocitiesHaveTheStampsOfTheSensors) {
+  const auto robot = open(), heel = open();
+  CommandSenderParams params;
+  params.stamped = true;
+  robot->subscribe({"/cmd_vel", TwistStampedMsg::kType, {}});
+  CommandSender sender(heel->writer(), params);
+  TwistStampedMsg came;
+  const auto next = [&] {
+    const auto message = robot->next(0.1);
+    if (message) came = decoded<TwistStampedMsg>(*message, ros_);
+    return message.has_value();
+  };
+  ASSERT_TRUE(waitFor(next));
+  const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
+  EXPECT_NEAR(1e-9 * static_cast<double>(came.header.stamp.ns),
+              std::chrono::duration<double>(since_1970).count(), 10.0);
+  const double set_s = steadyClock_s();
+  sender.set({0.25, -0.5}, 12.5);
+  ASSERT_TRUE(waitFor([&] { return next() && came.twist.linear.x != 0.0; }));
+  EXPECT_EQ(came.header.frame_id, "base_link");
+  EXPECT_EQ(came.twist.linear.x, 0.25);
+  EXPECT_EQ(came.twist.angular.z, -0.5);
+  const double stamp_s = 1e-9 * static_cast<double>(came.header.stamp.ns);
+  EXPECT_GE(stamp_s, 12.5);
+  EXPECT_LE(stamp_s, 12.5 + (steadyClock_s() - set_s));
 }
 
 TEST(CommandSender, SendsZerosAtTheEndHoweverItEnds) {
@@ -399,7 +382,7 @@ TEST(CommandSender, SendsZerosAtTheEndHoweverItEnds) {
   params.timeout_s = 1000.0;
   try {
     CommandSender sender(std::make_unique<Wheels>(sent), params);
-    sender.set({0.25, 0.0});
+    sender.set({0.25, 0.0}, 0.0);
     std::this_thread::sleep_for(std::chrono::milliseconds(120));
     throw std::runtime_error("lost the map");
   } catch (const std::runtime_error&) {

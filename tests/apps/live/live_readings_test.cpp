@@ -97,6 +97,7 @@ TEST(LiveReadings, GivesTheNewestOfEachSensorOnce) {
   EXPECT_NEAR(*now.scan_stamp_s, 1001.1, 1e-9);
   EXPECT_NEAR(now.odometry->position.x(), 0.22, 1e-9);
   EXPECT_NEAR(*now.odometry_stamp_s, 1001.1, 1e-9);
+  EXPECT_EQ(readings->odometryFrame(), "odom");
   const RobotReadings& then = readings->read(clock_s);
   EXPECT_EQ(then.frame, nullptr);
   EXPECT_EQ(then.scan, nullptr);

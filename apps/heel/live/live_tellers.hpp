@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// What a run of `heel live` tells on the terminal.
+#pragma once
+
+#include <heel/apps/follower/follower.hpp>
+
+#include <string>
+
+namespace heel {
+
+/// Each state when it begins, and why.
+class StateTeller {
+ public:
+  void tell(const FollowStep& step, double since_s);
+
+ private:
+  std::string last_;
+};
+
+/// When a sensor, or all of the network, has been silent for too long, and when it is heard again.
+class SilenceTeller {
+ public:
+  /// @param trouble  The network's.
+  void tell(const RobotReadings& now, const std::string& trouble, double clock_s);
+
+ private:
+  struct Sensor {
+    void tell(const char* what, bool has_come, double clock_s);
+    double heard_s = 0.0;
+    bool is_silent = false;
+  };
+  Sensor camera_, laser_, wheels_;
+  std::string trouble_;
+};
+
+/// What others told the follower, as LiveCommands heard it.
+void tellCommand(const std::string& words, bool is_unknown);
+
+}  // namespace heel
