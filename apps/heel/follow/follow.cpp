@@ -172,8 +172,7 @@ void run(FollowOptions& options) {
   if (config) inputs.push_back(robotFile(options.config));
   FollowOutput output(options.out, !options.no_film, options.bag, inputs);
   // Of a log, runShadow() tells.
-  ProgressBar progress("following, at most",
-                       is_log ? 0 : static_cast<std::size_t>(options.loop.limit_s));
+  ProgressBar progress("following", is_log ? 0 : static_cast<std::size_t>(options.loop.limit_s));
   LapClock clock;
   const LoopObserver observer = [&](const Readings& readings, const FollowStep& step,
                                     const Follower& follower, const FollowSample& sample) {
