@@ -184,7 +184,8 @@ void FollowVideo::drawPeople(const FollowVideoFrame& frame, cv::Mat& panel) cons
 }
 
 void FollowVideo::draw(const FollowVideoFrame& frame, cv::Mat& picture) {
-  if (goes_along_) bounds_m_.translate(frame.robot_estimated.position - bounds_m_.center());
+  const Vector2d& robot = frame.robot_estimated.position;
+  if (goes_along_ && robot.allFinite()) bounds_m_.translate(robot - bounds_m_.center());
   picture.create(size(), CV_8UC3);
   picture.setTo(palette::kPaper);
   cv::Mat image = picture(imageArea());

@@ -14,7 +14,8 @@
 namespace heel {
 namespace {
 
-constexpr double kSweptShare = 0.1;  // Of the picture: who walks through sweeps as much, and more.
+// Of the picture: who walks through sweeps as much, and more; who enters at the end covers less.
+constexpr double kSweptShare = 0.1;
 
 }  // namespace
 

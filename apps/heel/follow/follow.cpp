@@ -243,17 +243,20 @@ void addFollow(CLI::App& app) {
   addRobotConfig(*verb, options->config);
   addLight(*verb, options->light);
   addRough(*verb, options->rough);
-  verb->add_flag("!--no-map", options->loop.has_map,
-                 "the robot has no map: it goes by its odometry, and by what it sees");
+  verb->add_flag_callback(
+      "--no-map", [options] { options->loop.has_map = false; },
+      "the robot has no map: it goes by its odometry, and by what it sees");
   verb->add_flag("--no-film", options->no_film, "write no film");
   verb->add_option("--map", options->map.map,
                    "of a log: a .bt or a map_server YAML (default: none, as with --no-map)")
       ->excludes(random)
-      ->excludes(verb->get_option("--rough"));
+      ->excludes(verb->get_option("--rough"))
+      ->excludes(verb->get_option("--no-map"));
   verb->add_option("--model", options->model,
                    "of a log: the person, as 'heel learn' wrote it (default: the log begins with "
                    "phase 1)");
   addLogMap(*verb, options->map, options->opening.topics);
+  verb->get_option("--robot-start")->needs("--map");
   addTimeSpan(*verb, options->opening.span);
   addCameraTopics(*verb, options->opening.topics);
   addOdometryTopic(*verb, options->opening.topics);
