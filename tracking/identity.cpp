@@ -155,13 +155,8 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
   if (missed > 0.0) {
     const double same = (1.0 - missed) * track.density_per_m2;
     const double other = missed * (clutter + params_.newcomer_density_per_m2);
-    const double other_share = other / (same + other);
-    doubt(belief, other_share);
-    const Evidence own = belief.log_place + belief.log_free + belief.log_views;
-    belief.log_views *= 1.0 - other_share;
-    belief.log_free *= 1.0 - other_share;
-    belief.log_place = mix(own, priorOf(seen.position_m, stamp_s), other_share) - belief.log_free -
-                       belief.log_views;
+    const Evidence prior = priorOf(seen.position_m, stamp_s);
+    mixIn(belief, prior, prior, other / (same + other));
   }
   // However long it lasts, nothing is surer than that: who sat for an hour may get up.
   belief.log_place -= belief.log_place.maxCoeff();
@@ -240,11 +235,19 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
   }
 }
 
-/// A portrait is of one body: it begins anew where this may be another than before.
-void Identity::doubt(Belief& belief, double other_share) {
-  if (other_share < std::exp(kMistaken)) return;
-  belief.looks = 0.0;
-  belief.sum.setZero();
+/// With a probability it is another body than before, of which `other` is believed. Past looks then
+/// say whatever the place does not, so that as they fade the place is left.
+void Identity::mixIn(Belief& belief, const Evidence& other, const Evidence& other_place,
+                     double other_share) {
+  if (other_share > std::exp(kMistaken)) {  // A portrait is of one body.
+    belief.looks = 0.0;
+    belief.sum.setZero();
+  }
+  const Evidence both = mix(belief.logPast(), other, other_share);
+  belief.log_place = mix(belief.log_place, other_place, other_share);
+  belief.log_free *= 1.0 - other_share;
+  const Evidence views = both - belief.log_place - belief.log_free;
+  belief.log_views = views.isFinite().select(views, 0.0);
 }
 
 /// Of bodies that meet nobody can say for sure which observation is whose.
@@ -253,16 +256,10 @@ void Identity::mixSwaps(const std::vector<Swap>& swaps) {
     Belief* a = find(swap.track_a);
     Belief* b = find(swap.track_b);
     if (a == nullptr || b == nullptr) continue;
-    const double q = swap.probability;
-    for (Belief* belief : {a, b}) doubt(*belief, q);
-    const Evidence of_a = a->log_place + a->log_free + a->log_views;
-    const Evidence of_b = b->log_place + b->log_free + b->log_views;
-    const Evidence views_a = a->log_views;
-    a->log_views += q * (b->log_views - a->log_views);
-    b->log_views += q * (views_a - b->log_views);
-    a->log_place = mix(of_a, of_b, q) - a->log_free - a->log_views;
-    b->log_place = mix(of_b, of_a, q) - b->log_free - b->log_views;
-    for (View* view : {&a->view, &b->view}) view->count *= 1.0 - q;  // The next looks tell.
+    const Evidence past_a = a->logPast(), place_a = a->log_place;
+    mixIn(*a, b->logPast(), b->log_place, swap.probability);
+    mixIn(*b, past_a, place_a, swap.probability);
+    for (View* view : {&a->view, &b->view}) view->count *= 1.0 - swap.probability;
   }
 }
 

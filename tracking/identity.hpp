@@ -110,7 +110,8 @@ class Identity {
     bool is_alive = true;
 
     Evidence logLooks() const { return log_views + view.evidence(); }
-    Evidence logWeight() const { return log_place + log_free + logLooks(); }
+    Evidence logPast() const { return log_place + log_free + log_views; }
+    Evidence logWeight() const { return logPast() + view.evidence(); }
   };
 
   Belief* find(int track_id);
@@ -121,7 +122,8 @@ class Identity {
   void takePlace(Belief& belief, const Track& track, const Observation& seen, double stamp_s);
   void takeLook(Belief& belief, const Observation& seen, const Evidence& look,
                 const Eigen::Vector2d& eye_m, double stamp_s);
-  static void doubt(Belief& belief, double other_share);
+  static void mixIn(Belief& belief, const Evidence& other, const Evidence& other_place,
+                    double other_share);
   void mixSwaps(const std::vector<Swap>& swaps);
   void weighTogether();
   void weigh(bool is_left, std::vector<Evidence>& marginals);

@@ -450,6 +450,19 @@ TEST(Identity, TwoWhoMeetMayHaveSwappedAndAreToldApartAgainByLooks) {
   EXPECT_GT(swapped.target(2), 0.8);
 }
 
+TEST(Identity, LooksThatSayNothingLeaveOpenWhetherTwoHaveSwapped) {
+  const Eigen::ArrayXXf nothing = Eigen::ArrayXXf::Zero(kRed.rows(), kRed.cols());
+  Home home;
+  home.walk({1, {0, 0}, &kRed}, 4.0, {{2, {2, 1}, &kBlue}});
+  home.swaps = {{1, 2, 0.5}};
+  home.see({{1, {4, 0}, &nothing}, {2, {4, 0.3}, &nothing}}, 5);
+  home.swaps.clear();
+  const double before = home.target(1);
+  EXPECT_NEAR(before, 0.5, 0.2);
+  home.walk({1, {4, 0}, &nothing}, 10.0, {{2, {4, 2}, &nothing}});
+  EXPECT_NEAR(home.target(1), before, 0.2);
+}
+
 TEST(Identity, MeetsOthersWhileTheTargetIsElsewhereAndKnowsThemAgain) {
   Home home;
   const Body target{1, {0, 0}, &kRed};
