@@ -5,6 +5,7 @@
 /// Our MCAP files and ROS 2 messages against npm's @mcap/core and @foxglove/rosmsg2-serialization,
 /// where these are installed.
 
+#include "tests/support/data.hpp"
 #include "tests/support/filled_message.hpp"
 #include "tests/support/temp_folder.hpp"
 #include <heel/apps/bag/bag.hpp>
@@ -19,12 +20,6 @@ namespace {
 using test::filled;
 using test::readText;
 using testing::HasSubstr;
-
-/// The folder of the packages: in the environment, else as CMake was told.
-std::string nodeModules() {
-  const char* folder = std::getenv("HEEL_NODE_MODULES");
-  return folder != nullptr ? folder : HEEL_DEFAULT_NODE_MODULES;
-}
 
 /// A message as it lies in a bag.
 struct Stored {
@@ -53,17 +48,12 @@ std::vector<Stored> readStored(const std::filesystem::path& path) {
 class McapPeer : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    const std::string folder = nodeModules();
-    if (folder.empty() || !std::filesystem::exists(folder + "/@mcap/core")) {
-      GTEST_SKIP() << "MCAP is not compared with npm's: HEEL_NODE_MODULES names no folder with "
-                      "@mcap/core, @mcap/support, @foxglove/rosmsg and "
-                      "@foxglove/rosmsg2-serialization";
-    }
+    if (!test::hasNpm("@mcap/core")) GTEST_SKIP() << test::kNoNpm << "@mcap/core";
   }
 
   /// What the peer prints.
   std::string copy(const std::filesystem::path& from, const std::filesystem::path& to) const {
-    const std::string command = "NODE_PATH='" + nodeModules() + "' node '" + HEEL_SOURCE_DIR +
+    const std::string command = "NODE_PATH='" + test::nodeModules() + "' node '" + HEEL_SOURCE_DIR +
                                 "/tests/apps/bag/mcap_peer.cjs' '" + from.string() + "' '" +
                                 to.string() + "' " + GetParam() + " >'" +
                                 (folder_ / "log").string() + "' 2>&1";

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "tests/apps/live/on_network.hpp"
+#include "tests/support/data.hpp"
 #include "tests/support/filled_message.hpp"
 #include <heel/apps/live/command_sender.hpp>
 
@@ -266,6 +267,23 @@ TEST_F(OnRos2, SpeaksWithAnotherMakersDds) {
   EXPECT_THAT(scan.ranges, testing::ElementsAre(1.5F, 2.5F, 3.5F));
   EXPECT_EQ(saidOfVelocities(*heel, peer.get()), "0.250 -0.500\n");
 #endif
+}
+
+TEST_F(OnRos2, NpmsRos2HearsUs) {
+  if (!test::hasNpm("@foxglove/ros2")) GTEST_SKIP() << test::kNoNpm << "@foxglove/ros2";
+  const std::string call = "NODE_PATH='" + test::nodeModules() +
+                           "' node '" HEEL_SOURCE_DIR "/tests/apps/live/ros2_peer.cjs' " +
+                           std::to_string(1 + getpid() % 200);
+  TFMessageMsg fixed;
+  auto& transform = fixed.transforms.emplace_back();
+  transform.header.frame_id = "base_link";
+  transform.child_frame_id = "camera";
+  transform.transform.translation = {0.25, -0.5, 1.5};
+  const auto robot = open();
+  const auto writer = robot->writer();
+  const Program peer(popen(call.c_str(), "r"), pclose);
+  const auto send = [&] { writer->write("/tf_static", 0, fixed, true); };
+  EXPECT_EQ(test::saidMeanwhile(peer.get(), send), "base_link camera 0.25 -0.5 1.5 1\n");
 }
 
 #endif
