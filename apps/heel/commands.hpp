@@ -22,6 +22,7 @@ constexpr double kDegrees = 57.29577951308232;
 /// Tells a user what they should know, on stderr; the work goes on.
 void warn(const std::string& warning);
 
+void addCapture(CLI::App& app);
 void addConfig(CLI::App& app);
 void addLearn(CLI::App& app);
 void addTrack(CLI::App& app);

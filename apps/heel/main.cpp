@@ -148,6 +148,7 @@ int main(int argc, char** argv) {
   heel::addPlan(app);
   heel::addPlanView(app);
   heel::addSimulate(app);
+  heel::addCapture(app);
   heel::addView(app);
   heel::addEvaluate(app);
   heel::addSummarize(app);
