@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -286,8 +287,14 @@ std::optional<std::string> baseFrameOf(const BagSurvey& survey, const BagTopics&
                                        const std::string& frame) {
   if (!topics.base_frame.empty()) {
     if (survey.transform(frameName(topics.base_frame), frame)) return frameName(topics.base_frame);
+    std::set<std::string> bases;
+    for (const auto& [child, link] : survey.frames) {
+      if (survey.transform(link.parent, frame)) bases.insert("'" + link.parent + "'");
+    }
+    std::string known;
+    for (const std::string& base : bases) known += (known.empty() ? "; it is on " : ", ") + base;
     throw std::runtime_error(survey.path.string() + ": tf does not tell where '" + frame +
-                             "' is on '" + topics.base_frame + "'");
+                             "' is on '" + topics.base_frame + "'" + known);
   }
   for (const char* base : {"base_footprint", "base_link"}) {
     if (survey.transform(base, frame)) return base;
