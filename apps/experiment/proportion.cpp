@@ -4,8 +4,11 @@
 #include <heel/apps/experiment/proportion.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <random>
 #include <stdexcept>
 
 namespace heel {
@@ -29,6 +32,32 @@ ShareInterval wilsonInterval(const Proportion& proportion) {
   // The ends of no and of all are exact; rounding must not move them.
   return {proportion.count == 0 ? 0.0 : std::max(0.0, middle - half),
           proportion.count == proportion.total ? 1.0 : std::min(1.0, middle + half)};
+}
+
+ShareInterval bootstrapInterval(const std::vector<PartOf>& parts) {
+  if (parts.empty()) return {};
+  constexpr std::size_t kSets = 4000;
+  std::mt19937_64 random(1);
+  std::vector<double> shares(kSets);
+  for (double& share : shares) {
+    PartOf all;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const PartOf& drawn = parts[random() % parts.size()];
+      all.part += drawn.part;
+      all.whole += drawn.whole;
+    }
+    share = all.whole > 0.0 ? all.part / all.whole : 0.0;
+  }
+  std::sort(shares.begin(), shares.end());
+  return {shares[kSets / 40], shares[kSets - 1 - kSets / 40]};
+}
+
+std::string withInterval(const Proportion& proportion) {
+  const ShareInterval interval = wilsonInterval(proportion);
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%d of %d (%.0f-%.0f %%)", proportion.count,
+                proportion.total, 100.0 * interval.low, 100.0 * interval.high);
+  return text.data();
 }
 
 }  // namespace heel

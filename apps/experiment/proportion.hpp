@@ -5,6 +5,9 @@
 /// How sure a counted share is.
 #pragma once
 
+#include <string>
+#include <vector>
+
 namespace heel {
 
 /// `count` of `total`, with the share that it stands for.
@@ -33,5 +36,18 @@ struct ShareInterval {
 /// normal interval it is right for few trials and for shares of 0 and 1.
 /// @throws std::invalid_argument  if count is not in [0, total].
 ShareInterval wilsonInterval(const Proportion& proportion);
+
+/// A part of a whole, as seconds of a run.
+struct PartOf {
+  double part = 0.0;
+  double whole = 0.0;
+};
+
+/// The same for the share that all parts together are of their wholes, by the bootstrap: what it is
+/// in 95 % of sets of as many, drawn from these with replacement. Deterministic.
+ShareInterval bootstrapInterval(const std::vector<PartOf>& parts);
+
+/// "99 of 100 (95-100 %)".
+std::string withInterval(const Proportion& proportion);
 
 }  // namespace heel

@@ -45,14 +45,6 @@ std::string counted(const Proportion& p) {
   return std::to_string(p.count) + " of " + std::to_string(p.total);
 }
 
-std::string withInterval(const Proportion& p) {
-  const ShareInterval interval = wilsonInterval(p);
-  char text[64];
-  std::snprintf(text, sizeof text, "%d of %d (%.0f-%.0f %%)", p.count, p.total,
-                100.0 * interval.low, 100.0 * interval.high);
-  return text;
-}
-
 void printLaboratory(const WardrobeRuns& runs, double min_share) {
   std::printf("section 4.1: 5 people, 5 models, 5 other recordings, 25 runs\n");
   std::printf("  %-32s %-9s %-9s %-22s %s\n", "", "own", "FN", "FP", "target scored higher");

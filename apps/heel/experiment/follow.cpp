@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/experiment/follow_experiment.hpp>
+#include <heel/apps/experiment/proportion.hpp>
 #include <heel/apps/heel/experiment/experiment_commands.hpp>
 #include <heel/apps/heel/experiment/joined_parts.hpp>
 #include <heel/apps/heel/shared/arguments.hpp>
@@ -113,11 +114,18 @@ void run(FollowExperimentOptions& options) {
   experiment.command = commandOf(experiment, shared);
   if (isStopRequested()) experiment.title += " (incomplete: it was stopped)";
   const EpisodeCounts all = countEpisodes(experiment.episodes, experiment.plans.back());
+  std::vector<PartOf> wrong_s;
+  for (const FollowEpisode& e : experiment.episodes) {
+    if (e.plan != experiment.plans.back()) continue;
+    wrong_s.push_back({e.summary.wrong_person_s, e.summary.elapsed_s});
+  }
+  const ShareInterval wrong = bootstrapInterval(wrong_s);
   std::printf(
-      "%d random episodes: %d reached, %d with a contact by the robot, wrong person %.2f %% of the "
-      "time, "
-      "seeking %.0f %%\n",
-      all.episodes, all.reached, all.with_contact, 100.0 * all.wrongShare(),
+      "random episodes (95 %% intervals): reached %s; with a contact by the robot %s;\n"
+      "wrong person %.2f %% of the time (%.2f-%.2f %%), seeking %.0f %%\n",
+      withInterval({all.reached, all.episodes}).c_str(),
+      withInterval({all.with_contact, all.episodes}).c_str(), 100.0 * all.wrongShare(),
+      100.0 * wrong.low, 100.0 * wrong.high,
       all.elapsed_s > 0.0 ? 100.0 * all.seek_s / all.elapsed_s : 0.0);
   writeFollowExperimentPage(*output / "report.html", experiment);
   writePartSummary(*output, shared, experiment.episodes.size());

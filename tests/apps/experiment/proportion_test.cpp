@@ -44,5 +44,25 @@ TEST(WilsonInterval, RefusesImpossibleCounts) {
   EXPECT_THROW(wilsonInterval({-1, 2}), std::invalid_argument);
 }
 
+TEST(WilsonInterval, IsToldInWords) { EXPECT_EQ(withInterval({99, 100}), "99 of 100 (95-100 %)"); }
+
+// The share of the mean of n alike trials spreads as p (1 - p) / n.
+TEST(BootstrapInterval, AgreesWithTheNormalOneWhereThatHolds) {
+  std::vector<PartOf> runs;
+  for (int i = 0; i < 400; ++i) runs.push_back({i % 4 == 0 ? 10.0 : 0.0, 10.0});
+  const ShareInterval interval = bootstrapInterval(runs);
+  const double half = 1.96 * std::sqrt(0.25 * 0.75 / 400.0);
+  EXPECT_NEAR(interval.low, 0.25 - half, 0.1 * half);
+  EXPECT_NEAR(interval.high, 0.25 + half, 0.1 * half);
+}
+
+TEST(BootstrapInterval, IsThePointWhereAllAreAlike) {
+  const ShareInterval interval = bootstrapInterval({{1.0, 4.0}, {2.0, 8.0}});
+  EXPECT_DOUBLE_EQ(interval.low, 0.25);
+  EXPECT_DOUBLE_EQ(interval.high, 0.25);
+}
+
+TEST(BootstrapInterval, KnowsNothingWithoutRuns) { EXPECT_EQ(bootstrapInterval({}).high, 1.0); }
+
 }  // namespace
 }  // namespace heel
