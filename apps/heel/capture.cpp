@@ -5,6 +5,7 @@
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/output.hpp>
+#include <heel/cloud/files.hpp>
 #include <heel/cloud/stereo_calibration.hpp>
 
 #include <CLI/CLI.hpp>
@@ -26,6 +27,8 @@ namespace heel {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double kMost_s = 1e9;  // What a broken video may claim.
 
 struct CaptureOptions {
   std::string device;
@@ -82,7 +85,7 @@ class SideBySide {
   double length_s() const {
     const double rate_hz = camera_.get(cv::CAP_PROP_FPS);
     const double frames = camera_.get(cv::CAP_PROP_FRAME_COUNT);
-    return !is_live_ && rate_hz > 0.0 ? std::max(frames / rate_hz, 0.0) : 0.0;
+    return !is_live_ && rate_hz > 0.0 ? std::clamp(frames / rate_hz, 0.0, kMost_s) : 0.0;
   }
 
  private:
@@ -104,7 +107,7 @@ void addCalibration(const fs::path& from, cv::Size image_size, const Output& out
         std::to_string(image_size.width) + "x" + std::to_string(image_size.height));
   }
   const auto copy = [&output](const fs::path& file, const std::string& name) {
-    fs::copy_file(file, (output / name).written);
+    writeFile(output / name, readWholeFile(file));
   };
   if (!fs::is_directory(from)) {
     const bool is_middlebury = from.extension() == ".txt";
@@ -178,7 +181,7 @@ void run(const CaptureOptions& options) {
   while (!isStopRequested() && !has_ended) {
     if (!camera.next() || camera.stamp_s() > options.duration_s.value_or(camera.stamp_s())) {
       has_ended = true;
-    } else if (!(camera.stamp_s() > last_s)) {
+    } else if (!(camera.stamp_s() > last_s && camera.stamp_s() < kMost_s)) {
       ++left_out;
     } else {
       last_s = camera.stamp_s();
@@ -199,7 +202,7 @@ void run(const CaptureOptions& options) {
   const bool is_whole = has_ended ? !camera.hasFailed() : !options.duration_s;
   output.commit(is_whole);
   if (left_out > 0) {
-    warn(std::to_string(left_out) + " pictures were left out: their times did not increase");
+    warn(std::to_string(left_out) + " pictures were left out: their times do not increase");
   }
   if (options.calibration.empty()) {
     warn(options.out.string() + ": before others can read it, put a stereo calibration there");
