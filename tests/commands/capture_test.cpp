@@ -107,10 +107,18 @@ TEST_F(Capture, RefusesWhatItCantRecord) {
   EXPECT_TRUE(failsWith(capture(folder_ / "rig.yaml"), {"rig.yaml", "no camera or video"}));
   EXPECT_TRUE(failsWith(captureCalibrated(video(3, {96, 48})),
                         {"rig.yaml", "of images of 64x48, and these are of 48x48"}));
+  cv::imwrite(folder_ / "odd.png", cv::Mat(48, 127, CV_8UC3, cv::Scalar::all(9)));
+  EXPECT_TRUE(failsWith(capture(folder_ / "odd.png"), {"odd.png", "127 pixels wide"}));
   writeText(folder_ / "rig.yaml", "nothing: 1\n");
   EXPECT_TRUE(failsWith(captureCalibrated(video(3)), {"rig.yaml"}));
   EXPECT_TRUE(wroteNothing());
 }
+
+#ifndef HEEL_HAS_OPENNI
+TEST_F(Capture, SaysHowToGetDepthCameras) {
+  EXPECT_TRUE(failsWith(capture("openni"), {"openni", "without OpenNI2", "libopenni2-dev"}));
+}
+#endif
 
 TEST_F(Capture, LeavesAFolderThatHoldsSomething) {
   writeText(folder_ / "out/letter.txt", "dear");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/film/video_writer.hpp>
+#include <heel/apps/heel/capture/pair_camera.hpp>
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/shared/terminal.hpp>
 #include <heel/apps/output/output.hpp>
@@ -14,9 +15,11 @@
 #include <tbb/task_group.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <chrono>
 #include <cstdio>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <set>
@@ -30,19 +33,11 @@ namespace fs = std::filesystem;
 
 constexpr double kMost_s = 1e9;  // What a broken video may claim.
 
-struct CaptureOptions {
-  std::string device;
-  fs::path out;
-  fs::path calibration;  // empty: none
-  int width = 0, height = 0;
-  double rate_hz = 0.0;
-  std::optional<double> duration_s;
-};
-
 /// A stereo camera that gives both images side by side, or a video of one.
-class SideBySide {
+class SideBySide final : public PairCamera {
  public:
-  explicit SideBySide(const CaptureOptions& options) : name_(options.device) {
+  explicit SideBySide(const CaptureOptions& options)
+      : PairCamera(options.device), calibration_(options.calibration) {
     if (std::all_of(name_.begin(), name_.end(), [](unsigned char c) { return std::isdigit(c); })) {
       name_ = "/dev/video" + name_;
     }
@@ -59,8 +54,9 @@ class SideBySide {
     ask(cv::CAP_PROP_FPS, options.rate_hz);
   }
 
-  /// @return false at the end of a video, and where a camera gives no more.
-  bool next() {
+  PairKind kind() const override { return PairKind::kStereo; }
+
+  bool next() override {
     if (!camera_.read(both_) || both_.empty()) {
       has_failed_ = is_live_;
       return false;
@@ -76,57 +72,71 @@ class SideBySide {
     return true;
   }
 
-  const std::string& name() const { return name_; }
-  bool hasFailed() const { return has_failed_; }  ///< A camera has no end.
-  double stamp_s() const { return stamp_s_; }
-  cv::Mat left() const { return both_.colRange(0, both_.cols / 2).clone(); }
-  cv::Mat right() const { return both_.colRange(both_.cols / 2, both_.cols).clone(); }
-  /// 0 if nobody knows.
-  double length_s() const {
+  std::array<cv::Mat, 2> pictures() const override {
+    const int half = both_.cols / 2;
+    return {both_.colRange(0, half).clone(), both_.colRange(half, both_.cols).clone()};
+  }
+
+  double length_s() const override {
     const double rate_hz = camera_.get(cv::CAP_PROP_FPS);
     const double frames = camera_.get(cv::CAP_PROP_FRAME_COUNT);
     return !is_live_ && rate_hz > 0.0 ? std::clamp(frames / rate_hz, 0.0, kMost_s) : 0.0;
   }
 
+  void addCalibration(const Output& output) const override {
+    const fs::path& from = calibration_;
+    if (from.empty()) return;
+    const cv::Size size(both_.cols / 2, both_.rows);
+    const StereoCamera camera = readStereoRig(from, size).camera();
+    checkCalibratedSize(from, camera.left.width, camera.left.height, size);
+    const auto copy = [&output](const fs::path& file, const std::string& name) {
+      writeFile(output / name, readWholeFile(file));
+    };
+    if (!fs::is_directory(from)) {
+      const bool is_middlebury = from.extension() == ".txt";
+      return copy(from, is_middlebury ? "calib.txt" : "stereo" + from.extension().string());
+    }
+    static const std::set<std::string> kinds = {".yaml", ".yml", ".xml", ".json"};
+    for (const fs::directory_entry& file : fs::directory_iterator(from)) {
+      const std::string name = file.path().filename().string();
+      if (!file.is_regular_file() || name.front() == '.') continue;
+      if (kinds.count(file.path().extension().string()) != 0 || name == "calib.txt") {
+        copy(file.path(), name);
+      }
+    }
+  }
+
  private:
-  std::string name_;
-  bool is_live_ = false, has_failed_ = false;
+  fs::path calibration_;
+  bool is_live_ = false;
   cv::VideoCapture camera_;
   cv::Mat both_;
   std::optional<std::chrono::steady_clock::time_point> began_;
-  double stamp_s_ = 0.0;
 };
 
-/// Puts the files of a calibration where readers of a recording look for them.
-void addCalibration(const fs::path& from, cv::Size image_size, const Output& output) {
-  const StereoCamera camera = readStereoRig(from, image_size).camera();
-  if (camera.left.width != image_size.width || camera.left.height != image_size.height) {
-    throw std::runtime_error(
-        from.string() + ": is of images of " + std::to_string(camera.left.width) + "x" +
-        std::to_string(camera.left.height) + ", and these are of " +
-        std::to_string(image_size.width) + "x" + std::to_string(image_size.height));
-  }
-  const auto copy = [&output](const fs::path& file, const std::string& name) {
-    writeFile(output / name, readWholeFile(file));
-  };
-  if (!fs::is_directory(from)) {
-    const bool is_middlebury = from.extension() == ".txt";
-    return copy(from, is_middlebury ? "calib.txt" : "stereo" + from.extension().string());
-  }
-  static const std::set<std::string> kinds = {".yaml", ".yml", ".xml", ".json"};
-  for (const fs::directory_entry& file : fs::directory_iterator(from)) {
-    const std::string name = file.path().filename().string();
-    if (!file.is_regular_file() || name.front() == '.') continue;
-    if (kinds.count(file.path().extension().string()) != 0 || name == "calib.txt") {
-      copy(file.path(), name);
-    }
-  }
+std::unique_ptr<PairCamera> openCamera(const CaptureOptions& options) {
+  if (!isDepthCamera(options.device)) return std::make_unique<SideBySide>(options);
+#ifdef HEEL_HAS_OPENNI
+  return openDepthCamera(options);
+#else
+  throw std::runtime_error(
+      options.device +
+      ": this build of Heel is without OpenNI2; it needs libopenni2-dev and cmake "
+      "-DHEEL_WITH_OPENNI=ON");
+#endif
 }
 
 /// Writes pairs as numbered pictures, one while the next is awaited.
 class PairWriter {
  public:
-  explicit PairWriter(const Output& output) : output_(output), times_(output / "times.txt") {}
+  PairWriter(const Output& output, PairKind kind) : output_(output) {
+    if (kind == PairKind::kRgbd) sides_ = {"rgb", "depth"};
+    if (kind == PairKind::kStereo) {
+      lists_.emplace_back(output / "times.txt");
+    } else {
+      for (const std::string& side : sides_) lists_.emplace_back(output / (side + ".txt"));
+    }
+  }
   ~PairWriter() {
     try {
       encoding_.wait();
@@ -135,45 +145,50 @@ class PairWriter {
     }
   }
 
-  void add(const cv::Mat& left, const cv::Mat& right, double stamp_s) {
+  void add(const std::array<cv::Mat, 2>& pictures, double stamp_s) {
     encoding_.wait();
     ++count_;
-    write("left", left);
-    write("right", right);
-    char line[40];
-    std::snprintf(line, sizeof line, "%.6f\n", stamp_s);
-    times_.write(line);
+    std::array<char, 40> text{};
+    std::snprintf(text.data(), text.size(), "%.6f", stamp_s);
+    const std::string stamp = text.data();
+    std::snprintf(text.data(), text.size(), "/%06zu.png", count_);
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      const std::string name = sides_.at(i) + text.data();
+      encoding_.run(
+          [file = output_ / name, picture = pictures.at(i)] { writePicture(file, picture); });
+      if (lists_.size() == sides_.size()) lists_.at(i).write(stamp + ' ' + name + '\n');
+    }
+    if (lists_.size() == 1) lists_.front().write(stamp + '\n');
   }
   void finish() {
     encoding_.wait();
-    times_.close();
+    for (OutputFile& list : lists_) list.close();
   }
   std::size_t count() const { return count_; }
 
  private:
-  void write(const char* side, const cv::Mat& picture) {
-    char name[40];
-    std::snprintf(name, sizeof name, "%s/%06zu.png", side, count_);
-    encoding_.run([file = output_ / name, picture] { writePicture(file, picture); });
-  }
-
   const Output& output_;
-  OutputFile times_;
+  std::array<std::string, 2> sides_ = {"left", "right"};
+  std::deque<OutputFile> lists_;  ///< One of times, or one of times and names for each side.
   tbb::task_group encoding_;
   std::size_t count_ = 0;
 };
 
 void run(const CaptureOptions& options) {
-  Output output({"capture", OutputKind::kFolder, options.out, {options.calibration}, {}, true});
   std::error_code ignored;
+  const bool is_file = fs::is_regular_file(options.device, ignored);
+  const fs::path video = is_file ? options.device : "";
+  Output output(
+      {"capture", OutputKind::kFolder, options.out, {options.calibration, video}, {}, true});
   if (fs::exists(options.out) && !fs::is_empty(options.out, ignored)) {
     throw std::invalid_argument(options.out.string() + ": holds something already");
   }
-  SideBySide camera(options);
+  const std::unique_ptr<PairCamera> opened = openCamera(options);
+  PairCamera& camera = *opened;
   keepResultsOnSignals();
   ProgressBar progress("capturing",
                        static_cast<std::size_t>(options.duration_s.value_or(camera.length_s())));
-  PairWriter pairs(output);
+  PairWriter pairs(output, camera.kind());
   cv::Size size;
   double last_s = -1.0;
   std::size_t left_out = 0;
@@ -185,12 +200,12 @@ void run(const CaptureOptions& options) {
       ++left_out;
     } else {
       last_s = camera.stamp_s();
-      const cv::Mat left = camera.left();
+      const std::array<cv::Mat, 2> pictures = camera.pictures();
       if (pairs.count() == 0) {
-        size = left.size();
-        if (!options.calibration.empty()) addCalibration(options.calibration, size, output);
+        size = pictures[0].size();
+        camera.addCalibration(output);
       }
-      pairs.add(left, camera.right(), last_s);
+      pairs.add(pictures, last_s);
       progress.show(static_cast<std::size_t>(last_s));
     }
   }
@@ -204,7 +219,7 @@ void run(const CaptureOptions& options) {
   if (left_out > 0) {
     warn(std::to_string(left_out) + " pictures were left out: their times do not increase");
   }
-  if (options.calibration.empty()) {
+  if (options.calibration.empty() && camera.kind() == PairKind::kStereo) {
     warn(options.out.string() + ": before others can read it, put a stereo calibration there");
   }
   std::printf("%zu pairs of %dx%d over %.1f s; wrote %s\n", pairs.count(), size.width, size.height,
@@ -215,29 +230,45 @@ void run(const CaptureOptions& options) {
 
 }  // namespace
 
+void checkCalibratedSize(const fs::path& from, int width, int height, cv::Size images) {
+  if (cv::Size(width, height) == images) return;
+  throw std::runtime_error(from.string() + ": is of images of " + std::to_string(width) + "x" +
+                           std::to_string(height) + ", and these are of " +
+                           std::to_string(images.width) + "x" + std::to_string(images.height));
+}
+
+bool isDepthCamera(const std::string& device) {
+  return device == "openni" || device.rfind("openni:", 0) == 0 ||
+         fs::path(device).extension() == ".oni";
+}
+
 void addCapture(CLI::App& app) {
   auto options = std::make_shared<CaptureOptions>();
-  CLI::App* verb =
-      app.add_subcommand("capture", "Record from a stereo camera that gives both images at once");
+  CLI::App* verb = app.add_subcommand(
+      "capture", "Record from a stereo camera that gives both images at once, or a depth camera");
   verb->footer(
       "Examples:\n"
       "  heel capture 0 --calibration calibration --out recordings/mine\n"
       "  heel capture video.mkv --calibration stereo.yaml --out recordings/mine\n"
-      "For cameras that give the left and the right image side by side in one picture, and videos\n"
-      "of them. Ctrl-C ends it. Stay out of the picture for the first seconds, then walk in "
+      "  heel capture openni --out recordings/mine\n"
+      "For stereo cameras that give the left and the right image side by side in one picture, and\n"
+      "depth cameras that OpenNI2 has a driver for. Ctrl-C ends it. Stay out of the picture for "
+      "the first seconds, then walk in "
       "alone:\n"
       "'heel learn' learns you from that.");
   verb->add_option("DEVICE", options->device,
-                   "the camera's number (0 is /dev/video0), its file, or a video")
+                   "a stereo camera's number (0 is /dev/video0), its file, or a video; 'openni' or "
+                   "'openni:URI', a depth camera, or its recording, an .oni file")
       ->required();
   verb->add_option("--out", options->out, "folder for the recording; must be empty")->required();
   verb->add_option("--calibration", options->calibration,
-                   "file or folder that 'heel' reads as a stereo calibration; it is put into the "
-                   "recording");
+                   "file or folder that 'heel' reads as a stereo calibration, or a depth camera's "
+                   "camera.yaml (default: by its field of view); it is put into the recording");
   verb->add_option("--width", options->width,
-                   "of both images together, where the camera can choose [px]")
+                   "of a stereo camera's images together, where the camera can choose [px]")
       ->check(CLI::Range(2, 65536));
-  verb->add_option("--height", options->height, "the same [px]")->check(CLI::Range(1, 65536));
+  verb->add_option("--height", options->height, "of them, where the camera can choose [px]")
+      ->check(CLI::Range(1, 65536));
   verb->add_option("--rate", options->rate_hz, "pictures a second, where the camera can choose")
       ->check(CLI::Range(0.1, 1000.0));
   verb->add_option("--duration", options->duration_s,
