@@ -5,7 +5,7 @@
 # A Slurm cluster of some nodes on this one machine, as root, from Debian's slurm-wlm and munge:
 #   slurm_cluster.sh start FOLDER [NODES]   then: export SLURM_CONF=FOLDER/slurm.conf
 #   slurm_cluster.sh kill FOLDER NODE       the node dies, with the jobs that run on it
-#   slurm_cluster.sh stop FOLDER
+#   slurm_cluster.sh stop FOLDER            returns when nothing writes to the folder any more
 # It keeps no accounts, and nothing outside of the folder.
 set -euo pipefail
 
@@ -83,7 +83,13 @@ case $action in
     done
     ;;
   stop)
-    for file in "$folder"/slurmd.*.pid "$folder/slurmctld.pid" "$folder/munge/pid"; do end "$file"; done
+    daemons=$(cat "$folder"/slurmd.*.pid "$folder/slurmctld.pid" "$folder/munge/pid" 2>/dev/null || true)
+    kill $daemons 2>/dev/null || true
+    for _ in $(seq 300); do  # they store their state as they end
+      kill -0 $daemons 2>/dev/null || exit 0
+      sleep 0.1
+    done
+    kill -KILL $daemons 2>/dev/null || true
     ;;
   *) usage ;;
 esac
