@@ -23,7 +23,7 @@ const Folders kVerb = {"cloud",         "segmentation",    "tracking",        "m
                        "planning",      "apps/output",     "apps/bag",        "apps/recording",
                        "apps/follower", "apps/results",    "apps/pictures",   "apps/film",
                        "apps/pages",    "apps/simulation", "apps/experiment", "apps/heel",
-                       "apps/live",     "apps/heel/shared"};
+                       "apps/camera",   "apps/live",       "apps/heel/shared"};
 
 /// Which of the others each folder may include. A folder without a row belongs to the one above it.
 const std::map<std::string, Folders> kKnows = {
@@ -51,16 +51,17 @@ const std::map<std::string, Folders> kKnows = {
       "apps/output", "apps/pages", "apps/pictures", "apps/recording", "apps/results",
       "apps/simulation"}},
 
+    {"apps/camera", {"cloud", "apps/recording"}},
     {"apps/live",
      {"cloud", "mapping", "planning", "apps/bag", "apps/follower", "apps/output", "apps/recording",
       "apps/simulation"}},
 
     {"apps/heel/shared",
-     {"cloud", "segmentation", "tracking", "mapping", "planning", "apps/bag", "apps/experiment",
-      "apps/film", "apps/follower", "apps/live", "apps/output", "apps/pages", "apps/pictures",
-      "apps/recording", "apps/results", "apps/simulation"}},
+     {"cloud", "segmentation", "tracking", "mapping", "planning", "apps/bag", "apps/camera",
+      "apps/experiment", "apps/film", "apps/follower", "apps/live", "apps/output", "apps/pages",
+      "apps/pictures", "apps/recording", "apps/results", "apps/simulation"}},
     {"apps/heel",
-     {"cloud", "segmentation", "mapping", "planning", "apps/experiment", "apps/film",
+     {"cloud", "segmentation", "mapping", "planning", "apps/camera", "apps/experiment", "apps/film",
       "apps/follower", "apps/live", "apps/output", "apps/pictures", "apps/recording",
       "apps/results", "apps/simulation", "apps/heel/shared"}},
     {"apps/heel/evaluate", kVerb},

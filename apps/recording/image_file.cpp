@@ -144,11 +144,15 @@ void ImageReader::readDepth(const std::filesystem::path& file, double depth_scal
                              std::to_string(raw_depth_.channels()) + " of " +
                              std::to_string(8 * raw_depth_.elemSize1()) + " bits");
   }
-  depth_m.create(raw_depth_.size(), CV_32FC1);
+  depthInMetres(raw_depth_, depth_scale, depth_m);
+}
+
+void depthInMetres(const cv::Mat& depth, double depth_scale, cv::Mat& depth_m) {
+  depth_m.create(depth.size(), CV_32FC1);
   const auto metres = static_cast<float>(1.0 / depth_scale);
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   for (int v = 0; v < depth_m.rows; ++v) {
-    const auto* raw = raw_depth_.ptr<std::uint16_t>(v);
+    const auto* raw = depth.ptr<std::uint16_t>(v);
     auto* out = depth_m.ptr<float>(v);
     for (int u = 0; u < depth_m.cols; ++u) {
       out[u] = raw[u] == 0 ? kNaN : static_cast<float>(raw[u]) * metres;

@@ -35,6 +35,11 @@ class ImageReader {
   cv::Mat raw_depth_;
 };
 
+/// @param depth        CV_16UC1.
+/// @param depth_scale  Value of one metre in it.
+/// @param depth_m      Out: CV_32FC1, NaN where it is 0.
+void depthInMetres(const cv::Mat& depth, double depth_scale, cv::Mat& depth_m);
+
 /// Whether the bytes of a PNG or JPEG file go on to its end marker; true for other formats, which
 /// can't be told.
 bool isCompleteImage(const std::vector<std::uint8_t>& bytes);

@@ -3,6 +3,7 @@
 
 #include <heel/apps/experiment/robot_config.hpp>
 #include <heel/apps/heel/commands.hpp>
+#include <heel/apps/heel/live/live_camera.hpp>
 #include <heel/apps/heel/live/live_reports.hpp>
 #include <heel/apps/heel/live/live_tellers.hpp>
 #include <heel/apps/heel/shared/arguments.hpp>
@@ -33,6 +34,8 @@ namespace heel {
 namespace {
 
 struct LiveOptions {
+  PairCameraParams camera;  // alone, without a robot, if it has a device
+  int port = LiveCameraOptions().port;
   LogMapOptions map;
   std::filesystem::path model;
   std::string plan = "search";
@@ -177,7 +180,7 @@ void run(const LiveOptions& options) {
     if (forgets) commands.hasForgotten();
     const double now_s = steadyClock_s();
     if (now.frame != nullptr) log.latencies_s.push_back(readings.frameAge_s(now_s));
-    teller.tell(*step, now_s - began_s);
+    teller.tell(step->state(), step->reason, now_s - began_s);
     reports.add(*step, *follower, {log.latencies_s, readings.framesLeftOut(), late()}, now_s);
     const FollowSample& sample = log.samples.emplace_back(sampleOf(*step, *follower));
     output.add(shownOf(now, picture), *step, *follower, sample);
@@ -203,11 +206,26 @@ void run(const LiveOptions& options) {
   if (log.outcome == "nobody learned") throw NothingFound("nobody was learned");
 }
 
+/// Adds --camera and what goes with it.
+void addCameraAlone(CLI::App& verb, LiveOptions& options) {
+  const std::size_t before = verb.get_options().size();
+  CLI::Option* camera = addCamera(verb, "--camera", options.camera);
+  verb.add_option("--port", options.port, "of this machine, for the browser; 0: any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  const std::vector<CLI::Option*> all = verb.get_options();
+  for (std::size_t i = before; i < all.size(); ++i) {
+    all[i]->group("A camera alone");
+    all[i]->needs(all[i] == camera ? verb.get_option("--model") : camera);
+  }
+}
+
 }  // namespace
 
 void addLive(CLI::App& app) {
   auto options = std::make_shared<LiveOptions>();
-  CLI::App* verb = app.add_subcommand("live", "Follow a person with a robot that runs ROS");
+  CLI::App* verb = app.add_subcommand(
+      "live", "Follow a person with a robot that runs ROS, or watch them with a camera");
   verb->footer(
       "Example (in two terminals; no robot and no ROS are needed):\n"
       "  heel simulate home --live\n"
@@ -219,7 +237,9 @@ void addLive(CLI::App& app) {
       "Words on /heel/command (std_msgs/String) tell it to 'pause', to 'go' on, to 'forget' the\n"
       "person, or to 'stop'; /heel/target, /heel/markers, /heel/path and /diagnostics tell "
       "others.\n"
-      "First let it run with --dry, and with the wheels off the floor.");
+      "First let it run with --dry, and with the wheels off the floor.\n"
+      "With a camera alone, a browser on this machine shows who is where:\n"
+      "  heel live --camera 0 --calibration calibration --model person.yaml");
   verb->add_option("--map", options->map.map,
                    "a .bt, a map_server YAML, or a scene's name (default: none: the robot goes by "
                    "its odometry and what it sees, and does not search)");
@@ -228,7 +248,7 @@ void addLive(CLI::App& app) {
   verb->add_option("--plan", options->plan,
                    "what to do when the person is lost: 'paper', 'search', or a PNML file")
       ->capture_default_str();
-  verb->add_option("--out", options->out, "folder for the results")->required();
+  verb->add_option("--out", options->out, "folder for the results of a robot's run");
   verb->add_flag("--dry", options->dry, "send no velocities");
   verb->add_option("--wait", options->wait_s, "for the robot, so long [s] (default: for ever)")
       ->check(isPositive);
@@ -251,7 +271,21 @@ void addLive(CLI::App& app) {
   verb->get_option("--robot-start")->needs("--map");
   addCameraTopics(*verb, options->topics);
   addOdometryTopic(*verb, options->topics);
-  verb->callback([options] { run(*options); });
+  const std::vector<CLI::Option*> of_robots = verb->get_options([](const CLI::Option* option) {
+    const std::string name = option->get_name();
+    return name != "--help" && name != "--model" && name != "--limit";
+  });
+  addCameraAlone(*verb, *options);
+  verb->callback([options, of_robots] {
+    if (options->camera.device.empty()) {
+      if (options->out.empty()) throw CLI::RequiredError("--out");
+      return run(*options);
+    }
+    for (const CLI::Option* option : of_robots) {
+      if (option->count() > 0) throw CLI::ExcludesError("--camera", option->get_name());
+    }
+    watchCamera({options->camera, options->model, options->port, options->limit_s});
+  });
 }
 
 }  // namespace heel

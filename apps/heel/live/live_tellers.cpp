@@ -8,12 +8,11 @@
 
 namespace heel {
 
-void StateTeller::tell(const FollowStep& step, double since_s) {
-  const std::string state = step.state();
+void StateTeller::tell(const std::string& state, const std::string& reason, double since_s) {
   if (state == last_) return;
   last_ = state;
   std::fprintf(stderr, "heel: %7.1f s: %s%s%s\n", since_s, state.c_str(),
-               step.reason.empty() ? "" : ", ", step.reason.c_str());
+               reason.empty() ? "" : ", ", reason.c_str());
 }
 
 void SilenceTeller::tell(const RobotReadings& now, const std::string& trouble, double clock_s) {

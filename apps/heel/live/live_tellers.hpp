@@ -14,7 +14,7 @@ namespace heel {
 /// Each state when it begins, and why.
 class StateTeller {
  public:
-  void tell(const FollowStep& step, double since_s);
+  void tell(const std::string& state, const std::string& reason, double since_s);
 
  private:
   std::string last_;

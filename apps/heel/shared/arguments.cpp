@@ -162,4 +162,23 @@ void addResultBag(CLI::App& verb, std::filesystem::path& bag) {
                   "NAME.mcap, NAME.db3, or a folder, for ROS 2");
 }
 
+CLI::Option* addCamera(CLI::App& verb, const std::string& device, PairCameraParams& camera) {
+  CLI::Option* option = verb.add_option(
+      device, camera.device,
+      "a stereo camera's number (0 is /dev/video0), its file, or a video; 'openni' or "
+      "'openni:URI', a depth camera, or its recording, an .oni file");
+  verb.add_option(
+      "--calibration", camera.calibration,
+      "file or folder that 'heel' reads as a stereo calibration, or a depth camera's camera.yaml "
+      "(default: by its field of view)");
+  verb.add_option("--width", camera.width,
+                  "of a stereo camera's images together, where the camera can choose [px]")
+      ->check(CLI::Range(2, 65536));
+  verb.add_option("--height", camera.height, "of them, where the camera can choose [px]")
+      ->check(CLI::Range(1, 65536));
+  verb.add_option("--rate", camera.rate_hz, "pictures a second, where the camera can choose")
+      ->check(CLI::Range(0.1, 1000.0));
+  return option;
+}
+
 }  // namespace heel

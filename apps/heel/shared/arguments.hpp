@@ -5,6 +5,7 @@
 /// What several verbs are called with: scenes, maps and plans, and the topics of a bag.
 #pragma once
 
+#include <heel/apps/camera/pair_camera.hpp>
 #include <heel/apps/live/live_network.hpp>
 #include <heel/apps/recording/bags/bag_topics.hpp>
 #include <heel/apps/recording/time_span.hpp>
@@ -18,7 +19,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace heel {
 
@@ -86,6 +88,9 @@ void addLaserTopics(CLI::App& verb, BagTopics& topics);
 
 /// The bag to write the results to.
 void addResultBag(CLI::App& verb, std::filesystem::path& bag);
+
+/// Adds `device`, the option or the argument that says which camera, and what is asked of it.
+CLI::Option* addCamera(CLI::App& verb, const std::string& device, PairCameraParams& camera);
 
 /// Adds --domain and --namespace.
 inline void addNetwork(CLI::App& verb, LiveNetworkParams& params) {

@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/heel/capture/pair_camera.hpp>
-#include <heel/apps/heel/shared/terminal.hpp>
-#include <heel/apps/recording/camera_file.hpp>
+#include <heel/apps/camera/pair_camera.hpp>
 #include <heel/cloud/files.hpp>
 
 #include <OpenNI.h>
@@ -25,18 +23,13 @@ constexpr int kDepthScale = 1000;  // Of PIXEL_FORMAT_DEPTH_1_MM.
 constexpr int kMostWait_ms = 2000;
 constexpr int kMostWaits = 100;  // For two pictures of the same moment: some seconds.
 
-/// OpenNI2, for as long as something of it is used.
-struct OpenNiSession {
-  OpenNiSession() {
-    if (openni::OpenNI::initialize() != openni::STATUS_OK) {
-      throw std::runtime_error("OpenNI2 does not start: " +
-                               std::string(openni::OpenNI::getExtendedError()));
-    }
-  }
-  ~OpenNiSession() { openni::OpenNI::shutdown(); }
-  OpenNiSession(const OpenNiSession&) = delete;
-  OpenNiSession& operator=(const OpenNiSession&) = delete;
-};
+/// There is no OpenNI::shutdown(): it unloads drivers while their threads are still ending, and
+/// crashes.
+void startOpenNi() {
+  if (openni::OpenNI::initialize() == openni::STATUS_OK) return;
+  throw std::runtime_error("OpenNI2 does not start: " +
+                           std::string(openni::OpenNI::getExtendedError()));
+}
 
 /// One of its two eyes.
 struct Eye {
@@ -53,18 +46,19 @@ struct Eye {
 /// A camera that OpenNI2 has a driver for, or its recording.
 class DepthCamera final : public PairCamera {
  public:
-  explicit DepthCamera(const CaptureOptions& options)
-      : PairCamera(options.device),
-        calibration_(options.calibration),
-        is_file_(fs::path(name_).extension() == ".oni") {
+  explicit DepthCamera(const PairCameraParams& params)
+      : PairCamera(params.device, SensorKind::kRgbd), calibration_(params.calibration) {
+    is_live_ = fs::path(name_).extension() != ".oni";
+    startOpenNi();
     openDevice();
-    for (Eye& eye : eyes_) open(eye, options);
-    if (!is_file_) {  // A recording would say yes, and stay as it is.
+    for (Eye& eye : eyes_) open(eye, params);
+    if (is_live_) {  // A recording would say yes, and stay as it is.
       device_.setDepthColorSyncEnabled(true);
       device_.setImageRegistrationMode(openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR);
     }
     if (device_.getImageRegistrationMode() != openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR) {
-      warn(name_ + ": does not say that its depth is in the pixels of its colours; see that it is");
+      warning_ =
+          name_ + ": does not say that its depth is in the pixels of its colours; see that it is";
     }
     if (openni::PlaybackControl* playback = device_.getPlaybackControl()) {
       playback->setSpeed(-1.0F);  // A picture whenever one is read: none is left out.
@@ -75,8 +69,6 @@ class DepthCamera final : public PairCamera {
       if (eye.stream.start() != openni::STATUS_OK) fail(std::string("gives no ") + eye.name);
     }
   }
-
-  PairKind kind() const override { return PairKind::kRgbd; }
 
   bool next() override {
     for (Eye& eye : eyes_) eye.is_new = false;
@@ -125,21 +117,28 @@ class DepthCamera final : public PairCamera {
 
   double length_s() const override {
     const int rate_hz = eyes_[0].stream.getVideoMode().getFps();
-    return is_file_ && rate_hz > 0 ? static_cast<double>(eyes_[0].left) / rate_hz : 0.0;
+    return !is_live_ && rate_hz > 0 ? static_cast<double>(eyes_[0].left) / rate_hz : 0.0;
   }
 
-  void addCalibration(const Output& output) const override {
+  PairCalibration calibration() const override {
+    PairCalibration out;
     const cv::Size size = sizeOf(eyes_[0]);
-    if (calibration_.empty()) return writeFile(output / "camera.yaml", ownCalibration(size));
+    if (calibration_.empty()) {
+      out.file.camera = toldCamera(size);
+      out.file.depth_scale = kDepthScale;
+      out.files["camera.yaml"] = textOf(*out.file.camera);
+      return out;
+    }
     const fs::path file =
         fs::is_directory(calibration_) ? calibration_ / "camera.yaml" : calibration_;
-    const CameraFile camera = readCameraFile(file);
-    if (!camera.camera) throw std::runtime_error(file.string() + ": has no 'width'");
-    checkCalibratedSize(file, camera.camera->width, camera.camera->height, size);
-    if (camera.depth_scale != kDepthScale) {
+    out.file = readCameraFile(file);
+    if (!out.file.camera) throw std::runtime_error(file.string() + ": has no 'width'");
+    checkCalibratedSize(file, out.file.camera->width, out.file.camera->height, size);
+    if (out.file.depth_scale != kDepthScale) {
       throw std::runtime_error(file.string() + ": 'depth_scale' must be 1000 for this camera");
     }
-    writeFile(output / "camera.yaml", readWholeFile(file));
+    out.files["camera.yaml"] = readWholeFile(file);
+    return out;
   }
 
  private:
@@ -149,33 +148,33 @@ class DepthCamera final : public PairCamera {
 
   void openDevice() {
     const std::size_t colon = name_.find(':');
-    const std::string uri = is_file_                     ? name_
+    const std::string uri = !is_live_                    ? name_
                             : colon == std::string::npos ? ""
                                                          : name_.substr(colon + 1);
-    if (is_file_ && !fs::exists(name_)) fail("there is no such recording");
+    if (!is_live_ && !fs::exists(name_)) fail("there is no such recording");
     if (device_.open(uri.empty() ? openni::ANY_DEVICE : uri.c_str()) != openni::STATUS_OK) {
       std::istringstream told(openni::OpenNI::getExtendedError());
       std::string why;
       std::getline(told >> std::ws, why);
-      fail((is_file_ ? "is no recording that OpenNI2 can read" : "OpenNI2 opens no such camera") +
+      fail((is_live_ ? "OpenNI2 opens no such camera" : "is no recording that OpenNI2 can read") +
            (why.empty() ? why : " (" + why + ")"));
     }
   }
 
-  void open(Eye& eye, const CaptureOptions& options) {
+  void open(Eye& eye, const PairCameraParams& params) {
     if (!device_.hasSensor(eye.sensor) ||
         eye.stream.create(device_, eye.sensor) != openni::STATUS_OK) {
       fail(std::string("has no ") + eye.name);
     }
-    if (is_file_) return;
+    if (!is_live_) return;
     eye.stream.setMirroringEnabled(false);
     const auto orElse = [](double asked, double otherwise) {
       return asked > 0 ? asked : otherwise;
     };
     const auto distance = [&](const openni::VideoMode& mode) {
-      return std::abs(mode.getResolutionX() - orElse(options.width, 640)) +
-             std::abs(mode.getResolutionY() - orElse(options.height, 480)) +
-             std::abs(mode.getFps() - orElse(options.rate_hz, 30));
+      return std::abs(mode.getResolutionX() - orElse(params.width, 640)) +
+             std::abs(mode.getResolutionY() - orElse(params.height, 480)) +
+             std::abs(mode.getFps() - orElse(params.rate_hz, 30));
     };
     const openni::VideoMode* best = nullptr;
     const auto& modes = eye.stream.getSensorInfo().getSupportedVideoModes();
@@ -209,29 +208,37 @@ class DepthCamera final : public PairCamera {
 
   bool isAtEnd() const {
     const auto lacks = [](const Eye& eye) { return !eye.is_new && eye.left <= 0; };
-    return is_file_ &&
+    return !is_live_ &&
            (lacks(eyes_[0]) || lacks(eyes_[1]) || (eyes_[0].left <= 0 && eyes_[1].left <= 0));
   }
 
-  std::string ownCalibration(cv::Size size) const {
+  /// By the field of view that it tells.
+  PinholeCamera toldCamera(cv::Size size) const {
     const double view_rad = eyes_[0].stream.getHorizontalFieldOfView();
     if (!(view_rad > 0.1 && view_rad < 3.0)) {
       fail("does not tell its field of view; give it a camera.yaml by --calibration");
     }
     const double focal_px = 0.5 * size.width / std::tan(0.5 * view_rad);
+    return {size.width,
+            size.height,
+            focal_px,
+            focal_px,
+            0.5 * (size.width - 1),
+            0.5 * (size.height - 1)};
+  }
+
+  static std::string textOf(const PinholeCamera& camera) {
     std::array<char, 300> text{};
     std::snprintf(text.data(), text.size(),
                   "# By the field of view that the camera tells.\n"
                   "width: %d\nheight: %d\nfx: %.6f\nfy: %.6f\ncx: %.1f\ncy: %.1f\n"
                   "depth_scale: %d\n",
-                  size.width, size.height, focal_px, focal_px, 0.5 * (size.width - 1),
-                  0.5 * (size.height - 1), kDepthScale);
+                  camera.width, camera.height, camera.fx, camera.fy, camera.cx, camera.cy,
+                  kDepthScale);
     return text.data();
   }
 
   fs::path calibration_;
-  bool is_file_;
-  OpenNiSession session_;
   openni::Device device_;
   std::array<Eye, 2> eyes_ = {
       Eye{openni::SENSOR_COLOR, openni::PIXEL_FORMAT_RGB888, CV_8UC3, "colour"},
@@ -241,8 +248,8 @@ class DepthCamera final : public PairCamera {
 
 }  // namespace
 
-std::unique_ptr<PairCamera> openDepthCamera(const CaptureOptions& options) {
-  return std::make_unique<DepthCamera>(options);
+std::unique_ptr<PairCamera> openDepthCamera(const PairCameraParams& params) {
+  return std::make_unique<DepthCamera>(params);
 }
 
 }  // namespace heel

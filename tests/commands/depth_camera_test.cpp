@@ -2,16 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// heel capture, from recordings of OpenNI2: to it they are the same thing as cameras.
+/// heel capture and heel live --camera, from recordings of OpenNI2: to it they are the same thing
+/// as cameras.
 
 #include "tests/commands/heel.hpp"
+#include "tests/commands/small_model.hpp"
+#include "tests/commands/small_recording.hpp"
 #include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
+#include <array>
+#include <csignal>
 #include <cstdint>
+#include <functional>
 
 namespace heel::test {
 namespace {
@@ -27,6 +34,8 @@ struct Oni {
   bool is_mirrored = false;
   bool has_depth = true;
   std::uint64_t depth_late_us = 2000;
+  std::uint64_t step_us = 33000;
+  std::function<std::array<cv::Mat, 2>(int)> pictures = nullptr;  ///< If others: RGB, millimetres.
 };
 
 /// The bytes of an .oni file: colours of blue 7, green 20 and the frame's number, red 200, the
@@ -46,12 +55,16 @@ class OniBytes {
       addRecord(8, node, of<std::uint32_t>(~0U, ~0U, ~0U));
     }
     for (std::uint32_t i = 1; i <= static_cast<std::uint32_t>(oni.frames); ++i) {
-      const std::uint64_t stamp_us = 33000UL * i;
       cv::Mat color(oni.colors, CV_8UC3, cv::Scalar(200, 20 + i, 7));
       color.col(0).setTo(0);
-      addPicture(1, stamp_us, i, color);
-      const cv::Mat depth(oni.depths, CV_16UC1, cv::Scalar(1000 + i));
-      if (oni.has_depth) addPicture(2, stamp_us + oni.depth_late_us, i, depth);
+      cv::Mat depth(oni.depths, CV_16UC1, cv::Scalar(1000 + i));
+      if (oni.pictures) {
+        const std::array<cv::Mat, 2> pair = oni.pictures(static_cast<int>(i));
+        color = pair[0];
+        depth = pair[1];
+      }
+      addPicture(1, oni.step_us * i, i, color);
+      if (oni.has_depth) addPicture(2, oni.step_us * i + oni.depth_late_us, i, depth);
     }
     addRecord(11, 0, "");
   }
@@ -236,6 +249,67 @@ TEST_F(CaptureDepth, KeepsWhatCameBeforeTheCameraFailed) {
   EXPECT_THAT(
       filesBelow(folder_ / "out"),
       ElementsAre("camera.yaml", "depth.txt", "depth/000001.png", "rgb.txt", "rgb/000001.png"));
+}
+
+TEST(LiveCamera, SeesAPersonAsOftenAsTrackDoesInARecording) {
+#ifndef HEEL_HAS_OPENNI
+  GTEST_SKIP() << "Heel is built without OpenNI2";
+#endif
+  constexpr int kFirst = 15, kFrames = 31;  // 2 s of the empty room, then somebody enters
+  const TempFolder folder;
+  SmallRecording().write(folder / "room");
+  writeSmallModel(folder / "rosa.yaml");
+  Oni oni;
+  oni.frames = kFrames;
+  oni.colors = oni.depths = cv::imread(colorImage(folder / "room", 1)).size();
+  oni.step_us = 200000;
+  oni.pictures = [&folder](int number) {
+    cv::Mat color = cv::imread(colorImage(folder / "room", kFirst - 1 + number));
+    cv::cvtColor(color, color, cv::COLOR_BGR2RGB);
+    const std::string depth = depthImage(folder / "room", kFirst - 1 + number);
+    return std::array<cv::Mat, 2>{color, cv::imread(depth, cv::IMREAD_UNCHANGED)};
+  };
+  writeText(folder / "room.oni", OniBytes(oni).bytes());
+  const HeelRun live =
+      heel({"live", "--camera", folder / "room.oni", "--calibration", folder / "room/camera.yaml",
+            "--model", folder / "rosa.yaml", "--port", "0"});
+  ASSERT_TRUE(live.succeeded()) << live.err;
+  EXPECT_THAT(live.err, HasSubstr("pictures are at http://127.0.0.1:"));
+  // Its first 2 s, till and with 2.2 s, only place the camera.
+  const HeelRun track = heel({"track", folder / "room", "--model", folder / "rosa.yaml", "--out",
+                              folder / "out", "--no-film", "--from", "5.1", "--to", "8.9"});
+  ASSERT_TRUE(succeeds(track));
+  const std::string seen = track.out.substr(0, track.out.find('\n'));
+  EXPECT_THAT(seen, testing::StartsWith("19 frames, the target seen or predicted in 1"));
+  EXPECT_EQ("19 pictures" + seen.substr(seen.find(',')) + '\n', live.out);
+}
+
+TEST(LiveCamera, EndsBySignalsAndSaysThatNobodyWasSeen) {
+#ifndef HEEL_HAS_OPENNI
+  GTEST_SKIP() << "Heel is built without OpenNI2";
+#endif
+  const TempFolder folder;
+  writeSmallModel(folder / "rosa.yaml");
+  writeText(folder / "camera.yaml",
+            "width: 64\nheight: 48\nfx: 60\nfy: 60\ncx: 31.5\ncy: 23.5\ndepth_scale: 1000\n"
+            "T_ground_camera: [0, 0, 1, 0, -1, 0, 0, 0, 0, -1, 0, 1.2, 0, 0, 0, 1]\n");
+  Oni oni;
+  oni.frames = 1000;
+  writeText(folder / "room.oni", OniBytes(oni).bytes());
+  const HeelRun run =
+      heelSignalled({"live", "--camera", folder / "room.oni", "--calibration",
+                     folder / "camera.yaml", "--model", folder / "rosa.yaml", "--port", "0"},
+                    "pictures are at", {SIGINT});
+  EXPECT_EQ(run.exit_code, 4);
+  EXPECT_THAT(run.err, HasSubstr("room.oni: the person was not seen"));
+}
+
+TEST(LiveCamera, RefusesCallsThatMakeNoSense) {
+  EXPECT_TRUE(failsWith(heel({"live", "--camera", "0"}), {"--camera", "--model"}));
+  EXPECT_TRUE(failsWith(heel({"live", "--camera", "0", "--model", "x", "--map", "home"}),
+                        {"--camera", "excludes", "--map"}));
+  EXPECT_TRUE(failsWith(heel({"live", "--width", "64", "--out", "x"}), {"--width", "--camera"}));
+  EXPECT_TRUE(failsWith(heel({"live"}), {"--out"}));
 }
 
 }  // namespace
