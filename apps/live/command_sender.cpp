@@ -36,10 +36,14 @@ CommandSender::~CommandSender() {
 }
 
 void CommandSender::set(const VelocityCommand& command, double stamp_s) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  command_ = command;
-  stamp_s_ = stamp_s;
-  set_s_ = steadyClock_s();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    command_ = command;
+    stamp_s_ = stamp_s;
+    set_s_ = steadyClock_s();
+    is_new_ = true;
+  }
+  wakes_.notify_one();
 }
 
 std::size_t CommandSender::stopped() const {
@@ -74,11 +78,12 @@ void CommandSender::run() {
     const bool may_drive = is_fresh && !params_.must_stand();
     const VelocityCommand command = may_drive ? command_ : VelocityCommand{};
     const double stamp_s = stampNow_s();
+    is_new_ = false;
     lock.unlock();
     send(command, stamp_s);
     lock.lock();
     wakes_.wait_for(lock, std::chrono::duration<double>(1.0 / params_.rate_hz),
-                    [this] { return ends_; });
+                    [this] { return ends_ || is_new_; });
   }
 }
 

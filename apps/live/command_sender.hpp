@@ -19,8 +19,8 @@ namespace heel {
 
 struct CommandSenderParams {
   std::string topic = "/cmd_vel";
-  bool stamped = false;  ///< geometry_msgs/TwistStamped, in the frame base_link, and not Twist.
-  double rate_hz = 20.0;
+  bool stamped = false;   ///< geometry_msgs/TwistStamped, in the frame base_link, and not Twist.
+  double rate_hz = 20.0;  ///< At least.
   /// A command that is older is not sent any more: then the robot is told to stand. As long as the
   /// follower's own sensors may be late.
   double timeout_s = 0.4;
@@ -28,9 +28,9 @@ struct CommandSenderParams {
   std::function<bool()> must_stand = [] { return false; };
 };
 
-/// Sends the last command again and again, in a thread of its own, for as long as it is fresh; else
-/// a zero. However the program leaves, by a return or an exception, it sends zeros at the end. (One
-/// that is killed sends nothing: the base itself must stop when nothing comes.)
+/// Sends a command at once, and again and again, in a thread of its own, for as long as it is
+/// fresh; else a zero. However the program leaves, by a return or an exception, it sends zeros at
+/// the end. (One that is killed sends nothing: the base itself must stop when nothing comes.)
 class CommandSender {
  public:
   /// @throws std::runtime_error  if nothing can be sent.
@@ -58,7 +58,7 @@ class CommandSender {
   double stamp_s_ = 0.0;  // when it was set,
   double set_s_ = 0.0;    // and that on the steady clock; 0: never
   std::size_t stopped_ = 0;
-  bool is_fresh_ = false;
+  bool is_fresh_ = false, is_new_ = false;
   bool ends_ = false;
   std::thread thread_;
 };

@@ -77,17 +77,19 @@ RobotDescription describeFound(const LiveOptions& options, const FoundRobot& fou
   return robot;
 }
 
-/// Takes in what comes until it is time for the next command: after a period, or, not much before
-/// that, as soon as there is a new frame.
-void listen(LiveNetwork& network, LiveReadings& readings, double period_s) {
-  constexpr double kLeastShare = 0.7;
+/// Takes in what comes until it is time for the next step: a period after the last one, or, not
+/// much sooner than 30 a second, as soon as there is a new frame.
+void listen(LiveNetwork& network, LiveReadings& readings, double period_s, double last_step_s) {
+  constexpr double kLeastShare = 0.3;
   const double began_s = steadyClock_s();
   bool has_frame = false;
-  for (double past_s = 0.0; past_s < period_s; past_s = steadyClock_s() - began_s) {
-    if (has_frame && past_s > kLeastShare * period_s) return;
-    const double until_s = (has_frame ? kLeastShare : 1.0) * period_s;
-    if (const auto message = network.next(std::max(until_s - past_s, 0.0))) {
+  for (double now_s = began_s; now_s < began_s + period_s; now_s = steadyClock_s()) {
+    const double due_s = last_step_s + (has_frame ? kLeastShare : 1.0) * period_s;
+    const auto message = network.next(std::max(due_s - now_s, 0.0));
+    if (message) {
       has_frame = readings.take(message->topic, message->stamp_ns, message->bytes, steadyClock_s());
+    } else if (steadyClock_s() >= due_s) {
+      return;
     }
   }
 }
@@ -96,7 +98,7 @@ void listen(LiveNetwork& network, LiveReadings& readings, double period_s) {
 FloorPose firstOdometry(LiveNetwork& network, const LiveCommands& commands,
                         LiveReadings& readings) {
   while (!isToldToStop(commands)) {
-    listen(network, readings, 0.1);
+    listen(network, readings, 0.1, steadyClock_s());
     const std::optional<FloorPose> place = readings.read(steadyClock_s()).odometry;
     if (place && place->position.allFinite() && std::isfinite(place->yaw_rad)) return *place;
   }
@@ -157,8 +159,10 @@ void run(const LiveOptions& options) {
   StateTeller teller;
   SilenceTeller silence;
   StereoReading picture;
+  double last_step_s = began_s;
   while (true) {
-    listen(*network, readings, robot.drive.period_s);
+    listen(*network, readings, robot.drive.period_s, last_step_s);
+    last_step_s = steadyClock_s();
     if (isToldToStop(commands)) {
       log.outcome = kStoppedRun;
       break;
@@ -231,7 +235,7 @@ void addLive(CLI::App& app) {
       "  heel simulate home --live\n"
       "  heel live --map home --robot-start 0.8,2.2,0 --out out/live\n"
       "Hears a camera (stereo, or colour and depth), a laser, odometry and tf; sends velocities\n"
-      "to /cmd_vel, 20 a second, and zeros when anything is late, and when it ends. A program "
+      "to /cmd_vel, at least 20 a second, and zeros when anything is late, and when it ends. A program "
       "that\n"
       "is killed sends nothing: the robot's base must stop by itself then.\n"
       "Words on /heel/command (std_msgs/String) tell it to 'pause', to 'go' on, to 'forget' the\n"

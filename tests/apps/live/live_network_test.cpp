@@ -337,6 +337,23 @@ TEST(CommandSender, SendsWhatIsFreshThenZeros) {
   EXPECT_EQ(sent.back(), 0.0);
 }
 
+TEST(CommandSender, SendsANewCommandAtOnce) {
+  std::vector<double> sent;
+  std::atomic<int> asked{0};  // before each that is sent
+  CommandSenderParams params;
+  params.rate_hz = 0.001;
+  params.timeout_s = 1000.0;
+  params.must_stand = [&] { return ++asked < 0; };
+  {
+    CommandSender sender(std::make_unique<Wheels>(sent), params);
+    sender.set({0.25, 0.1}, 0.0);
+    EXPECT_TRUE(waitFor([&] { return asked == 1; }));
+    sender.set({0.5, 0.1}, 0.0);
+    EXPECT_TRUE(waitFor([&] { return asked == 2; }));
+  }
+  EXPECT_THAT(sent, testing::IsSupersetOf({0.25, 0.5}));
+}
+
 TEST(CommandSender, SendsZerosWhileTheRobotMustStand) {
   std::vector<double> sent;
   std::atomic<bool> must_stand{false};
