@@ -155,6 +155,22 @@ Eigen::Vector2d YamlMap::point2(const std::string& key) {
   return Eigen::Vector2d(numbers(key, 2).data());
 }
 
+std::vector<Eigen::Vector2d> YamlMap::points2(const std::string& key) {
+  YAML::Node found = value(key);
+  try {
+    if (found.IsDefined() && found.IsScalar()) found.reset(YAML::Load(found.Scalar()));
+  } catch (const YAML::Exception&) {
+    found.reset();
+  }
+  if (!found.IsDefined() || !found.IsSequence()) fail(key, "must be a list of points");
+  std::vector<Eigen::Vector2d> points;
+  for (const YAML::Node& point : found) {
+    if (!point.IsSequence() || point.size() != 2) fail(key, "must be a list of points, of x and y");
+    points.emplace_back(numberOf(point[0], key, {}), numberOf(point[1], key, {}));
+  }
+  return points;
+}
+
 Eigen::Vector3d YamlMap::point3(const std::string& key) {
   return Eigen::Vector3d(numbers(key, 3).data());
 }

@@ -66,6 +66,8 @@ class YamlMap {
   std::vector<double> numbers(const std::string& key, std::size_t count);
   /// A list of x and y.
   Eigen::Vector2d point2(const std::string& key);
+  /// A list of these, or, as in ROS's files, a text that is one.
+  std::vector<Eigen::Vector2d> points2(const std::string& key);
   /// A list of x, y and z.
   Eigen::Vector3d point3(const std::string& key);
   /// The same, or `fallback`.

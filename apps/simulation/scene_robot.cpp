@@ -3,6 +3,7 @@
 
 #include <heel/apps/simulation/scene_parts.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <sstream>
@@ -117,7 +118,8 @@ void visit(Keys& keys, Part& p) {
     keys.number("drift_bias", p.drift_bias, {-1, 1}, "[rad/m]");
   } else {
     auto& drive = p.drive;
-    keys.number("radius_m", drive.radius_m, kPositive, "[m] of the disc that holds the robot");
+    keys.number("radius_m", drive.radius_m, kPositive,
+                "[m] of the disc that holds the robot; or footprint: its corners, as Nav2's");
     keys.number("height_m", p.height_m, kPositive, "[m] what hangs lower is in its way");
     keys.number("max_speed_mps", drive.max_speed_mps, kPositive, "[m/s] forwards");
     keys.number("max_reverse_mps", drive.max_reverse_mps, kPositive, "[m/s] backwards");
@@ -134,10 +136,23 @@ void visit(Keys& keys, Part& p) {
   }
 }
 
+/// The radius of the disc around the base's origin that holds these corners [m].
+double radiusAround(YamlMap& map) {
+  constexpr const char* kKey = "footprint";
+  const std::vector<Eigen::Vector2d> corners = map.points2(kKey);
+  if (map.has("radius_m")) map.fail(kKey, "and 'radius_m' tell the same; give one of them");
+  if (corners.size() < 3) map.fail(kKey, "needs three corners or more");
+  double radius_m = 0.0;
+  for (const Eigen::Vector2d& corner : corners) radius_m = std::max(radius_m, corner.norm());
+  if (!(radius_m > 0.0)) map.fail(kKey, "must have a size");
+  return radius_m;
+}
+
 }  // namespace
 
 RobotParams readRobotItself(YamlMap& map) {
   RobotParams robot;
+  if (map.has("footprint")) robot.drive.radius_m = radiusAround(map);
   RobotReader reader{map};
   visit(reader, robot);
   map.done();

@@ -4,17 +4,23 @@
 #include "tests/planning/small_net.hpp"
 #include "tests/support/small_home.hpp"
 #include <heel/apps/experiment/closed_loop.hpp>
+#include <heel/apps/simulation/scene_map.hpp>
+#include <heel/mapping/body_check.hpp>
 #include <heel/planning/plan_file.hpp>
 
 #include <gmock/gmock.h>
 #include <malloc.h>
+#include <octomap/OcTree.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 namespace heel {
 namespace {
@@ -126,6 +132,21 @@ void expectStopsAndGoesOn(const FollowLog& log, double for_s, double blind_s,
                            .norm();
   EXPECT_LT(way_m, 0.3 * 0.3 / (2.0 * 0.5) + 0.3 * 0.1) << "its way to stop, and a step's";
   EXPECT_GT(at(log, kOnTheWay_s + for_s + 1.0).speed_true.forward_mps, 0.1);
+}
+
+TEST(ClosedLoop, ARobotOfCornersTouchesNothingByFclEither) {
+  Scene scene = test::smallHome();
+  scene.robot.drive.radius_m = std::hypot(0.3, 0.15);  // As a footprint of 0.6 x 0.3 m is read.
+  const FollowLog log = follow(scene);
+  for (Furniture& piece : scene.furniture) piece.in_map = true;
+  RobotBody body;
+  body.footprint = BoxFootprint{0.6, 0.3, 0.0};
+  body.top_m = scene.robot.height_m;
+  const BodyCheck world(body, *wallMapOf(scene).tree());
+  std::vector<FloorPose> driven;
+  for (const FollowSample& sample : log.samples) driven.push_back(sample.robot_true);
+  EXPECT_EQ(log.outcome, "reached");
+  EXPECT_EQ(world.firstCollision(driven), std::nullopt);
 }
 
 TEST(ClosedLoop, LearnsAPersonAndReachesThem) {

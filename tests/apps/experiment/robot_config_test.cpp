@@ -64,6 +64,24 @@ TEST_F(RobotConfigFile, WhatIsChangedIsReadBackChanged) {
   EXPECT_EQ(describeRobot(back.robot).scan_latency_s, 0.04);
 }
 
+TEST_F(RobotConfigFile, AFootprintIsDrivenAsTheDiscAroundIt) {
+  const auto radiusOf = [this](const std::string& footprint) {
+    return read("robot:\n  footprint: " + footprint + "\n").robot.drive.radius_m;
+  };
+  EXPECT_DOUBLE_EQ(radiusOf("[[0.3, 0.4], [-0.3, 0.4], [-0.1, -0.2]]"), 0.5);
+  EXPECT_DOUBLE_EQ(radiusOf("\"[ [0.3, 0.4], [-0.3, 0.4], [-0.1, -0.2] ]\""), 0.5) << "as Nav2's";
+  for (const char* wrong : {"[[1, 2], [3, 4]]", "[[0, 0], [0, 0], [0, 0]]"}) {
+    EXPECT_THAT(errorOf(std::string("robot:\n  footprint: ") + wrong + "\n"),
+                HasSubstr(file_ + ", line 2: 'footprint'"));
+  }
+  for (const char* wrong : {"3", "round", "[1, 2]", "[[1, 2, 3]]", "[[1, a]]", "\"[[1, 2]\""}) {
+    EXPECT_THAT(errorOf(std::string("robot:\n  footprint: ") + wrong + "\n"),
+                HasSubstr(file_ + ", line 2: 'footprint'"));
+  }
+  EXPECT_THAT(errorOf("robot:\n  radius_m: 1\n  footprint: [[1, 1], [-1, 1], [0, -1]]\n"),
+              HasSubstr("'radius_m' tell the same"));
+}
+
 TEST_F(RobotConfigFile, WhatIsLeftOutHasItsDefault) {
   EXPECT_EQ(toYaml(read("follow: {near_m: 1.0}\n")), toYaml(RobotConfig{}));
 }
