@@ -19,9 +19,12 @@ bool has(const std::string& text, const std::string& word) {
   return text.find(word) != std::string::npos;
 }
 
-/// A topic's name without what image_transport adds to it.
+/// What image_transport adds to an image's name.
+constexpr std::array kTransportEnds = {"/compressedDepth", "/compressed"};
+
+/// A topic's name without that.
 std::string plainName(std::string name) {
-  for (const std::string end : {"/compressedDepth", "/compressed"}) {
+  for (const std::string end : kTransportEnds) {
     if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0) {
       name.resize(name.size() - end.size());
     }
@@ -189,6 +192,9 @@ void addOthers(const BagSurvey& survey, BagCamera& camera) {
 const BagTopicSummary* named(const BagSurvey& survey, const std::string& name,
                              bool (*is)(const BagTopicSummary&), const char* what) {
   const BagTopicSummary* topic = survey.find(name);
+  for (const char* end : kTransportEnds) {
+    if (topic == nullptr) topic = survey.find(name + end);
+  }
   if (topic == nullptr) failWithTopics(survey, "has no messages of the topic '" + name + "'");
   if (!is(*topic)) failWithTopics(survey, std::string("holds no ") + what + " on '" + name + "'");
   return topic;

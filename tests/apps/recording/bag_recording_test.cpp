@@ -244,6 +244,24 @@ TEST_P(BagRecordings, FindsTheCameraOnTheRobotInTf) {
               HasSubstr("is on 'torso'; it is on 'base_footprint', 'base_link'"));
 }
 
+TEST_P(BagRecordings, TakesATopicByItsNameWithoutWhatCompressionAddsToIt) {
+  const auto bag = beginStereo();
+  for (const auto& [topic, value] : {std::pair(left_, 10), std::pair(right_, 90)}) {
+    CompressedImageMsg message;
+    message.header = header(0.1);
+    message.format = "bgr8; png compressed bgr8";
+    cv::imencode(".png", cv::Mat(kHeight, kWidth, CV_8UC3, cv::Scalar::all(value)), message.data);
+    bag->write(topic + "/compressed", 100'000'000, message);
+  }
+  bag->commit();
+  BagTopics topics;
+  topics.left = left_;
+  topics.right = right_;
+  const Read read = readAll(path(), topics);
+  EXPECT_THAT(read.numbers, ElementsAre(1));
+  EXPECT_EQ(read.last.right_bgr.at<cv::Vec3b>(3, 3), cv::Vec3b(90, 90, 90));
+}
+
 TEST_P(BagRecordings, NamesTheTopicsWhereThereIsNoCamera) {
   const auto bag = createBag(path());
   bag->write("/scan", 1, LaserScanMsg());
