@@ -41,7 +41,8 @@ StereoRig readStereoRig(const fs::path& path, cv::Size image_size) {
   if (fs::exists(path / "calib.txt")) return readMiddleburyCalibration(path / "calib.txt");
   throw std::runtime_error(
       path.string() +
-      ": it holds no calibration (left.yaml and right.yaml, calib.yaml, stereo.yaml, calib.txt)");
+      ": it holds no calibration (left.yaml and right.yaml, intrinsics.yml and extrinsics.yml, "
+      "calib.yaml, stereo.yaml, calib.txt)");
 }
 
 namespace {

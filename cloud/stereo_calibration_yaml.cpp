@@ -149,6 +149,8 @@ class StoredValues {
     return matrix;
   }
 
+  bool tellsSize() const { return !size({}).empty(); }
+
   cv::Size size(cv::Size fallback) const {
     const auto both = numbers({"imagesize", "imgsize", "size"}, 2);
     if (!both.empty()) return cv::Size2d(both[0], both[1]);
@@ -255,6 +257,19 @@ CameraInfo readOne(const fs::path& file) {
   return info;
 }
 
+/// The middle of a lens is not far off the middle of the images that it makes.
+void checkMiddle(const cv::Mat& K, cv::Size size, const std::string& origin) {
+  const auto isNear = [](double middle, int length) {
+    return middle > 0.3 * length && middle < 0.7 * length;
+  };
+  const double cx = K.at<double>(0, 2), cy = K.at<double>(1, 2);
+  if (isNear(cx, size.width) && isNear(cy, size.height)) return;
+  std::ostringstream why;
+  why << "it tells no size, and is of others than these images of " << size.width << 'x'
+      << size.height << ": the middle of its lens is at (" << cx << ", " << cy << ')';
+  fail(origin, why.str());
+}
+
 }  // namespace
 
 StereoRig readOpenCvCalibration(const std::vector<fs::path>& files, cv::Size image_size) {
@@ -274,6 +289,9 @@ StereoRig readOpenCvCalibration(const std::vector<fs::path>& files, cv::Size ima
   right.K = stored.get({"m2", "k2", "cameramatrix2", "cameramatrixright", "rightcameramatrix",
                         "cameramatrixr", "kright", "mright", "kr", "mr", "rightk"},
                        3, 3, "the right camera matrix (M2)");
+  if (!stored.tellsSize() && !size.empty()) {
+    for (const RawCamera* raw : {&left, &right}) checkMiddle(raw->K, size, stored.origin());
+  }
   left.distortion =
       stored.get({"d1", "distcoeffs1", "distcoeff1", "distortioncoefficients1", "distortion1",
                   "distcoeffsleft", "leftdistcoeffs", "distortioncoefficientsleft",

@@ -82,10 +82,13 @@ class SideBySide final : public PairCamera {
       return out;
     }
     static const std::set<std::string> kinds = {".yaml", ".yml", ".xml", ".json"};
+    static const std::set<std::string> stems = {"left",  "right",  "intrinsics",  "extrinsics",
+                                                "calib", "stereo", "calibration", "camera"};
     for (const fs::directory_entry& file : fs::directory_iterator(calibration_)) {
       const std::string name = file.path().filename().string();
       if (!file.is_regular_file() || name.front() == '.') continue;
-      if (kinds.count(file.path().extension().string()) != 0 || name == "calib.txt") {
+      const bool is_known = stems.count(file.path().stem().string()) != 0;
+      if ((is_known && kinds.count(file.path().extension().string()) != 0) || name == "calib.txt") {
         out.files[name] = readWholeFile(file.path());
       }
       if (name == "camera.yaml") out.file = readCameraFile(file.path());

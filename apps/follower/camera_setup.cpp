@@ -17,8 +17,8 @@ void placeCamera(const Recording& recording, const CameraSetupParams& params, Ca
   if (!setup.is_configured && !setup.ground) {
     throw std::runtime_error(
         recording.info().name +
-        ": the camera's place is not configured, and no floor was found in the "
-        "first seconds");
+        ": the camera's place is not configured (T_ground_camera in camera.yaml, or tf), and no "
+        "floor was found in the first seconds");
   }
   setup.T_base_camera = setup.is_configured ? *configured : setup.ground->T_base_camera;
   if (setup.is_configured && setup.ground) {

@@ -129,7 +129,8 @@ void run(const CaptureOptions& options) {
     warn(std::to_string(left_out) + " pictures were left out: their times do not increase");
   }
   if (calibration.empty() && camera.kind() == SensorKind::kStereo) {
-    warn(options.out.string() + ": before others can read it, put a stereo calibration there");
+    warn(options.out.string() +
+         ": before 'heel learn' can read it, put a stereo calibration there");
   }
   std::printf("%zu pairs of %dx%d over %.1f s; wrote %s\n", pairs.count(), size.width, size.height,
               last_s, output.path().c_str());

@@ -76,7 +76,9 @@ const RobotReadings& LiveReadings::read(double clock_s) {
     readings_.odometry_stamp_s = odometry->stamp_s;
     notice(odometry->stamp_s, clock_s);
   }
-  readings_.stamp_s = newest_s_ + (clock_s - newest_came_s_);
+  // A message that was late must not turn back what was reckoned before it came.
+  now_s_ = std::max(now_s_, newest_s_ + (clock_s - newest_came_s_));
+  readings_.stamp_s = now_s_;
   return readings_;
 }
 

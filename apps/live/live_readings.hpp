@@ -11,6 +11,7 @@
 #include <heel/apps/recording/laser_log.hpp>
 #include <heel/apps/recording/recording.hpp>
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,8 +21,8 @@ namespace heel {
 /// Puts a robot's messages together: images to frames, scans, odometry. Which topics are the
 /// robot's camera, laser and wheels, and where they are on it, is found out as of a bag.
 ///
-/// Time is the sensors': the newest stamp, and what has passed since it came. So the robot's clock
-/// may be another than ours, and a simulated one may be slow.
+/// Time is the sensors': the newest stamp, and what has passed since it came; it never goes back.
+/// So the robot's clock may be another than ours, and a simulated one may be slow.
 class LiveReadings {
  public:
   /// @param survey  Of what has come so far.
@@ -66,6 +67,7 @@ class LiveReadings {
   bool has_next_ = false;
   LaserReading scan_;
   RobotReadings readings_;
+  double now_s_ = std::numeric_limits<double>::lowest();
   double newest_s_ = 0.0;       // stamp, and
   double newest_came_s_ = 0.0;  // when that came
   double next_came_s_ = 0.0, frame_came_s_ = 0.0;

@@ -88,6 +88,7 @@ TEST_F(Capture, HalvesAVideoIntoARecordingThatTheOtherVerbsRead) {
 TEST_F(Capture, TakesACalibrationsFolderWithTheCamerasPlace) {
   const std::string rig = rigWithItsPlace();
   writeText(folder_ / "rig/letter.odt", "dear");
+  writeText(folder_ / "rig/summary.json", "{}");
   ASSERT_TRUE(succeeds(capture(video(3), {"--calibration", rig})));
   EXPECT_THAT(filesBelow(folder_ / "out"),
               ElementsAre("camera.yaml", "left/000001.png", "left/000002.png", "left/000003.png",

@@ -75,9 +75,10 @@ PictureStream::PictureStream(int port) : server_(std::make_unique<Server>()) {
   if (port == 0) {
     port = server.http.bind_to_any_port(kHost);
   } else if (!server.http.bind_to_port(kHost, port)) {
-    port = -1;
+    throw std::runtime_error("the port " + std::to_string(port) +
+                             " is not free; choose another by --port");
   }
-  if (port < 0) throw std::runtime_error("the port is not free; choose another by --port");
+  if (port < 0) throw std::runtime_error("no port is free");
   url_ = std::string("http://") + kHost + ':' + std::to_string(port);
   server.thread = std::thread([&server] { server.http.listen_after_bind(); });
   while (!server.http.is_running()) std::this_thread::yield();  // stop() would not be heard

@@ -162,7 +162,9 @@ void run(TrackOptions options) {
   end.skipped.insert(end.skipped.end(), recording->skipped().begin(), recording->skipped().end());
   if (output.frames() == 0) {
     if (!end.complete) throw Stopped("stopped before the first frame; nothing is written");
-    end.skipped.insert(end.skipped.end(), unplaced.begin(), unplaced.end());
+    const bool is_mostly_lost = unplaced.size() > end.skipped.size();
+    end.skipped.insert(is_mostly_lost ? end.skipped.begin() : end.skipped.end(), unplaced.begin(),
+                       unplaced.end());
     throw std::runtime_error(nothingReadMessage(*recording, end.skipped));
   }
   for (const SkippedFrame& frame_left_out : end.skipped) warn(frame_left_out.reason);
