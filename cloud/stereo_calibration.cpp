@@ -15,34 +15,39 @@ namespace heel {
 
 namespace fs = std::filesystem;
 
-StereoRig readStereoRig(const fs::path& path, cv::Size image_size) {
+std::vector<fs::path> stereoRigFiles(const fs::path& path) {
   if (!fs::exists(path))
     throw std::runtime_error(path.string() + ": there is no such file or folder");
-  if (!fs::is_directory(path)) {
-    if (path.extension() == ".txt") return readMiddleburyCalibration(path);
-    return readOpenCvCalibration({path}, image_size);
-  }
+  if (!fs::is_directory(path)) return {path};
   for (const char* ending : {".yaml", ".yml"}) {
     const auto left = path / (std::string("left") + ending);
     const auto right = path / (std::string("right") + ending);
-    if (fs::exists(left) || fs::exists(right)) return readCameraInfo(left, right);
+    if (fs::exists(left) || fs::exists(right)) return {left, right};
   }
   for (const char* ending : {".yml", ".yaml", ".xml"}) {
-    const auto intrinsics = path / (std::string("intrinsics") + ending);
     const auto extrinsics = path / (std::string("extrinsics") + ending);
-    if (fs::exists(extrinsics)) return readOpenCvCalibration({intrinsics, extrinsics}, image_size);
+    if (fs::exists(extrinsics)) return {path / (std::string("intrinsics") + ending), extrinsics};
   }
   for (const char* name : {"calib", "stereo", "calibration"}) {
     for (const char* ending : {".yaml", ".yml", ".xml", ".json"}) {
       const auto file = path / (std::string(name) + ending);
-      if (fs::exists(file)) return readOpenCvCalibration({file}, image_size);
+      if (fs::exists(file)) return {file};
     }
   }
-  if (fs::exists(path / "calib.txt")) return readMiddleburyCalibration(path / "calib.txt");
+  if (fs::exists(path / "calib.txt")) return {path / "calib.txt"};
   throw std::runtime_error(
       path.string() +
       ": it holds no calibration (left.yaml and right.yaml, intrinsics.yml and extrinsics.yml, "
       "calib.yaml, stereo.yaml, calib.txt)");
+}
+
+StereoRig readStereoRig(const fs::path& path, cv::Size image_size) {
+  const std::vector<fs::path> files = stereoRigFiles(path);
+  if (files.front().extension() == ".txt") return readMiddleburyCalibration(files.front());
+  if (files.size() == 2 && files.front().stem() == "left") {
+    return readCameraInfo(files.front(), files.back());
+  }
+  return readOpenCvCalibration(files, image_size);
 }
 
 namespace {

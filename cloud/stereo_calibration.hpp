@@ -34,9 +34,12 @@ StereoRig readCameraInfo(const std::filesystem::path& left, const std::filesyste
 /// Middlebury's calib.txt (version 3, millimetres); its images are rectified.
 StereoRig readMiddleburyCalibration(const std::filesystem::path& file);
 
-/// Reads whichever of these `path` is: a file, or a folder that holds left.yaml and right.yaml,
-/// intrinsics.yml and extrinsics.yml, calib.txt, or one of
-/// calib/stereo/calibration.{yaml,yml,xml}.
+/// The files of the calibration that `path` is: a file, or a folder that holds left.yaml and
+/// right.yaml, intrinsics.yml and extrinsics.yml, one of
+/// calib/stereo/calibration.{yaml,yml,xml,json}, or calib.txt.
+std::vector<std::filesystem::path> stereoRigFiles(const std::filesystem::path& path);
+
+/// Reads them, whichever they are.
 StereoRig readStereoRig(const std::filesystem::path& path, cv::Size image_size = {});
 
 }  // namespace heel

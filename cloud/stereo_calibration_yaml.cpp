@@ -257,7 +257,8 @@ CameraInfo readOne(const fs::path& file) {
   return info;
 }
 
-/// The middle of a lens is not far off the middle of the images that it makes.
+/// The middle of a lens is near the middle of the images that it makes: of others, half or twice as
+/// large, it is at a quarter of their length, or at their end.
 void checkMiddle(const cv::Mat& K, cv::Size size, const std::string& origin) {
   const auto isNear = [](double middle, int length) {
     return middle > 0.3 * length && middle < 0.7 * length;

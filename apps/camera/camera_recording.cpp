@@ -31,20 +31,16 @@ CameraRecording::CameraRecording(const PairCameraParams& params) : camera_(openP
 }
 
 bool CameraRecording::awaitPair() {
-  double last_s = camera_->stamp_s();
-  do {
-    if (!camera_->next()) {
-      if (camera_->hasFailed()) throw std::runtime_error(info_.name + ": gives no more pictures");
-      return false;
-    }
-  } while (began_ && !(camera_->stamp_s() > last_s && camera_->stamp_s() < kLongestVideo_s));
-  const auto now = std::chrono::steady_clock::now();
-  const std::chrono::duration<double> since_first(began_ ? camera_->stamp_s() : 0.0);
-  if (!began_) began_ = now;
-  if (!camera_->isLive()) {
-    using Ticks = std::chrono::steady_clock::duration;
-    std::this_thread::sleep_until(*began_ + std::chrono::duration_cast<Ticks>(since_first));
+  if (!camera_->next()) {
+    if (camera_->hasFailed()) throw std::runtime_error(info_.name + ": gives no more pictures");
+    return false;
   }
+  if (camera_->isLive()) return true;
+  using Clock = std::chrono::steady_clock;
+  const auto since_zero = std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(camera_->stamp_s()));
+  if (!zero_) zero_ = Clock::now() - since_zero;
+  std::this_thread::sleep_until(*zero_ + since_zero);
   return true;
 }
 
@@ -58,7 +54,12 @@ bool CameraRecording::next(Frame& frame) {
   frame.cloud.reset();
   if (rig_) {
     frame.depth_m.release();
-    rig_->rectify(pair[0], pair[1], frame.image_bgr, frame.right_bgr);
+    if (rig_->isRectified()) {
+      pair[0].copyTo(frame.image_bgr);
+      pair[1].copyTo(frame.right_bgr);
+    } else {
+      rig_->rectify(pair[0], pair[1], frame.image_bgr, frame.right_bgr);
+    }
   } else {
     frame.right_bgr.release();
     frame.image_bgr = pair[0];

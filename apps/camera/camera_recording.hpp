@@ -31,7 +31,7 @@ class CameraRecording final : public Recording {
   double depth_scale_ = 0.0;
   bool has_first_ = false;  // It is read, and not yet handed on.
   std::size_t count_ = 0;
-  std::optional<std::chrono::steady_clock::time_point> began_;
+  std::optional<std::chrono::steady_clock::time_point> zero_;  // of a video's stamps
 };
 
 }  // namespace heel

@@ -70,7 +70,7 @@ class DepthCamera final : public PairCamera {
     }
   }
 
-  bool next() override {
+  bool read() override {
     for (Eye& eye : eyes_) eye.is_new = false;
     for (int waits = 0; !arePair(); ++waits) {
       if (isAtEnd()) return false;
@@ -108,7 +108,7 @@ class DepthCamera final : public PairCamera {
       if (i == 0) {
         cv::cvtColor(view, out.at(i), cv::COLOR_RGB2BGR);
       } else {
-        out.at(i) = view.clone();
+        out.at(i) = view;
       }
       if (eye.stream.getMirroringEnabled()) cv::flip(out.at(i), out.at(i), 1);
     }

@@ -15,6 +15,17 @@ bool isOfOpenNi(const std::string& device) {
 
 }  // namespace
 
+bool PairCamera::next() {
+  while (read()) {
+    if (stamp_s_ > last_s_ && stamp_s_ < kLongestVideo_s) {
+      last_s_ = stamp_s_;
+      return true;
+    }
+    ++left_out_;
+  }
+  return false;
+}
+
 std::unique_ptr<PairCamera> openPairCamera(const PairCameraParams& params) {
   if (!isOfOpenNi(params.device)) return openSideBySide(params);
 #ifdef HEEL_HAS_OPENNI

@@ -12,6 +12,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -21,7 +22,7 @@
 
 namespace heel {
 
-constexpr double kLongestVideo_s = 1e9;  // A broken one may claim more.
+constexpr double kLongestVideo_s = 1e9;  ///< A broken one may claim more.
 
 /// Which camera, and what is asked of it; 0: as the camera likes it.
 struct PairCameraParams {
@@ -49,13 +50,16 @@ class PairCamera {
   bool isLive() const { return is_live_; }                 ///< A video is not.
   const std::string& warning() const { return warning_; }  ///< For users, a sentence; or empty.
 
+  /// Goes on to the next pair; those whose times do not increase are left out.
   /// @return false at the end of a video, and where a camera gives no more.
-  virtual bool next() = 0;
+  bool next();
 
   bool hasFailed() const { return has_failed_; }  ///< It ended, and should not have.
-  double stamp_s() const { return stamp_s_; }     ///< From the first pair on.
+  double stamp_s() const { return last_s_; }      ///< From the first pair on.
+  std::size_t leftOut() const { return left_out_; }
 
-  /// Copies: left and right, or colour (BGR) and depth in its pixels (CV_16UC1, millimetres).
+  /// Left and right, or colour (BGR) and depth in its pixels (CV_16UC1, millimetres); valid until
+  /// next().
   virtual std::array<cv::Mat, 2> pictures() const = 0;
 
   /// 0 if nobody knows.
@@ -67,12 +71,19 @@ class PairCamera {
  protected:
   PairCamera(std::string name, SensorKind kind) : name_(std::move(name)), kind_(kind) {}
 
+  /// Takes the next pair, and its stamp_s_; false as next().
+  virtual bool read() = 0;
+
   std::string name_;
   SensorKind kind_;
   std::string warning_;
   bool is_live_ = false;
   bool has_failed_ = false;
   double stamp_s_ = 0.0;
+
+ private:
+  double last_s_ = -1.0;
+  std::size_t left_out_ = 0;
 };
 
 /// Opens "0" or "/dev/video0", a stereo camera that gives both images side by side in one picture;

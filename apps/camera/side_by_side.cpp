@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
-#include <set>
 #include <stdexcept>
 
 namespace heel {
@@ -40,7 +39,7 @@ class SideBySide final : public PairCamera {
     ask(cv::CAP_PROP_FPS, params.rate_hz);
   }
 
-  bool next() override {
+  bool read() override {
     if (!camera_.read(both_) || both_.empty()) {
       has_failed_ = is_live_;
       return false;
@@ -58,7 +57,7 @@ class SideBySide final : public PairCamera {
 
   std::array<cv::Mat, 2> pictures() const override {
     const int half = both_.cols / 2;
-    return {both_.colRange(0, half).clone(), both_.colRange(half, both_.cols).clone()};
+    return {both_.colRange(0, half), both_.colRange(half, both_.cols)};
   }
 
   double length_s() const override {
@@ -74,24 +73,18 @@ class SideBySide final : public PairCamera {
     out.rig = readStereoRig(calibration_, size);
     const PinholeCamera& left = out.rig->camera().left;
     checkCalibratedSize(calibration_, left.width, left.height, size);
-    if (!fs::is_directory(calibration_)) {
-      const bool is_middlebury = calibration_.extension() == ".txt";
-      const std::string name =
-          is_middlebury ? "calib.txt" : "stereo" + calibration_.extension().string();
-      out.files[name] = readWholeFile(calibration_);
-      return out;
+    const bool is_folder = fs::is_directory(calibration_);
+    for (const fs::path& file : stereoRigFiles(calibration_)) {
+      const std::string ending = file.extension().string();
+      const std::string name = is_folder          ? file.filename().string()
+                               : ending == ".txt" ? "calib.txt"
+                                                  : "stereo" + ending;
+      out.files[name] = readWholeFile(file);
     }
-    static const std::set<std::string> kinds = {".yaml", ".yml", ".xml", ".json"};
-    static const std::set<std::string> stems = {"left",  "right",  "intrinsics",  "extrinsics",
-                                                "calib", "stereo", "calibration", "camera"};
-    for (const fs::directory_entry& file : fs::directory_iterator(calibration_)) {
-      const std::string name = file.path().filename().string();
-      if (!file.is_regular_file() || name.front() == '.') continue;
-      const bool is_known = stems.count(file.path().stem().string()) != 0;
-      if ((is_known && kinds.count(file.path().extension().string()) != 0) || name == "calib.txt") {
-        out.files[name] = readWholeFile(file.path());
-      }
-      if (name == "camera.yaml") out.file = readCameraFile(file.path());
+    const fs::path mounting = calibration_ / "camera.yaml";
+    if (is_folder && fs::exists(mounting)) {
+      out.file = readCameraFile(mounting);
+      out.files["camera.yaml"] = readWholeFile(mounting);
     }
     return out;
   }

@@ -61,8 +61,9 @@ class PairWriter {
     std::snprintf(text.data(), text.size(), "/%06zu.png", count_);
     for (std::size_t i = 0; i < sides_.size(); ++i) {
       const std::string name = sides_.at(i) + text.data();
-      encoding_.run(
-          [file = output_ / name, picture = pictures.at(i)] { writePicture(file, picture); });
+      encoding_.run([file = output_ / name, picture = pictures.at(i).clone()] {
+        writePicture(file, picture);
+      });
       if (lists_.size() == sides_.size()) lists_.at(i).write(stamp + ' ' + name + '\n');
     }
     if (lists_.size() == 1) lists_.front().write(stamp + '\n');
@@ -98,14 +99,11 @@ void run(const CaptureOptions& options) {
                        static_cast<std::size_t>(options.duration_s.value_or(camera.length_s())));
   PairWriter pairs(output, camera.kind());
   cv::Size size;
-  double last_s = -1.0;
-  std::size_t left_out = 0;
+  double last_s = 0.0;
   bool has_ended = false;  // by itself: its time is up, or there is no more
   while (!isStopRequested() && !has_ended) {
     if (!camera.next() || camera.stamp_s() > options.duration_s.value_or(camera.stamp_s())) {
       has_ended = true;
-    } else if (!(camera.stamp_s() > last_s && camera.stamp_s() < kLongestVideo_s)) {
-      ++left_out;
     } else {
       last_s = camera.stamp_s();
       const std::array<cv::Mat, 2> pictures = camera.pictures();
@@ -125,8 +123,8 @@ void run(const CaptureOptions& options) {
   }
   const bool is_whole = has_ended ? !camera.hasFailed() : !options.duration_s;
   output.commit(is_whole);
-  if (left_out > 0) {
-    warn(std::to_string(left_out) + " pictures were left out: their times do not increase");
+  if (camera.leftOut() > 0) {
+    warn(std::to_string(camera.leftOut()) + " pictures were left out: their times do not increase");
   }
   if (calibration.empty() && camera.kind() == SensorKind::kStereo) {
     warn(options.out.string() +

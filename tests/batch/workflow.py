@@ -190,7 +190,7 @@ def main():
     parser.add_argument("--work", type=pathlib.Path)
     options = parser.parse_args()
     heel, dice = options.heel.resolve(), random.Random(options.seed)
-    with tempfile.TemporaryDirectory(prefix="heel_workflow_", ignore_cleanup_errors=True) as temporary:
+    with tempfile.TemporaryDirectory(prefix="heel_workflow_") as temporary:
         work = options.work or pathlib.Path(temporary)
         work.mkdir(exist_ok=True)
         broken = make_recordings(heel, work, options.recordings)

@@ -271,6 +271,16 @@ TEST_F(StereoCalibration, RefusesASizeThatAsksForTooMuchMemory) {
               AllOf(HasSubstr("calib.txt"), HasSubstr("asks for")));
 }
 
+TEST_F(StereoCalibration, WithoutASizeIsHeldToWhereTheMiddleOfItsLensIs) {
+  const auto file =
+      storePair(folder_ / "stereo.yml", {}, {"M1", "D1", "M2", "D2", "R", "T"}, false);
+  EXPECT_EQ(readStereoRig(file, kSize).camera().left.width, kSize.width);
+  for (const cv::Size& size : {kSize / 2, kSize * 2}) {
+    EXPECT_THAT(test::messageOf([&] { readStereoRig(file, size); }),
+                AllOf(HasSubstr("stereo.yml"), HasSubstr("is of others than these images")));
+  }
+}
+
 TEST_F(StereoCalibration, NamesTheFileAndTheReason) {
   const auto said = [&](const fs::path& file) {
     return test::messageOf([&] { readStereoRig(file); });

@@ -5,13 +5,12 @@
 /// heel capture, from videos: to OpenCV they are the same thing as cameras.
 
 #include "tests/commands/heel.hpp"
+#include "tests/support/side_by_side.hpp"
 #include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
 #include <csignal>
 
@@ -22,32 +21,13 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr const char* kCalibration = R"(%YAML:1.0
----
-image_width: 64
-image_height: 48
-P1: !!opencv-matrix
-   {rows: 3, cols: 4, dt: d, data: [50, 0, 31.5, 0, 0, 50, 23.5, 0, 0, 0, 1, 0]}
-P2: !!opencv-matrix
-   {rows: 3, cols: 4, dt: d, data: [50, 0, 31.5, -6, 0, 50, 23.5, 0, 0, 0, 1, 0]}
-)";
-
 class Capture : public testing::Test {
  protected:
-  Capture() { writeText(folder_ / "rig.yaml", kCalibration); }
+  Capture() { writeText(folder_ / "rig.yaml", kSideBySideRig); }
 
-  /// Of pictures that are darker on the left, and brighter from one to the next.
   std::string video(int frames, cv::Size both = {128, 48}) {
-    const std::string file = folder_ / "video.avi";
-    cv::VideoWriter writer(file, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('F', 'F', 'V', '1'), 10.0,
-                           both);
-    EXPECT_TRUE(writer.isOpened());
-    for (int i = 0; i < frames; ++i) {
-      cv::Mat picture(both, CV_8UC3, cv::Scalar::all(150 + i));
-      picture.colRange(0, both.width / 2).setTo(cv::Scalar::all(50 + i));
-      writer.write(picture);
-    }
-    return file;
+    writeSideBySide(folder_ / "video.avi", frames, both);
+    return folder_ / "video.avi";
   }
 
   HeelRun capture(const std::string& from, const std::vector<std::string>& more = {}) {
@@ -59,9 +39,8 @@ class Capture : public testing::Test {
     return capture(from, {"--calibration", folder_ / "rig.yaml"});
   }
   std::string rigWithItsPlace() {
-    writeText(folder_ / "rig/stereo.yaml", kCalibration);
-    writeText(folder_ / "rig/camera.yaml",
-              "T_ground_camera: [0, 0, 1, 0, -1, 0, 0, 0, 0, -1, 0, 1.2, 0, 0, 0, 1]\n");
+    writeText(folder_ / "rig/stereo.yaml", kSideBySideRig);
+    writeText(folder_ / "rig/camera.yaml", kLevelMounting);
     return folder_ / "rig";
   }
   bool wroteNothing() { return !std::filesystem::exists(folder_ / "out"); }

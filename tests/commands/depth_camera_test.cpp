@@ -8,6 +8,7 @@
 #include "tests/commands/heel.hpp"
 #include "tests/commands/small_model.hpp"
 #include "tests/commands/small_recording.hpp"
+#include "tests/support/side_by_side.hpp"
 #include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -140,10 +141,9 @@ class CaptureDepth : public testing::Test {
     return capture(OniBytes(oni).bytes(), more);
   }
   std::string cameraFile(const std::string& width, const std::string& scale) {
-    writeText(folder_ / "camera.yaml",
-              "width: " + width + "\nheight: 48\nfx: 60\nfy: 60\ncx: 31.5\ncy: 23.5\n" +
-                  "depth_scale: " + scale +
-                  "\nT_ground_camera: [0, 0, 1, 0, -1, 0, 0, 0, 0, -1, 0, 1.2, 0, 0, 0, 1]\n");
+    writeText(folder_ / "camera.yaml", "width: " + width +
+                                           "\nheight: 48\nfx: 60\nfy: 60\ncx: 31.5\ncy: 23.5\n" +
+                                           "depth_scale: " + scale + "\n" + kLevelMounting);
     return folder_ / "camera.yaml";
   }
   bool wroteNothing() { return !std::filesystem::exists(folder_ / "out"); }
@@ -291,8 +291,8 @@ TEST(LiveCamera, EndsBySignalsAndSaysThatNobodyWasSeen) {
   const TempFolder folder;
   writeSmallModel(folder / "rosa.yaml");
   writeText(folder / "camera.yaml",
-            "width: 64\nheight: 48\nfx: 60\nfy: 60\ncx: 31.5\ncy: 23.5\ndepth_scale: 1000\n"
-            "T_ground_camera: [0, 0, 1, 0, -1, 0, 0, 0, 0, -1, 0, 1.2, 0, 0, 0, 1]\n");
+            "width: 64\nheight: 48\nfx: 60\nfy: 60\ncx: 31.5\ncy: 23.5\ndepth_scale: 1000\n" +
+                std::string(kLevelMounting));
   Oni oni;
   oni.frames = 1000;
   writeText(folder / "room.oni", OniBytes(oni).bytes());

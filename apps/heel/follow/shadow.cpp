@@ -172,7 +172,7 @@ FollowLog runShadow(const ShadowParams& params, const PetriPlan& plan, const Loo
   if (log.samples.empty()) throw std::runtime_error(nothingReadMessage(readings.recording()));
   const auto lost = std::count_if(log.samples.begin(), log.samples.end(),
                                   [](const FollowSample& s) { return !s.is_localized; });
-  if (2 * lost > static_cast<std::ptrdiff_t>(log.samples.size())) {
+  if (params.map.walls && 2 * lost > static_cast<std::ptrdiff_t>(log.samples.size())) {
     warn(
         "the robot does not know where it is on the map for most of the log, and so stands "
         "(--robot-start tells where it is at first)");

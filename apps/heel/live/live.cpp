@@ -77,14 +77,15 @@ RobotDescription describeFound(const LiveOptions& options, const FoundRobot& fou
   return robot;
 }
 
-/// Takes in what comes until it is time for the next step: a period after the last one, or, not
-/// much sooner than 30 a second, as soon as there is a new frame.
+constexpr double kCameraPeriod_s = 0.03;  // Cameras give no more than 30 pictures a second.
+
+/// Takes in what comes until it is time for the next step: a period after the last one, or, at a
+/// camera's rate, as soon as there is a new frame.
 void listen(LiveNetwork& network, LiveReadings& readings, double period_s, double last_step_s) {
-  constexpr double kLeastShare = 0.3;
   const double began_s = steadyClock_s();
   bool has_frame = false;
   for (double now_s = began_s; now_s < began_s + period_s; now_s = steadyClock_s()) {
-    const double due_s = last_step_s + (has_frame ? kLeastShare : 1.0) * period_s;
+    const double due_s = last_step_s + (has_frame ? std::min(kCameraPeriod_s, period_s) : period_s);
     const auto message = network.next(std::max(due_s - now_s, 0.0));
     if (message) {
       has_frame = readings.take(message->topic, message->stamp_ns, message->bytes, steadyClock_s());
@@ -235,10 +236,8 @@ void addLive(CLI::App& app) {
       "  heel simulate home --live\n"
       "  heel live --map home --robot-start 0.8,2.2,0 --out out/live\n"
       "Hears a camera (stereo, or colour and depth), a laser, odometry and tf; sends velocities\n"
-      "to /cmd_vel, at least 20 a second, and zeros when anything is late, and when it ends. A "
-      "program "
-      "that\n"
-      "is killed sends nothing: the robot's base must stop by itself then.\n"
+      "to /cmd_vel, at least 20 a second, and zeros when anything is late, and when it ends. A\n"
+      "program that is killed sends nothing: the robot's base must stop by itself then.\n"
       "Words on /heel/command (std_msgs/String) tell it to 'pause', to 'go' on, to 'forget' the\n"
       "person, or to 'stop'; /heel/target, /heel/markers, /heel/path and /diagnostics tell "
       "others.\n"

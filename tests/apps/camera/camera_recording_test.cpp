@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "tests/support/side_by_side.hpp"
 #include "tests/support/temp_folder.hpp"
 #include <heel/apps/camera/camera_recording.hpp>
 
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>
-#include <opencv2/videoio.hpp>
 
 #include <chrono>
 #include <stdexcept>
@@ -17,29 +17,12 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-/// A video of a stereo camera whose left images are grey 50 and one more for each, the right ones
-/// 150; ten a second.
 class CameraRecordingTest : public testing::Test {
  protected:
   CameraRecordingTest() {
-    writeText(folder_ / "stereo.yaml", R"(%YAML:1.0
----
-image_width: 64
-image_height: 48
-P1: !!opencv-matrix
-   {rows: 3, cols: 4, dt: d, data: [50, 0, 31.5, 0, 0, 50, 23.5, 0, 0, 0, 1, 0]}
-P2: !!opencv-matrix
-   {rows: 3, cols: 4, dt: d, data: [50, 0, 31.5, -6, 0, 50, 23.5, 0, 0, 0, 1, 0]}
-)");
-    writeText(folder_ / "camera.yaml",
-              "T_ground_camera: [0, 0, 1, 0, -1, 0, 0, 0, 0, -1, 0, 1.2, 0, 0, 0, 1]\n");
-    cv::VideoWriter writer(folder_ / "video.avi", cv::CAP_FFMPEG,
-                           cv::VideoWriter::fourcc('F', 'F', 'V', '1'), 10.0, {128, 48});
-    for (int i = 0; i < 4; ++i) {
-      cv::Mat both(48, 128, CV_8UC3, cv::Scalar::all(150 + i));
-      both.colRange(0, 64).setTo(cv::Scalar::all(50 + i));
-      writer.write(both);
-    }
+    writeText(folder_ / "stereo.yaml", kSideBySideRig);
+    writeText(folder_ / "camera.yaml", kLevelMounting);
+    writeSideBySide(folder_ / "video.avi", 4);
     params_.device = folder_ / "video.avi";
     params_.calibration = folder_.path();
   }
