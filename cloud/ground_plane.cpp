@@ -3,6 +3,7 @@
 
 #include <heel/cloud/ground_plane.hpp>
 
+#include <pcl/common/centroid.h>
 #include <pcl/memory.h>
 #include <pcl/sample_consensus/ransac.h>
 #include <pcl/sample_consensus/sac_model_perpendicular_plane.h>
@@ -12,7 +13,9 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -68,13 +71,23 @@ std::size_t countBelow(const Points& points, const Eigen::Vector4d& plane,
       }));
 }
 
-double spread(const Points& points, const Eigen::Vector4d& plane, const pcl::Indices& inliers) {
-  double squares = 0.0;
-  for (const auto i : inliers) {
-    const double height = heightOver(plane, points[static_cast<std::size_t>(i)]);
-    squares += height * height;
+/// A plane, moved to where the points about it are, and those points.
+struct FittedPlane {
+  Eigen::Vector4d plane = Eigen::Vector4d::Zero();
+  pcl::Indices inliers;
+};
+
+FittedPlane fit(PlaneModel& model, double distance_m, Eigen::VectorXf coefficients) {
+  FittedPlane fitted;
+  model.selectWithinDistance(coefficients, distance_m, fitted.inliers);
+  for (int i = 0; i < 3 && fitted.inliers.size() >= kFewestPoints; ++i) {
+    Eigen::VectorXf refined;
+    model.optimizeModelCoefficients(fitted.inliers, coefficients, refined);
+    coefficients = refined;
+    model.selectWithinDistance(coefficients, distance_m, fitted.inliers);
   }
-  return std::sqrt(squares / static_cast<double>(inliers.size()));
+  fitted.plane = upwards(coefficients);
+  return fitted;
 }
 
 Mounting mountingOver(const Eigen::Vector4d& plane) {
@@ -111,69 +124,87 @@ void GroundPlaneEstimator::add(const ColorCloud& cloud) {
   }
 }
 
-std::optional<GroundPlane> GroundPlaneEstimator::estimate() const {
+std::optional<GroundPlane> GroundPlaneEstimator::estimate(
+    const std::optional<Eigen::Vector4d>& expected) const {
   if (points_->size() < kFewestPoints) return std::nullopt;
+  const auto needed = std::max(
+      kFewestPoints, static_cast<std::size_t>(std::ceil(params_.min_inlier_share *
+                                                        static_cast<double>(points_->size()))));
   pcl::Indices remaining(points_->size());
-  for (std::size_t i = 0; i < remaining.size(); ++i) remaining[i] = static_cast<int>(i);
-  const auto needed = static_cast<std::size_t>(
-      std::ceil(params_.min_inlier_share * static_cast<double>(points_->size())));
-
-  // RANSAC gives the planes from the largest down: the first with nothing below it is the floor.
-  for (int k = 0; k < kMaxPlanes && remaining.size() >= std::max(needed, kFewestPoints); ++k) {
-    const auto model = pcl::make_shared<PlaneModel>(points_, remaining);
+  std::iota(remaining.begin(), remaining.end(), 0);
+  const auto modelOf = [&](const pcl::Indices& of) {
+    const auto model = pcl::make_shared<PlaneModel>(points_, of);
     model->setAxis(up_.cast<float>());
     model->setEpsAngle(params_.max_tilt_rad);
+    return model;
+  };
+  const auto isFloor = [&](const FittedPlane& fitted) {
+    const auto below = static_cast<double>(countBelow(*points_, fitted.plane, params_));
+    return fitted.inliers.size() >= needed &&
+           fitted.plane.head<3>().dot(up_) > std::cos(params_.max_tilt_rad) &&
+           below <= params_.max_below_share * static_cast<double>(fitted.inliers.size());
+  };
+  FittedPlane floor;
+  if (expected) {
+    FittedPlane fitted =
+        fit(*modelOf(remaining), params_.inlier_distance_m, expected->cast<float>());
+    if (isFloor(fitted)) floor = std::move(fitted);
+  }
+  // RANSAC gives the planes from the largest down: the first with nothing below it is the floor.
+  for (int k = 0; k < kMaxPlanes && remaining.size() >= needed; ++k) {
+    const auto model = modelOf(remaining);
     pcl::RandomSampleConsensus<pcl::PointXYZ> ransac(model, params_.inlier_distance_m);
     ransac.setMaxIterations(1000);
-    if (!ransac.computeModel()) return std::nullopt;
-    Eigen::VectorXf coefficients, refined;
-    pcl::Indices inliers;
-    ransac.getModelCoefficients(coefficients);
-    for (int i = 0; i < 3; ++i) {
-      model->selectWithinDistance(coefficients, params_.inlier_distance_m, inliers);
-      model->optimizeModelCoefficients(inliers, coefficients, refined);
-      coefficients = refined;
-    }
-    model->selectWithinDistance(coefficients, params_.inlier_distance_m, inliers);
-    if (inliers.size() < needed) return std::nullopt;
-
-    const Eigen::Vector4d plane = upwards(coefficients);
-    const auto below = static_cast<double>(countBelow(*points_, plane, params_));
-    const bool level = plane.head<3>().dot(up_) > std::cos(params_.max_tilt_rad);
-    if (level && below <= params_.max_below_share * static_cast<double>(inliers.size())) {
-      GroundPlane floor;
-      floor.plane = plane;
-      floor.mounting = mountingOver(plane);
-      floor.T_base_camera = baseFromCamera(floor.mounting);
-      floor.points = points_->size();
-      floor.inlier_share =
-          static_cast<double>(inliers.size()) / static_cast<double>(points_->size());
-      floor.spread_m = spread(*points_, plane, inliers);
-      return floor;
+    if (!ransac.computeModel()) break;
+    Eigen::VectorXf drawn;
+    ransac.getModelCoefficients(drawn);
+    FittedPlane fitted = fit(*model, params_.inlier_distance_m, drawn);
+    if (fitted.inliers.size() < std::max(needed, floor.inliers.size())) break;
+    if (isFloor(fitted)) {
+      floor = std::move(fitted);
+      break;
     }
     pcl::Indices others;
-    std::sort(inliers.begin(), inliers.end());
-    std::set_difference(remaining.begin(), remaining.end(), inliers.begin(), inliers.end(),
-                        std::back_inserter(others));
+    std::sort(fitted.inliers.begin(), fitted.inliers.end());
+    std::set_difference(remaining.begin(), remaining.end(), fitted.inliers.begin(),
+                        fitted.inliers.end(), std::back_inserter(others));
     remaining.swap(others);
   }
-  return std::nullopt;
+  if (floor.inliers.empty()) return std::nullopt;
+  GroundPlane found;
+  found.plane = floor.plane;
+  found.mounting = mountingOver(floor.plane);
+  found.T_base_camera = baseFromCamera(found.mounting);
+  found.points = points_->size();
+  found.inlier_share =
+      static_cast<double>(floor.inliers.size()) / static_cast<double>(points_->size());
+  Eigen::Vector4d mean = Eigen::Vector4d::Zero();
+  pcl::computeMeanAndCovarianceMatrix(*points_, floor.inliers, found.covariance_m2, mean);
+  found.mean_m = mean.head<3>();
+  return found;
 }
 
-std::string mountingWarning(const Mounting& found, const Mounting& configured,
-                            const MountingTolerance& tolerance) {
-  const bool agree = std::abs(found.height_m - configured.height_m) <= tolerance.height_m &&
-                     std::abs(found.pitch_rad - configured.pitch_rad) <= tolerance.angle_rad &&
-                     std::abs(found.roll_rad - configured.roll_rad) <= tolerance.angle_rad;
-  if (agree) return {};
+double GroundPlane::rmsHeight(const Eigen::Vector4d& over) const {
+  const Eigen::Vector3d normal = over.head<3>();
+  const double mean = normal.dot(mean_m) + over.w();
+  return std::sqrt(std::max(normal.dot(covariance_m2 * normal), 0.0) + mean * mean);
+}
+
+std::string mountingWarning(const GroundPlane& floor, const Eigen::Isometry3d& T_base_camera,
+                            double tolerance_m) {
+  const double apart_m = floor.rmsHeight(T_base_camera.matrix().row(2));
+  if (apart_m <= tolerance_m) return {};
   constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+  const Mounting found = floor.mounting, configured = mountingOf(T_base_camera);
   std::array<char, 320> text{};
-  std::snprintf(text.data(), text.size(),
-                "The floor says that the camera is %.2f m high, pitched %.1f deg and rolled %.1f "
-                "deg, but %.2f m, %.1f deg and %.1f deg are configured: correct the mounting.",
-                found.height_m, found.pitch_rad * kDegrees, found.roll_rad * kDegrees,
-                configured.height_m, configured.pitch_rad * kDegrees,
-                configured.roll_rad * kDegrees);
+  std::snprintf(
+      text.data(), text.size(),
+      "Where the floor is seen it is %.2f m off: by it the camera is %.2f m high, pitched "
+      "%.1f deg and rolled %.1f deg, but %.2f m, %.1f deg and %.1f deg are configured: "
+      "correct the mounting%s.",
+      apart_m, found.height_m, found.pitch_rad * kDegrees, found.roll_rad * kDegrees,
+      configured.height_m, configured.pitch_rad * kDegrees, configured.roll_rad * kDegrees,
+      found.height_m < configured.height_m - 0.3 ? ", unless this is a table's top" : "");
   return text.data();
 }
 

@@ -60,7 +60,11 @@ struct GroundPlane {
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();  ///< baseFromCamera(mounting)
   std::size_t points = 0;                                           ///< Points that were used.
   double inlier_share = 0.0;                                        ///< Of them, on the floor.
-  double spread_m = 0.0;  ///< Root mean square distance of these from the plane.
+  Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();         ///< Of these, in the optical frame.
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  ///< Of these, about their mean.
+
+  /// Root mean square height of these over a plane (n, d), |n| = 1 [m]; over `plane`: its noise.
+  double rmsHeight(const Eigen::Vector4d& over) const;
 };
 
 /// Collects clouds and finds the floor in them by PCL's RANSAC: the largest plane that is about
@@ -79,7 +83,11 @@ class GroundPlaneEstimator {
   bool isFull() const { return points_->size() >= params_.max_points; }
 
   /// The floor, or nothing if no plane is like one.
-  std::optional<GroundPlane> estimate() const;
+  /// @param expected  Where it should be, as a plane (n, d) of the optical frame: tried beside
+  /// those
+  ///                  that are drawn by lot, which seldom meet a floor of which little is seen.
+  std::optional<GroundPlane> estimate(
+      const std::optional<Eigen::Vector4d>& expected = std::nullopt) const;
 
  private:
   GroundPlaneParams params_;
@@ -87,14 +95,11 @@ class GroundPlaneEstimator {
   pcl::PointCloud<pcl::PointXYZ>::Ptr points_;
 };
 
-/// How far the floor that was found may be from the configured mounting.
-struct MountingTolerance {
-  double height_m = 0.05;   ///< Greatest difference of the camera's height over the floor.
-  double angle_rad = 0.05;  ///< Greatest difference of pitch, and of roll.
-};
-
-/// A sentence that says how the mountings differ; empty if they agree.
-std::string mountingWarning(const Mounting& found, const Mounting& configured,
-                            const MountingTolerance& tolerance = {});
+/// A sentence that says how the floor contradicts the configured place of the camera; empty while
+/// its points are no further than tolerance_m (root mean square) from where they should be. They
+/// are compared where they were seen, not under the camera: a small patch far away says little of
+/// that.
+std::string mountingWarning(const GroundPlane& floor, const Eigen::Isometry3d& T_base_camera,
+                            double tolerance_m = 0.05);
 
 }  // namespace heel

@@ -24,7 +24,7 @@ MODULES = {
 }
 
 # Structs of parameters with another name.
-OTHERS = {"BagTopics", "DriveLimits", "HeightBand", "MountingTolerance", "PersonShape",
+OTHERS = {"BagTopics", "DriveLimits", "HeightBand", "PersonShape",
           "RobotDescription"}
 
 UNITS = [  # the longest endings first

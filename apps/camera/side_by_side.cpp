@@ -70,9 +70,15 @@ class SideBySide final : public PairCamera {
     PairCalibration out;
     if (calibration_.empty()) return out;
     const cv::Size size(both_.cols / 2, both_.rows);
-    out.rig = readStereoRig(calibration_, size);
-    const PinholeCamera& left = out.rig->camera().left;
-    checkCalibratedSize(calibration_, left.width, left.height, size);
+    try {
+      out.rig = readStereoRig(calibration_, size);
+      const PinholeCamera& left = out.rig->camera().left;
+      checkCalibratedSize(calibration_, left.width, left.height, size);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(std::string(error.what()) + " (pictures of " +
+                               std::to_string(both_.cols) + "x" + std::to_string(both_.rows) +
+                               " are taken for two images side by side)");
+    }
     const bool is_folder = fs::is_directory(calibration_);
     for (const fs::path& file : stereoRigFiles(calibration_)) {
       const std::string ending = file.extension().string();

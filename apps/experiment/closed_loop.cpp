@@ -134,7 +134,7 @@ FollowLog runClosedLoop(const Scene& scene, const PetriPlan& plan, const ClosedL
     try {
       step = &follower.step(sensors.read(readings), stage_done);
     } catch (const NobodyLearned&) {
-      log.outcome = "nobody learned";
+      log.outcome = kNobodyLearned;
       break;
     }
     command = step->velocity;

@@ -11,7 +11,7 @@ namespace heel {
 namespace {
 
 /// Takes the place of the camera from the recording, else from the floor; says if they differ.
-void placeCamera(const Recording& recording, const CameraSetupParams& params, CameraSetup& setup) {
+void placeCamera(const Recording& recording, CameraSetup& setup) {
   const auto& configured = recording.info().T_base_camera;
   setup.is_configured = configured.has_value();
   if (!setup.is_configured && !setup.ground) {
@@ -22,8 +22,7 @@ void placeCamera(const Recording& recording, const CameraSetupParams& params, Ca
   }
   setup.T_base_camera = setup.is_configured ? *configured : setup.ground->T_base_camera;
   if (setup.is_configured && setup.ground) {
-    const std::string warning =
-        mountingWarning(setup.ground->mounting, mountingOf(*configured), params.tolerance);
+    const std::string warning = mountingWarning(*setup.ground, *configured);
     if (!warning.empty()) setup.warnings.push_back(warning);
   }
 }
@@ -76,8 +75,10 @@ CameraSetup findCameraSetup(Recording& recording, const CameraSetupParams& param
     throw std::runtime_error(recording.info().name +
                              ": left and right images are swapped: all disparities are negative");
   }
-  setup.ground = floor.estimate();
-  placeCamera(recording, params, setup);
+  std::optional<Eigen::Vector4d> configured;
+  if (recording.info().T_base_camera) configured = recording.info().T_base_camera->matrix().row(2);
+  setup.ground = floor.estimate(configured);
+  placeCamera(recording, setup);
   return setup;
 }
 

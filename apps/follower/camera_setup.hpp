@@ -23,7 +23,6 @@ struct CameraSetupParams {
   double look_at_s = 2.0;  ///< How much of the recording's beginning is looked at.
   StereoMatcherParams stereo;
   GroundPlaneParams ground;
-  MountingTolerance tolerance;
   SetupCheckParams check;
 };
 

@@ -113,8 +113,7 @@ void addSimulate(CLI::App& app) {
           "SCENE", options->scene,
           "a scene's name (wardrobe, pair, home, office, corridor, crowd) or its YAML file")
       ->required();
-  CLI::Option* out =
-      verb->add_option("--out", options->simulate.out, "folder for the recording; must be empty");
+  CLI::Option* out = verb->add_option("--out", options->simulate.out, "folder for the recording");
   addNetwork(*verb, options->live.network);
   CLI::Option* live = verb->add_option(
       "--live", options->live.ros,

@@ -70,6 +70,8 @@ struct StageTime {
 
 /// The outcome of a run that a signal ended.
 inline constexpr const char* kStoppedRun = "stopped";
+/// The outcome of a run in which phase 1 found nobody, or several people.
+inline constexpr const char* kNobodyLearned = "nobody learned";
 
 /// A whole run.
 struct FollowLog {

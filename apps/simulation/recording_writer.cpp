@@ -55,10 +55,6 @@ RecordingWriter::RecordingWriter(const fs::path& folder, const Simulator& simula
       pixel_truth_(pixel_truth),
       camera_(simulator.camera()),
       T_base_camera_(asInBags(simulator.T_base_camera())) {
-  std::error_code ignored;
-  if (fs::exists(folder) && !fs::is_empty(folder, ignored)) {
-    throw std::invalid_argument(folder.string() + ": holds something already");
-  }
   writeCameraFiles(simulator);
 }
 

@@ -41,6 +41,17 @@ TEST_F(Localize, NamesAMapThatIsNone) {
   EXPECT_TRUE(failsWith(localize("some.log", {"--map", folder_ / "lone.yaml"}), {"none.pgm"}));
 }
 
+TEST_F(Localize, WarnsOfAMapOfAnotherPlace) {
+  ASSERT_TRUE(
+      succeeds(heel({"simulate", "corridor", "--duration", "2", "--out", folder_ / "corridor"})));
+  const HeelRun right = localize("corridor", {"--map", "corridor"});
+  EXPECT_TRUE(succeeds(right));
+  EXPECT_THAT(right.err, testing::Not(testing::HasSubstr("warning")));
+  const HeelRun wrong = localize("corridor", {"--map", "home"});
+  EXPECT_TRUE(succeeds(wrong));
+  EXPECT_THAT(wrong.err, testing::HasSubstr("is this the map of its place?"));
+}
+
 TEST_F(Localize, InspectTellsWhatIsInALog) {
   writeText(folder_ / "two.log",
             "# a comment\nFLASER 3 2.0 2.0 2.0 0.2 0 0 0 0 0 1.5 host 1.5\n"

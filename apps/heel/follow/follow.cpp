@@ -99,7 +99,7 @@ std::string commandOf(const FollowOptions& options) {
   return command.str();
 }
 
-void print(const FollowSummary& summary, const FollowOutput& output) {
+void print(const FollowSummary& summary, bool is_log, const FollowOutput& output) {
   std::printf("%s after %.1f s", summary.outcome.c_str(), summary.elapsed_s);
   if (summary.learn_s > 0.0) std::printf(" (and %.1f s of learning before)", summary.learn_s);
   std::printf(": %.2f m", summary.distance_m);
@@ -108,9 +108,11 @@ void print(const FollowSummary& summary, const FollowOutput& output) {
                 summary.driving_speed_mps, summary.seek_s);
   }
   std::printf("\n");
-  if (std::isfinite(summary.command_off_mps)) {
-    std::printf("  would have driven otherwise by %.2f m/s and %.2f rad/s (RMS)\n",
-                summary.command_off_mps, summary.command_off_radps);
+  if (is_log) {
+    if (std::isfinite(summary.command_off_mps)) {
+      std::printf("  would have driven otherwise by %.2f m/s and %.2f rad/s (RMS)\n",
+                  summary.command_off_mps, summary.command_off_radps);
+    }
     std::printf("results in %s: %s\n", output.folder().c_str(), output.fileNames().c_str());
     return;
   }
@@ -190,9 +192,11 @@ void run(FollowOptions& options) {
   log.command = commandOf(options);
   const FollowSummary summary = summarize(log);
   output.commit(log, summary);
-  print(summary, output);
+  print(summary, is_log, output);
   if (log.outcome == kStoppedRun) throw Stopped("stopped: the results are those of the run so far");
-  if (log.outcome == "nobody learned") throw NothingFound("nobody was learned");
+  if (log.outcome == kNobodyLearned) {
+    throw NothingFound(is_log ? kNobodyWasLearned : "nobody was learned");
+  }
 }
 
 }  // namespace

@@ -150,7 +150,7 @@ FollowLog runShadow(const ShadowParams& params, const PetriPlan& plan, const Loo
     try {
       step = &follower.step(now, stage_done);
     } catch (const NobodyLearned&) {
-      log.outcome = "nobody learned";
+      log.outcome = kNobodyLearned;
       break;
     }
     FollowSample& sample = log.samples.emplace_back(sampleOf(*step, follower));

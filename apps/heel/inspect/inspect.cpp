@@ -83,7 +83,7 @@ void printSetup(const CameraSetup& setup) {
         "  floor seen: camera %.2f m over it, pitch %.1f deg, roll %.1f deg; %.0f %% of the "
         "points lie on it within %.0f mm (root mean square)\n",
         floor.height_m, floor.pitch_rad * kDegrees, floor.roll_rad * kDegrees,
-        100.0 * setup.ground->inlier_share, 1000.0 * setup.ground->spread_m);
+        100.0 * setup.ground->inlier_share, 1000.0 * setup.ground->rmsHeight(setup.ground->plane));
   }
   const SetupReport& report = setup.report;
   std::printf("  depth at %.0f %% of the pixels; %.1f %% quite black, %.1f %% quite white\n",

@@ -59,7 +59,10 @@ FoundRobot waitForRobot(LiveNetwork& network, const LiveCommands& commands,
   std::string told;
   return findRobot(network, options.topics, config.camera_setup, [&](const std::string& missing) {
     if (isToldToStop(commands)) throw Stopped("stopped before there was a robot");
-    if (missing != told) warn("waiting: " + missing);
+    const std::string& below = options.network.ros_namespace;
+    if (missing != told) {
+      warn("waiting" + (below.empty() ? "" : " for names in '" + below + "'") + ": " + missing);
+    }
     told = missing;
     return steadyClock_s() - began_s < options.wait_s;
   });
@@ -177,7 +180,7 @@ void run(const LiveOptions& options) {
     try {
       step = &follower->step(now, stage_done);
     } catch (const NobodyLearned&) {
-      log.outcome = "nobody learned";
+      log.outcome = kNobodyLearned;
       break;
     }
     place = step->robot.lost ? std::nullopt : std::optional(step->robot.pose);
@@ -201,14 +204,15 @@ void run(const LiveOptions& options) {
   const FollowSummary summary = summarize(log);
   output.commit(log, summary);
   std::printf(
-      "%s after %.1f s: %.2f m; from picture to velocity %.0f ms in 95 of 100 of %zu, "
+      "%s after %.1f s (and %.1f s of learning before): %.2f m; from picture to velocity %.0f ms "
+      "in 95 of 100 of %zu, "
       "%zu pictures left out, %zu times no command in time\n",
-      summary.outcome.c_str(), summary.elapsed_s, summary.distance_m,
+      summary.outcome.c_str(), summary.elapsed_s, summary.learn_s, summary.distance_m,
       log.latencies_s.empty() ? 0.0 : 1e3 * summary.latency_p95_s, log.latencies_s.size(),
       readings.framesLeftOut(), stopped);
   std::printf("results in %s: %s\n", output.folder().c_str(), output.fileNames().c_str());
   if (log.outcome == kStoppedRun) throw Stopped("stopped: the robot was told to stand");
-  if (log.outcome == "nobody learned") throw NothingFound("nobody was learned");
+  if (log.outcome == kNobodyLearned) throw NothingFound(kNobodyWasLearned);
 }
 
 /// Adds --camera and what goes with it.

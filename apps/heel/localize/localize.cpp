@@ -101,6 +101,11 @@ void run(LocalizeOptions& options) {
   }
   std::printf("wrote %s\n", output.folder().c_str());
   if (!result.complete) throw Stopped("stopped: the results are those of the log so far");
+  if (result.lost_share > 0.5) {
+    warn(
+        "the robot is lost in most of the log: is this the map of its place? --global looks for it "
+        "everywhere, --start tells where it begins, --scanner where its laser is");
+  }
   if (result.lost_share >= 1.0) throw NothingFound("the robot is nowhere found on the map");
 }
 

@@ -20,6 +20,11 @@
 
 namespace heel {
 
+/// What is said when a real robot or a log ends as kNobodyLearned.
+inline constexpr const char* kNobodyWasLearned =
+    "nobody was learned: that takes about 5 s of the empty room, then one person alone for about "
+    "10 s, before a robot that stands; or name by --model whom 'heel learn' has learned";
+
 /// Watches a run, draws it, and writes it down at its end.
 class FollowOutput {
  public:

@@ -189,9 +189,8 @@ void RobotPlaces::takeScans(double until_s, const std::vector<Eigen::Vector2d>& 
 }
 
 std::string RobotPlaces::warning() const {
-  const MountingTolerance tolerance;
-  if (leaves_s_ &&
-      (greatest_tilt_rad_ > tolerance.angle_rad || greatest_rise_m_ > tolerance.height_m)) {
+  constexpr double kTilt_rad = 0.05, kRise_m = 0.05;  // 15 and 5 cm at 3 m
+  if (leaves_s_ && (greatest_tilt_rad_ > kTilt_rad || greatest_rise_m_ > kRise_m)) {
     char text[200];
     std::snprintf(
         text, sizeof text,

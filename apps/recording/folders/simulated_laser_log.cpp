@@ -66,7 +66,10 @@ const FloorPose& SimulatedLaserLog::Poses::at(double stamp_s) {
 SimulatedLaserLog::SimulatedLaserLog(const std::filesystem::path& folder) {
   scans_.open(folder / "scan.csv", "stamp_s,first_rad,step_rad,ranges_m");
   odometry_.open(folder / "odometry.csv", "stamp_s,x_m,y_m,yaw_rad");
-  robot_.open(folder / "robot.csv", "stamp_s,x_m,y_m,yaw_rad");
+  const std::filesystem::path truth = folder / "robot.csv";
+  if (std::filesystem::exists(truth)) {
+    robot_.emplace().open(truth, "stamp_s,x_m,y_m,yaw_rad");
+  }
 }
 
 bool SimulatedLaserLog::next(LaserReading& reading) {
@@ -76,7 +79,7 @@ bool SimulatedLaserLog::next(LaserReading& reading) {
   reading.scan.step_rad = scans_.values[2];
   reading.scan.ranges_m.assign(scans_.values.begin() + 3, scans_.values.end());
   reading.odometry = odometry_.at(reading.stamp_s);
-  reading.reference = robot_.at(reading.stamp_s);
+  if (robot_) reading.reference = robot_->at(reading.stamp_s);
   return true;
 }
 

@@ -2,18 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// The laser scans of a recording made by `heel simulate`.
+/// The laser scans of a folder, as `heel simulate` writes them.
 #pragma once
 
 #include <heel/apps/recording/laser_log.hpp>
 
 #include <fstream>
+#include <optional>
 #include <string>
 
 namespace heel {
 
-/// Reads scan.csv, odometry.csv and robot.csv of a folder side by side; a scan's odometry and
-/// reference are the latest that are not younger than it. All times must not decrease.
+/// Reads scan.csv, odometry.csv and, if it is there, robot.csv (where the robot really was) of a
+/// folder side by side; a scan's odometry and reference are the latest that are not younger than
+/// it. All times must not decrease.
 class SimulatedLaserLog : public LaserLog {
  public:
   /// @throws std::runtime_error  one sentence, if one of the files can't be read.
@@ -48,7 +50,8 @@ class SimulatedLaserLog : public LaserLog {
   };
 
   Table scans_;
-  Poses odometry_, robot_;
+  Poses odometry_;
+  std::optional<Poses> robot_;
 };
 
 }  // namespace heel

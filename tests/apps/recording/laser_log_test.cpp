@@ -170,6 +170,16 @@ TEST(SimulatedLaserLog, PutsScansOdometryAndTruthTogetherByTime) {
   EXPECT_FALSE(log->next(reading));
 }
 
+TEST(SimulatedLaserLog, NeedsNoTruth) {
+  const test::TempFolder folder;
+  folder.write("scan.csv", "stamp_s,first_rad,step_rad,ranges_m\n0.1,-1,0.5,1\n");
+  folder.write("odometry.csv", "stamp_s,x_m,y_m,yaw_rad\n0.1,0.3,0,0\n");
+  LaserReading reading;
+  ASSERT_TRUE(openLaserLog(folder.path())->next(reading));
+  EXPECT_EQ(reading.odometry.position.x(), 0.3);
+  EXPECT_FALSE(reading.reference);
+}
+
 TEST(SimulatedLaserLog, SaysWhichFileIsMissingOrBroken) {
   const test::TempFolder folder;
   EXPECT_NE(test::messageOf([&] { openLaserLog(folder.path()); }).find("scan.csv"),

@@ -108,6 +108,16 @@ TEST(Simulate, DoesNotTouchAFolderThatHoldsSomething) {
   EXPECT_EQ(test::readText(folder / "out/precious.txt"), "mine");
 }
 
+TEST(Simulate, ReplacesARecordingThatItMade) {
+  const test::TempFolder folder;
+  simulate(smallScene(), optionsFor(folder / "out"));
+  SimulateOptions shorter = optionsFor(folder / "out");
+  shorter.duration_s = 0.2;
+  simulate(smallScene(), shorter);
+  EXPECT_EQ(test::readText(folder / "out/times.txt"), "0.000\n0.100\n");
+  EXPECT_FALSE(fs::exists(folder / "out/left/000005.png"));
+}
+
 TEST(Simulate, SaysWhichFolderCannotBeMade) {
   const test::TempFolder folder;
   folder.write("file", "not a folder");
