@@ -72,8 +72,8 @@ std::string nothingReadMessage(const Recording& recording,
 std::string leftOutNote(const std::vector<SkippedFrame>& skipped) {
   if (skipped.empty()) return {};
   return "; " + std::to_string(skipped.size()) +
-         (skipped.size() == 1 ? " frame was" : " frames were") +
-         " left out, the first: " + skipped.front().reason;
+         (skipped.size() == 1 ? " frame was left out: " : " frames were left out, the first: ") +
+         skipped.front().reason;
 }
 
 }  // namespace heel

@@ -25,6 +25,7 @@
 namespace heel::test {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -252,7 +253,8 @@ TEST_F(MovingRobots, SkipAndCountThePicturesInAGapOfTf) {
     if (s < 2.05 || s > 3.25) bag.addOdometry(s, pose);
   });
   const HeelRun run = track(gap, "out");
-  EXPECT_THAT(run.warnings(), Contains(HasSubstr("the odometry has a gap there")).Times(12));
+  EXPECT_THAT(run.warnings(), Contains(AllOf(HasSubstr("12 frames were left out"),
+                                             HasSubstr("the odometry has a gap there"))));
   const auto frames = summary("out")["frames_skipped"];
   ASSERT_THAT(frames, SizeIs(12));
   EXPECT_EQ(frames[0]["frame"], 22);
