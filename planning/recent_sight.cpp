@@ -15,23 +15,28 @@ using Eigen::Vector2d;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNotYet = -std::numeric_limits<double>::infinity();
-constexpr double kCell_m = 0.05;       // Of the camera's points,
-constexpr int kCells = 48;             // so many on each side of a square about the robot.
-constexpr double kSame_m = 0.1;        // So far apart two pictures may see one thing.
-constexpr double kSurface_m = 0.05;    // So far behind a beam's end is the thing that it hit.
-constexpr double kBody_m = 0.4;        // So far apart are parts of one body.
-constexpr double kWalks_mps = 1.2;     // Nobody walks faster.
-constexpr double kGait_mps = 0.4;      // A leg stands, or swings at twice its owner's speed.
-constexpr double kOldestLook_s = 1.0;  // Of a look from which to reckon who walks.
+constexpr double kCell_m = 0.05;        // Of the camera's points,
+constexpr int kCells = 48;              // so many on each side of a square about the robot.
+constexpr double kSame_m = 0.1;         // So far apart two pictures may see one thing.
+constexpr double kSurface_m = 0.05;     // So far behind a beam's end may be the thing that it hit:
+constexpr double kSurfaceSigmas = 5.0;  // errors of ranges are larger once in 200,000 times.
+constexpr double kBody_m = 0.4;         // So far apart are parts of one body.
+constexpr double kWalks_mps = 1.2;      // Nobody walks faster.
+constexpr double kGait_mps = 0.4;       // A leg stands, or swings at twice its owner's speed.
+constexpr double kOldestLook_s = 1.0;   // Of a look from which to reckon who walks.
 constexpr double kRounding_rad = 1e-9;
 
 }  // namespace
 
 RecentSight::RecentSight(const RecentSightParams& params, double range_m)
-    : params_(params), range_m_(range_m), cells_(kCells * kCells), points_s_(kNotYet) {
+    : params_(params),
+      range_m_(range_m),
+      surface_m_(std::max(kSurface_m, kSurfaceSigmas * params.laser_sigma_m)),
+      cells_(kCells * kCells),
+      points_s_(kNotYet) {
   for (const double value :
-       {params.remembers_s, params.camera_half_view.minCoeff(), params.camera_nearest_m,
-        params.camera_range_m, params.min_points - 1.0}) {
+       {params.remembers_s, params.laser_sigma_m, params.camera_half_view.minCoeff(),
+        params.camera_nearest_m, params.camera_range_m, params.min_points - 1.0}) {
     if (!(value >= 0.0) || !std::isfinite(value)) {
       throw std::invalid_argument("RecentSightParams: a parameter is out of its range");
     }
@@ -59,9 +64,9 @@ bool RecentSight::endsBeyond(const Look& look, double beam, double away_m) {
 }
 
 // Whether the beam next to a thing goes through it, or ends at it.
-bool RecentSight::sees(const Look& look, const Vector2d& thing) {
+bool RecentSight::sees(const Look& look, const Vector2d& thing) const {
   const Vector2d at = look.turn * (thing - look.scanner);
-  return endsBeyond(look, std::round(beamTo(look, at)), at.norm() - kSurface_m);
+  return endsBeyond(look, std::round(beamTo(look, at)), at.norm() - surface_m_);
 }
 
 // Whether a look has seen that a place is free: both beams beside it end no nearer than `short_m`
@@ -113,8 +118,8 @@ std::size_t RecentSight::nearestBeam(const Look& look, const Vector2d& at, doubl
 
 // How what is seen at a place has come there. Where the look before saw nothing, something came,
 // from the nearest that it saw, or too fast to tell (not a number); else it stands.
-Vector2d RecentSight::velocityOf(const Vector2d& place, const Look& before, double dt_s) {
-  if (!(dt_s <= kOldestLook_s) || !sawFree(before, place, -kSurface_m)) return Vector2d::Zero();
+Vector2d RecentSight::velocityOf(const Vector2d& place, const Look& before, double dt_s) const {
+  if (!(dt_s <= kOldestLook_s) || !sawFree(before, place, -surface_m_)) return Vector2d::Zero();
   const Vector2d at = before.turn * (place - before.scanner);
   const std::size_t from = nearestBeam(before, at, kWalks_mps * dt_s);
   if (from == before.scan.ranges_m.size()) return Vector2d::Constant(kUnknown);

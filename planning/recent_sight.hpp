@@ -21,6 +21,9 @@ namespace heel {
 /// Where the sensors are, and for how long what they saw is known.
 struct RecentSightParams {
   FloorPose T_base_scanner;  ///< Where the laser scanner is, in the base frame.
+  /// Standard deviation of the laser's ranges. What a scan sees 5 of them, and no less than 5 cm,
+  /// before where another saw nothing has come there: it may be somebody who walks.
+  double laser_sigma_m = 0.01;
   /// What no sensor looks at any more is known for so long: longer than a robot takes to turn
   /// about, shorter than people stay. A user's choice.
   double remembers_s = 4.0;
@@ -101,16 +104,17 @@ class RecentSight {
   };
   static double beamTo(const Look& look, const Eigen::Vector2d& at);
   static bool endsBeyond(const Look& look, double beam, double away_m);
-  static bool sees(const Look& look, const Eigen::Vector2d& thing);
+  bool sees(const Look& look, const Eigen::Vector2d& thing) const;
   static bool sawFree(const Look& look, const Eigen::Vector2d& place, double short_m);
   bool isInPicture(const SeenThing& thing, const FloorPose& T_base_world) const;
   static std::size_t nearestBeam(const Look& look, const Eigen::Vector2d& at, double reach_m);
-  static Eigen::Vector2d velocityOf(const Eigen::Vector2d& place, const Look& before, double dt_s);
+  Eigen::Vector2d velocityOf(const Eigen::Vector2d& place, const Look& before, double dt_s) const;
   double lastMoved(const Eigen::Vector2d& place) const;
   void keep(const SeenThing& thing);
 
   RecentSightParams params_;
   double range_m_;
+  double surface_m_;  // so far behind a beam's end is the thing that it hit
   std::vector<SeenThing> things_;
   std::array<Look, 20> looks_;  // a ring; looks_[newest_] is the last
   std::size_t newest_ = 0;

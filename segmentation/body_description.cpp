@@ -17,7 +17,6 @@ namespace {
 using Describer = BodyDescriber;
 
 constexpr double kDarkOffset = 12.0;
-constexpr double kChromaLimit = 1.5;  // log-chromaticities are clipped at +- this
 
 /// Ends of the stripes over the floor [m]: about a head, three of the trunk, four of the legs.
 constexpr std::array<float, Describer::kStripes + 1> kEnds_m = {0.10F, 0.35F, 0.60F, 0.85F, 1.05F,
@@ -42,7 +41,7 @@ const std::array<float, 256>& logLevels() {
 int binOf(std::uint8_t b, std::uint8_t g, std::uint8_t r) {
   const auto& logs = logLevels();
   const auto chroma = [](float ratio) {
-    const float share = (ratio / static_cast<float>(kChromaLimit) + 1.0F) * 0.5F;
+    const float share = (ratio / static_cast<float>(Describer::kChromaLimit) + 1.0F) * 0.5F;
     return std::clamp(static_cast<int>(share * Describer::kChromaBins), 0,
                       Describer::kChromaBins - 1);
   };

@@ -56,6 +56,8 @@ struct BodyDescriberParams {
 /// can take its place. Holds the memory that it works in; allocates nothing once warm.
 class BodyDescriber {
  public:
+  static constexpr double kChromaLimit =
+      1.5;  ///< log(r / g) and log(b / g) are clipped at +- this.
   static constexpr int kChromaBins = 18;
   static constexpr int kBrightnessBins = 6;
   static constexpr int kBins = kChromaBins * kChromaBins * kBrightnessBins;
@@ -84,7 +86,7 @@ class BodyDescriber {
   /// green by so many bins, each by kLightStep (a natural logarithm), and all brighter by so many,
   /// each by kBrightnessStep.
   static Eigen::ArrayXi inLight(int red_steps, int blue_steps, int brightness_steps);
-  static constexpr double kLightStep = 3.0 / kChromaBins;
+  static constexpr double kLightStep = 2.0 * kChromaLimit / kChromaBins;
   static constexpr double kBrightnessStep = 3.1 / kBrightnessBins;  ///< ln(267 / 12) in all.
 
   /// What clothes look like before anybody is known: most are grey, more or less, and the rest may

@@ -19,18 +19,13 @@ constexpr double kPlaceSigma_m = 0.25;  // Of where a person who is tracked is o
 constexpr double kMissed = 0.1;         // Of the looks at somebody in full view.
 constexpr double kCoastMemory_s = 1.0;  // Hidden somebody may have gone elsewhere in this time.
 constexpr double kRoom_m2 = 20.0;       // Where somebody who is away may be.
-constexpr double kAwayMemory_s = 10.0;  // Time in which where they were seen last is forgotten.
-constexpr double kSure = 0.98;          // Looks at somebody of whom we are so sure are learned.
-constexpr double kSureStranger = 0.9;   // A stranger with this probability is met
-constexpr double kMetLooks = 1.5;       // after so many independent looks,
-constexpr double kUnlike = -5.0;        // if looks or the target elsewhere tell them apart.
-constexpr double kMet = -4.0;           // Who was met is no stranger, nor anybody else them.
-constexpr double kTold = -7.0;          // Who is told to be the target may be another.
+constexpr double kMetLooks = 1.5;       // A stranger is met after so many independent looks.
 constexpr double kSurest = 12.0;        // Logarithm of the greatest odds of places and ways.
 constexpr double kOtherView = 0.5;      // A look with so much news begins another view;
 constexpr double kMostLooks = 10.0;     // so many of the last ones make its mean, or are learned.
-constexpr double kMistaken = -4.6;      // Of a hundred identities that seem sure one is wrong.
-constexpr double kAlone_m = 1.0;        // Nobody nearer: then a look is theirs alone.
+constexpr double kMistaken = 0.01;      // Of the identities that seem sure, or that one is told,
+const double kLogMistaken = std::log(kMistaken);  // so many are wrong.
+constexpr double kAlone_m = 1.0;                  // Nobody nearer: then a look is theirs alone.
 
 Evidence relative(const Evidence& log_weight) { return (log_weight - log_weight.maxCoeff()).exp(); }
 
@@ -108,11 +103,9 @@ Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s) const
       const double away_s = std::max(stamp_s - last->seen_s, 0.0);
       const double away_m = (place_m - last->place_m).norm();
       const double sigma_m = std::hypot(0.3, params_.walk_mps * away_s);
-      const double near = std::exp(-0.5 * away_m * away_m / (sigma_m * sigma_m)) * kRoom_m2 /
-                          (kTwoPi * sigma_m * sigma_m);
-      const double known = std::exp(-away_s / kAwayMemory_s);
-      const double too_far_m = std::max(away_m - 0.8 - 2.5 * params_.walk_mps * away_s, 0.0);
-      reach = known * near + (1.0 - known) * std::exp(-too_far_m / 0.3);
+      const double area_m2 = kTwoPi * sigma_m * sigma_m;
+      reach = std::max(kRoom_m2 / area_m2, 1.0) *
+              std::exp(-0.5 * away_m * away_m / (sigma_m * sigma_m));
     }
     weight[h] = params_.newcomer_density_per_m2 * reach;
   }
@@ -239,7 +232,7 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
 /// say whatever the place does not, so that as they fade the place is left.
 void Identity::mixIn(Belief& belief, const Evidence& other, const Evidence& other_place,
                      double other_share) {
-  if (other_share > std::exp(kMistaken)) {  // A portrait is of one body.
+  if (other_share > kMistaken) {  // A portrait is of one body.
     belief.looks = 0.0;
     belief.sum.setZero();
   }
@@ -369,7 +362,7 @@ void Identity::end(std::size_t ended) {
       if (!(together_[ended][h] > 0.0 && together_[j][h] > 0.0)) continue;
       const double alone = weight[h] - weight[kStranger];
       const double together = std::log(together_[j][h] / together_[j][kStranger]);
-      other.log_free[h] = std::min(other.log_free[h], std::max(together - alone, kMistaken));
+      other.log_free[h] = std::min(other.log_free[h], std::max(together - alone, kLogMistaken));
     }
   }
 }
@@ -379,7 +372,7 @@ void Identity::remember(const std::vector<Track>& tracks,
   std::optional<Eigen::Vector2d> target_sure_m;
   for (const Track& track : tracks) {
     const bool is_seen = track.observation != Track::kUnseen;
-    if (is_seen && find(track.id)->probability[kTarget] > kSure) {
+    if (is_seen && find(track.id)->probability[kTarget] > 1.0 - kMistaken) {
       target_sure_m = track.motion.position_m();
     }
   }
@@ -399,10 +392,10 @@ void Identity::remember(const std::vector<Track>& tracks,
     if (!is_alone) continue;
     if (best == kStranger) {
       const bool is_another = target_sure_m && (*target_sure_m - place_m).norm() > kAlone_m;
-      const bool is_unlike = belief.logLooks()[kTarget] < kUnlike;
-      const bool is_stranger = belief.probability[kStranger] > kSureStranger;
+      const bool is_unlike = belief.logLooks()[kTarget] < kLogMistaken;
+      const bool is_stranger = belief.probability[kStranger] > 1.0 - kMistaken;
       if ((is_another || is_unlike) && is_stranger && belief.looks > kMetLooks) meet(belief);
-    } else if (belief.probability[best] > kSure && belief.view.count < kMostLooks) {
+    } else if (belief.probability[best] > 1.0 - kMistaken && belief.view.count < kMostLooks) {
       // All looks from one side together teach what that view is worth, however long it lasts.
       gallery_.addLookAt(best, seen, belief.view.weight / kMostLooks);
     }
@@ -433,11 +426,11 @@ void Identity::meet(Belief& belief) {
   const int h = gallery_.meet(mean, belief.looks, replaced);
   if (h == kStranger) return;
   for (Belief& other : beliefs_) {
-    other.log_place[h] = other.log_place[kStranger] + kMet;
+    other.log_place[h] = other.log_place[kStranger] + kLogMistaken;
     other.log_views[h] = other.view.mean[h] = 0.0;
   }
   belief.log_place[h] = belief.log_place[kStranger];
-  belief.log_place[kStranger] -= 4.0;
+  belief.log_place[kStranger] += kLogMistaken;
   last_[static_cast<std::size_t>(h)] = Absence{belief.place_m, belief.seen_s};
   away_[h] = 0.0;
 }
@@ -445,7 +438,7 @@ void Identity::meet(Belief& belief) {
 void Identity::makeTarget(int track_id, const Eigen::Vector2d& place_m, double stamp_s) {
   Belief* belief = find(track_id);
   if (belief == nullptr) belief = &begin(track_id, place_m, stamp_s);
-  for (double& weight : belief->log_place) weight = std::isfinite(weight) ? kTold : weight;
+  for (double& weight : belief->log_place) weight = std::isfinite(weight) ? kLogMistaken : weight;
   belief->log_place[kTarget] = 0.0;
   belief->log_views.setZero();
   belief->log_free.setZero();

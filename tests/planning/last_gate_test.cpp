@@ -149,6 +149,26 @@ TEST(LastGate, StandsBeforeALegThatCameTooFastToTell) {
   EXPECT_LT(passedBesideSomebody(0.75, 0.0, 0.0, 2.5), 0.3);
 }
 
+// Bug: errors of a cheaper laser's ranges were people who walk, and robots stood in doorways.
+TEST(LastGate, TakesNoErrorsOfRangesForPeopleWhoWalk) {
+  const auto passedBeforeAWall = [](double laser_sigma_m) {
+    LastGateParams params = usual();
+    params.wheels_latency_s = 0.5;
+    params.sight.laser_sigma_m = laser_sigma_m;
+    LastGate gate(params);
+    std::mt19937 random(5);
+    std::normal_distribution<float> error(0.0F, 0.025F);
+    for (double now_s = 10.0; now_s < 14.05; now_s += 0.1) {
+      LaserScan scan = wallAhead(0.8);
+      for (float& range_m : scan.ranges_m) range_m += error(random);
+      gate.addScan(scan, {}, now_s);
+    }
+    return gate.pass({0.3, 0.0}, {}, 0.0, 14.0).velocity.forward_mps;
+  };
+  EXPECT_EQ(passedBeforeAWall(0.025), 0.3);
+  EXPECT_LT(passedBeforeAWall(0.005), 0.3) << "what a better laser says is believed";
+}
+
 TEST(LastGate, LeavesWhoCameFromBehind) { EXPECT_EQ(passedBesideSomebody(-0.4, 1.0, 0.5), 0.3); }
 
 TEST(LastGate, NeverComesBackToWhatItTouches) {
