@@ -83,8 +83,7 @@ class GroundPlaneEstimator {
   bool isFull() const { return points_->size() >= params_.max_points; }
 
   /// The floor, or nothing if no plane is like one.
-  /// @param expected  Where it should be, as a plane (n, d) of the optical frame: tried beside
-  /// those
+  /// @param expected  Where it should be, a plane (n, d) of the optical frame: tried beside those
   ///                  that are drawn by lot, which seldom meet a floor of which little is seen.
   std::optional<GroundPlane> estimate(
       const std::optional<Eigen::Vector4d>& expected = std::nullopt) const;
@@ -96,9 +95,8 @@ class GroundPlaneEstimator {
 };
 
 /// A sentence that says how the floor contradicts the configured place of the camera; empty while
-/// its points are no further than tolerance_m (root mean square) from where they should be. They
-/// are compared where they were seen, not under the camera: a small patch far away says little of
-/// that.
+/// its points are no further than tolerance_m (root mean square) from where they should be: there,
+/// not under the camera, of which a small patch far away says little.
 std::string mountingWarning(const GroundPlane& floor, const Eigen::Isometry3d& T_base_camera,
                             double tolerance_m = 0.05);
 

@@ -286,8 +286,7 @@ StereoRig readOpenCvCalibration(const std::vector<fs::path>& files, cv::Size ima
   if (left.K.empty() && !left.P.empty() && !right.P.empty()) {
     return StereoRig(rectifiedAs(left.P), rectifiedAs(right.P), size, stored.origin());
   }
-  if (left.K.empty())
-    fail(stored.origin(), "the left camera matrix (M1) of a stereo pair is missing");
+  if (left.K.empty()) fail(stored.origin(), "the pair's left camera matrix (M1) is missing");
   right.K = stored.get({"m2", "k2", "cameramatrix2", "cameramatrixright", "rightcameramatrix",
                         "cameramatrixr", "kright", "mright", "kr", "mr", "rightk"},
                        3, 3, "the right camera matrix (M2)");

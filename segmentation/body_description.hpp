@@ -56,8 +56,7 @@ struct BodyDescriberParams {
 /// can take its place. Holds the memory that it works in; allocates nothing once warm.
 class BodyDescriber {
  public:
-  static constexpr double kChromaLimit =
-      1.5;  ///< log(r / g) and log(b / g) are clipped at +- this.
+  static constexpr double kChromaLimit = 1.5;  ///< Both log-ratios are clipped at +- this.
   static constexpr int kChromaBins = 18;
   static constexpr int kBrightnessBins = 6;
   static constexpr int kBins = kChromaBins * kChromaBins * kBrightnessBins;
