@@ -138,6 +138,14 @@ class BagWriter {
     put(topicNamed<Message>(topic, latched), stamp_ns, bytes_);
   }
 
+  /// Whether somebody hears what is written on a topic that was made known: of a bag, always.
+  bool isHeard(const std::string& topic) const {
+    for (std::size_t i = 0; i < topics_.size(); ++i) {
+      if (topics_[i].name == topic) return isHeard(i);
+    }
+    return false;
+  }
+
   /// Completes the bag and gives it its name, in the place of one that has it.
   /// @param complete  False if more was to come: then it does not replace one that is complete.
   /// @throws std::runtime_error  as write().
@@ -155,6 +163,7 @@ class BagWriter {
                    const std::vector<std::uint8_t>& bytes) = 0;
   /// Told of each topic before its first message.
   virtual void add(std::size_t topic) = 0;
+  virtual bool isHeard(std::size_t /*topic*/) const { return true; }
 
   template <class Message>
   std::size_t topicNamed(const std::string& name, bool latched) {

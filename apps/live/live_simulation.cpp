@@ -4,6 +4,8 @@
 #include <heel/apps/live/find_robot.hpp>
 #include <heel/apps/live/live_simulation.hpp>
 #include <heel/apps/output/run_end.hpp>
+#include <heel/apps/recording/bags/bag_map.hpp>
+#include <heel/apps/simulation/scene_map.hpp>
 #include <heel/apps/simulation/simulate.hpp>
 
 #include <algorithm>
@@ -21,6 +23,10 @@ LiveSimulationResult runLiveSimulation(const Scene& scene, const LiveSimulationP
   options.threads = params.threads;
   Simulator simulator(scene, options);
   SensorBag bag = sensorBag(network.writer(), simulator, false);
+  const std::unique_ptr<BagWriter> map_server = network.writer();
+  OccupancyGridMsg map = toMessage(laserGrid(scene));
+  map.header.frame_id = "map";
+  map_server->write("/map", 0, map, true);
   network.subscribe(cmd_vel, Delivery::kAsSent, 1);
   LiveSimulationResult result;
   const double step_s = stepFor(scene.robot);

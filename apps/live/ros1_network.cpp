@@ -185,6 +185,9 @@ class Ros1Writer final : public BagWriter {
   void put(std::size_t topic, std::int64_t, const std::vector<std::uint8_t>& bytes) override {
     publishers_[topic].publish(Ros1Bytes{bytes});
   }
+  bool isHeard(std::size_t topic) const override {
+    return publishers_[topic].getNumSubscribers() > 0;
+  }
 
   Advertise advertise_;
   std::vector<ros::Publisher> publishers_;

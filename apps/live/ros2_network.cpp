@@ -187,6 +187,11 @@ class Ros2Writer final : public BagWriter {
   void put(std::size_t topic, std::int64_t, const Bytes& bytes) override {
     writers_[topic]->write(const_cast<Bytes*>(&bytes));
   }
+  bool isHeard(std::size_t topic) const override {
+    dds::PublicationMatchedStatus matched;
+    writers_[topic]->get_publication_matched_status(matched);
+    return matched.current_count > 0;
+  }
 
   MakeWriter make_;
   std::vector<dds::DataWriter*> writers_;

@@ -73,10 +73,18 @@ class Live : public testing::TestWithParam<std::string> {
     return testing::AssertionFailure()
            << "after '" << word << "' it is not so that it is '" << state << "' and " << wheels;
   }
-  std::vector<std::string> live(std::vector<std::string> more) const {
-    std::vector<std::string> call = {
-        "live",  "--map", folder_ / "hall.yaml", "--robot-start", "0.5,0,0",           "--domain",
-        domain_, "--out", folder_ / "live",      "--ros",         isRos1() ? "1" : "2"};
+  std::vector<std::string> live(std::vector<std::string> more, bool map_is_sent = false) const {
+    std::vector<std::string> call = {"live",
+                                     map_is_sent ? "--map-topic" : "--map",
+                                     map_is_sent ? "/map" : folder_ / "hall.yaml",
+                                     "--robot-start",
+                                     "0.5,0,0",
+                                     "--domain",
+                                     domain_,
+                                     "--out",
+                                     folder_ / "live",
+                                     "--ros",
+                                     isRos1() ? "1" : "2"};
     call.insert(call.end(), more.begin(), more.end());
     return call;
   }
@@ -93,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(Networks, Live, testing::ValuesIn(networks()),
 TEST_P(Live, ARobotOnTheNetworkLearnsAPersonFollowsThemAndDoesAsItIsTold) {
   auto robot = this->robot("45");
   const HeelRun follower =
-      heelUntil(live({"--limit", "90", "--wait", "60"}), " follow", [this](pid_t) {
+      heelUntil(live({"--limit", "90", "--wait", "60"}, true), " follow", [this](pid_t) {
         EXPECT_TRUE(obeys("go", "any", "moves"));
         EXPECT_TRUE(obeys("pause", "paused", "stands"));
         EXPECT_TRUE(obeys("dance", "any", "stands"));

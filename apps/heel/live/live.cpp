@@ -9,11 +9,13 @@
 #include <heel/apps/heel/shared/arguments.hpp>
 #include <heel/apps/heel/shared/follow_output.hpp>
 #include <heel/apps/heel/shared/lap_clock.hpp>
+#include <heel/apps/heel/shared/map_source.hpp>
 #include <heel/apps/heel/shared/robot_places.hpp>
 #include <heel/apps/live/command_sender.hpp>
 #include <heel/apps/live/find_robot.hpp>
 #include <heel/apps/live/live_commands.hpp>
 #include <heel/apps/output/run_end.hpp>
+#include <heel/apps/recording/bags/bag_map.hpp>
 #include <heel/planning/plan_file.hpp>
 #include <heel/segmentation/appearance_model_io.hpp>
 
@@ -37,6 +39,7 @@ struct LiveOptions {
   PairCameraParams camera;  // alone, without a robot, if it has a device
   int port = LiveCameraOptions().port;
   LogMapOptions map;
+  std::string map_topic;
   std::filesystem::path model;
   std::string plan = "search";
   std::string config;  // empty: a robot of the default size and speed
@@ -66,6 +69,33 @@ FoundRobot waitForRobot(LiveNetwork& network, const LiveCommands& commands,
     told = missing;
     return steadyClock_s() - began_s < options.wait_s;
   });
+}
+
+/// The map that somebody sends.
+OccupancyGrid waitForMap(LiveNetwork& network, const LiveCommands& commands,
+                         const LiveOptions& options) {
+  const std::string& topic = options.map_topic;
+  const double began_s = steadyClock_s();
+  network.subscribe({topic, OccupancyGridMsg::kType, {}}, Delivery::kLatched, 1);
+  for (bool is_told = false;;) {
+    if (const auto message = network.next(0.5); message && message->topic.name == topic) {
+      try {
+        if (!message->topic.holds<OccupancyGridMsg>()) throw std::runtime_error("is no map");
+        OccupancyGridMsg map;
+        readMessage(network.form(), message->bytes.data(), message->bytes.size(), map);
+        network.unsubscribe(topic);
+        return toGrid(map);
+      } catch (const std::runtime_error& error) {
+        throw std::runtime_error(topic + ": " + error.what());
+      }
+    }
+    if (isToldToStop(commands)) throw Stopped("stopped before there was a map");
+    if (steadyClock_s() - began_s > options.wait_s) {
+      throw std::runtime_error("nobody sends a map on " + topic);
+    }
+    if (!is_told) warn("waiting for a map on " + topic);
+    is_told = true;
+  }
 }
 
 RobotDescription describeFound(const LiveOptions& options, const FoundRobot& found,
@@ -122,11 +152,15 @@ void run(const LiveOptions& options) {
   FollowOutput output(options.out, false, {}, inputs);
   LiveCommands commands(openNetwork(options.network), tellCommand);
   const std::unique_ptr<LiveNetwork> network = openNetwork(options.network);
+  LogMap map = openLogMap(options.map);
+  if (!options.map_topic.empty()) {
+    const OccupancyGrid grid = waitForMap(*network, commands, options);
+    map.walls = std::make_shared<const WallMap>(extruded(grid));
+  }
   const FoundRobot found = waitForRobot(*network, commands, options, config);
   for (const std::string& warning : found.camera.warnings) warn(warning);
   LiveReadings& readings = *found.readings;
   std::fprintf(stderr, "heel: the robot's camera: %s\n", readings.info().layout.c_str());
-  LogMap map = openLogMap(options.map);
   const RobotDescription robot = describeFound(options, found, config, map);
   const PetriPlan plan = loadPlan(planFile(options.plan), followingVocabulary());
   const auto makeFollower = [&](const std::optional<FloorPose>& start) {
@@ -152,6 +186,7 @@ void run(const LiveOptions& options) {
     if (stage != FollowStage::kBegin) output.addTime(stage, ms);
   };
   LiveReports reports(*network, map.walls ? kMapFrame : readings.odometryFrame());
+  output.showOn(reports.results());
   std::unique_ptr<CommandSender> sender;
   if (!options.dry) {
     CommandSenderParams params = options.sender;
@@ -251,6 +286,9 @@ void addLive(CLI::App& app) {
   verb->add_option("--map", options->map.map,
                    "a .bt, a map_server YAML, or a scene's name (default: none: the robot goes by "
                    "its odometry and what it sees, and does not search)");
+  verb->add_option("--map-topic", options->map_topic,
+                   "the map is what map_server sends there (/map)")
+      ->excludes("--map");
   verb->add_option("--model", options->model,
                    "the person, as 'heel learn' wrote it (default: the robot learns them first)");
   verb->add_option("--plan", options->plan,
@@ -276,7 +314,6 @@ void addLive(CLI::App& app) {
           "which ROS the robot runs (default: ROS_VERSION, else 2)")
       ->check(CLI::IsMember({1, 2}));
   addLogMap(*verb, options->map, options->topics);
-  verb->get_option("--robot-start")->needs("--map");
   addCameraTopics(*verb, options->topics);
   addOdometryTopic(*verb, options->topics);
   const std::vector<CLI::Option*> of_robots = verb->get_options([](const CLI::Option* option) {
@@ -287,6 +324,9 @@ void addLive(CLI::App& app) {
   verb->callback([options, of_robots] {
     if (options->camera.device.empty()) {
       if (options->out.empty()) throw CLI::RequiredError("--out");
+      if (!options->map.start.empty() && options->map.map.empty() && options->map_topic.empty()) {
+        throw CLI::RequiresError("--robot-start", "--map or --map-topic");
+      }
       return run(*options);
     }
     for (const CLI::Option* option : of_robots) {

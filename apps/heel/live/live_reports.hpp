@@ -33,6 +33,8 @@ class LiveReports {
   /// @throws std::runtime_error  if nothing can be sent.
   LiveReports(LiveNetwork& network, const std::string& frame);
 
+  ResultBag& results() { return results_; }
+
   /// @param clock_s  Now, on a clock that does not jump.
   void add(const FollowStep& step, const Follower& follower, const LiveFigures& figures,
            double clock_s);

@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <numeric>
 #include <utility>
@@ -17,6 +18,7 @@ namespace {
 constexpr double kSnapshotsApart_s = 4.0;
 constexpr std::size_t kMostSnapshots = 12;
 constexpr double kFilmRate_hz = 10.0;
+constexpr double kShownApart_s = 0.19;  // On a network.
 
 StageTime summaryOf(const char* name, const std::vector<float>& times_ms) {
   StageTime time{name, 0.0, 0.0};
@@ -70,9 +72,16 @@ void FollowOutput::add(const Readings& readings, const FollowStep& step, const F
   if (readings.stereo == nullptr) return;
   const bool snapshot = isWorthAPicture(sample);
   last_state_ = sample.state;
-  if (!film_wanted_ && !snapshot && !bag_) return;
+  const bool shows = network_ != nullptr &&
+                     std::abs(readings.stamp_s - shown_s_) >= kShownApart_s &&
+                     network_->isImageWatched();
+  if (!film_wanted_ && !snapshot && !bag_ && !shows) return;
   draw(readings, step, follower, sample);
   if (bag_) bag_->addImage(readings.stamp_s, picture_);
+  if (shows) {
+    network_->addImage(readings.stamp_s, picture_);
+    shown_s_ = readings.stamp_s;
+  }
   if (film_wanted_) {
     film_->write(picture_);
     film_stamps_s_.push_back(readings.stamp_s);

@@ -35,6 +35,9 @@ class FollowOutput {
   FollowOutput(const std::filesystem::path& folder, bool film, const std::filesystem::path& bag,
                const std::vector<std::filesystem::path>& inputs);
 
+  /// Also shows the run there, as often as 5 times a second, while somebody looks.
+  void showOn(ResultBag& network) { network_ = &network; }
+
   /// Of the step that is added next.
   void addTime(FollowStage stage, double ms);
   void add(const Readings& readings, const FollowStep& step, const Follower& follower,
@@ -68,6 +71,8 @@ class FollowOutput {
   std::optional<FilmWriter> film_;
   std::vector<double> film_stamps_s_;
   std::optional<ResultBag> bag_;
+  ResultBag* network_ = nullptr;
+  double shown_s_ = 0.0;  // on the network
   std::optional<DrawnPerception> drawn_;
   FollowVideoFrame frame_;
   cv::Mat picture_;

@@ -118,14 +118,6 @@ WallMap builtFrom(const fs::path& file, const Build& build) {
   }
 }
 
-WallMap extruded(const fs::path& file, const OccupancyGrid& plan, const MapSourceParams& params) {
-  return builtFrom(file, [&] {
-    WallMapBuilder builder(params.cell_size_m.value_or(plan.cell_size_m()));
-    builder.add(plan, params.wall_height_m);
-    return builder.build();
-  });
-}
-
 /// What a picture or a map_server pair shows; absent for anything else.
 std::optional<OccupancyGrid> floorPlanIn(const fs::path& path, const MapSourceParams& params) {
   if (!fs::is_regular_file(path) || isBag(path)) return std::nullopt;
@@ -142,6 +134,12 @@ std::optional<OccupancyGrid> floorPlanIn(const fs::path& path, const MapSourcePa
 }
 
 }  // namespace
+
+WallMap extruded(const OccupancyGrid& plan, const MapSourceParams& params) {
+  WallMapBuilder builder(params.cell_size_m.value_or(plan.cell_size_m()));
+  builder.add(plan, params.wall_height_m);
+  return builder.build();
+}
 
 OccupancyGrid openFloor(const fs::path& path, const MapSourceParams& params) {
   if (auto plan = floorPlanIn(path, params)) {
@@ -164,7 +162,8 @@ SourcedMap openMap(const fs::path& path, const MapSourceParams& params) {
   }
   if (path.extension() == ".bt") return {loadWallMap(path), "wall map"};
   if (const auto plan = floorPlanIn(path, params)) {
-    return {extruded(path, *plan, params), isImageName(path) ? "picture" : "map_server map"};
+    return {builtFrom(path, [&] { return extruded(*plan, params); }),
+            isImageName(path) ? "picture" : "map_server map"};
   }
   const Scene scene = loadScene(path.string());
   return {builtFrom(path, [&] { return wallMapOf(scene, cell_m); }), "scene"};

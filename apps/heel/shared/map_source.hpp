@@ -42,6 +42,10 @@ struct MapSourceParams {
   std::function<void(double)> progress;  ///< Called with the share that is done; may be empty.
 };
 
+/// Walls of this height stand on what a floor plan has occupied.
+/// @throws std::exception  if that can't be built.
+WallMap extruded(const OccupancyGrid& plan, const MapSourceParams& params = {});
+
 /// A map, and in words what it was made of.
 struct SourcedMap {
   WallMap map;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/heel/shared/result_bag.hpp>
+#include <heel/apps/recording/bags/bag_map.hpp>
 #include <heel/apps/recording/bags/bag_poses.hpp>
 
 #include <opencv2/imgcodecs.hpp>
@@ -18,6 +19,7 @@ constexpr const char* kTracksTopic = "/heel/tracks";
 constexpr const char* kMarkersTopic = "/heel/markers";
 constexpr const char* kTargetTopic = "/heel/target";
 constexpr const char* kPathTopic = "/heel/path";
+constexpr const char* kImageTopic = "/heel/image/compressed";
 constexpr double kBody_m = 0.45, kStature_m = 1.7;  // of the cylinders
 
 /// Where someone is, facing where they go.
@@ -61,7 +63,10 @@ ResultBag::ResultBag(std::unique_ptr<BagWriter> network, std::string frame)
   bag_->announce<MarkerArrayMsg>(kMarkersTopic);
   bag_->announce<PoseStampedMsg>(kTargetTopic);
   bag_->announce<PathMsg>(kPathTopic);
+  bag_->announce<CompressedImageMsg>(kImageTopic);
 }
+
+bool ResultBag::isImageWatched() const { return bag_->isHeard(kImageTopic); }
 
 HeaderMsg ResultBag::header(double stamp_s) const {
   HeaderMsg result;
@@ -109,18 +114,9 @@ void ResultBag::addPath(double stamp_s, const FloorPath& path) {
 }
 
 void ResultBag::addMap(double stamp_s, const OccupancyGrid& map) {
-  OccupancyGridMsg message;
+  OccupancyGridMsg message = toMessage(map);
   message.header = header(stamp_s);
   message.info.map_load_time = message.header.stamp;
-  message.info.resolution = static_cast<float>(map.cell_size_m());
-  message.info.width = static_cast<std::uint32_t>(map.width());
-  message.info.height = static_cast<std::uint32_t>(map.height());
-  setPoint(message.info.origin.position, {map.origin_m().x(), map.origin_m().y(), 0.0});
-  for (const Occupancy cell : map.cells()) {
-    message.data.push_back(cell == Occupancy::kFree       ? std::int8_t{0}
-                           : cell == Occupancy::kOccupied ? std::int8_t{100}
-                                                          : std::int8_t{-1});
-  }
   bag_->write("/map", message.header.stamp.ns, message, true);
 }
 
@@ -131,7 +127,7 @@ void ResultBag::addImage(double stamp_s, const cv::Mat& image_bgr) {
   if (!cv::imencode(".jpg", image_bgr, message.data)) {
     throw std::runtime_error(path_.string() + ": a picture can't be encoded");
   }
-  bag_->write("/heel/image/compressed", message.header.stamp.ns, message);
+  bag_->write(kImageTopic, message.header.stamp.ns, message);
 }
 
 }  // namespace heel

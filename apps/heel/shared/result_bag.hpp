@@ -37,7 +37,7 @@ class ResultBag {
   /// @throws std::invalid_argument, std::runtime_error  as createBag(); the latter, so do the
   /// others.
   explicit ResultBag(const BagPlan& plan, std::string frame = "map");
-  /// On a network, where tracks, target and path are made known at once.
+  /// On a network, where tracks, target, path and image are made known at once.
   ResultBag(std::unique_ptr<BagWriter> network, std::string frame);
 
   /// Empty on a network.
@@ -49,6 +49,8 @@ class ResultBag {
   void addPath(double stamp_s, const FloorPath& path);
   void addMap(double stamp_s, const OccupancyGrid& map);
   void addImage(double stamp_s, const cv::Mat& image_bgr);
+  /// Whether somebody gets the images: of a bag, always.
+  bool isImageWatched() const;
 
   /// Completes the bag and gives it its name.
   void commit(bool complete) { bag_->commit(complete); }

@@ -68,7 +68,8 @@ SimulatedLaserLog::SimulatedLaserLog(const std::filesystem::path& folder) {
   odometry_.open(folder / "odometry.csv", "stamp_s,x_m,y_m,yaw_rad");
   const std::filesystem::path truth = folder / "robot.csv";
   if (std::filesystem::exists(truth)) {
-    robot_.emplace().open(truth, "stamp_s,x_m,y_m,yaw_rad");
+    robot_ = std::make_unique<Poses>();
+    robot_->open(truth, "stamp_s,x_m,y_m,yaw_rad");
   }
 }
 

@@ -8,7 +8,7 @@
 #include <heel/apps/recording/laser_log.hpp>
 
 #include <fstream>
-#include <optional>
+#include <memory>
 #include <string>
 
 namespace heel {
@@ -51,7 +51,7 @@ class SimulatedLaserLog : public LaserLog {
 
   Table scans_;
   Poses odometry_;
-  std::optional<Poses> robot_;
+  std::unique_ptr<Poses> robot_;  // null without a truth
 };
 
 }  // namespace heel

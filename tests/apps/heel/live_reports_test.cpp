@@ -6,6 +6,7 @@
 #include <heel/planning/plan_file.hpp>
 
 #include <gmock/gmock.h>
+#include <opencv2/imgcodecs.hpp>
 
 #include <cstdio>
 #include <map>
@@ -92,6 +93,20 @@ TEST_P(LiveReportsTest, OthersHearWhereThePersonAndTheWayAre) {
   const auto path = heard<PathMsg>("/heel/path", send);
   ASSERT_EQ(path.poses.size(), 2U);
   EXPECT_EQ(path.poses[1].pose.position.x, 1.0);
+}
+
+TEST_P(LiveReportsTest, PicturesAreSentWhileSomebodyLooks) {
+  ResultBag results(heel_->writer(), "map");
+  EXPECT_FALSE(results.isImageWatched());
+  listen<CompressedImageMsg>("/heel/image/compressed");
+  const cv::Mat picture(4, 6, CV_8UC3, cv::Scalar(10, 200, 30));
+  const auto image = heard<CompressedImageMsg>("/heel/image/compressed", [&] {
+    if (results.isImageWatched()) results.addImage(3.5, picture);
+  });
+  EXPECT_EQ(image.header.stamp.ns, 3500000000);
+  EXPECT_EQ(cv::imdecode(image.data, cv::IMREAD_COLOR).size(), picture.size());
+  robot_->unsubscribe("/heel/image/compressed");
+  EXPECT_TRUE(test::waitFor([&] { return !results.isImageWatched(); }));
 }
 
 TEST_P(LiveReportsTest, DiagnosticsTellStateAndWhy) {
