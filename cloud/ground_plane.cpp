@@ -204,7 +204,7 @@ std::string mountingWarning(const GroundPlane& floor, const Eigen::Isometry3d& T
       "correct the mounting%s.",
       apart_m, found.height_m, found.pitch_rad * kDegrees, found.roll_rad * kDegrees,
       configured.height_m, configured.pitch_rad * kDegrees, configured.roll_rad * kDegrees,
-      found.height_m < configured.height_m - 0.3 ? ", unless this is a table's top" : "");
+      found.height_m < configured.height_m ? ", unless this is a table's top" : "");
   return text.data();
 }
 

@@ -69,9 +69,9 @@ std::string nothingReadMessage(const Recording& recording,
   return message;
 }
 
-std::string leftOutNote(const std::vector<SkippedFrame>& skipped) {
+std::string leftOutNote(const std::vector<SkippedFrame>& skipped, const char* before) {
   if (skipped.empty()) return {};
-  return "; " + std::to_string(skipped.size()) +
+  return before + std::to_string(skipped.size()) +
          (skipped.size() == 1 ? " frame was left out: " : " frames were left out, the first: ") +
          skipped.front().reason;
 }

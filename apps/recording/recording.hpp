@@ -95,7 +95,7 @@ std::string nothingReadMessage(const Recording& recording);
 std::string nothingReadMessage(const Recording& recording,
                                const std::vector<SkippedFrame>& skipped);
 
-/// "; 44 frames were left out, the first: why", or nothing.
-std::string leftOutNote(const std::vector<SkippedFrame>& skipped);
+/// "44 frames were left out, the first: why", after what comes before that; or nothing at all.
+std::string leftOutNote(const std::vector<SkippedFrame>& skipped, const char* before = "; ");
 
 }  // namespace heel

@@ -167,7 +167,7 @@ void run(TrackOptions options) {
                        unplaced.end());
     throw std::runtime_error(nothingReadMessage(*recording, end.skipped));
   }
-  if (!end.skipped.empty()) warn(leftOutNote(end.skipped).substr(2));
+  if (!end.skipped.empty()) warn(leftOutNote(end.skipped, ""));
   end.skipped.insert(end.skipped.end(), unplaced.begin(), unplaced.end());
   for (const std::string& warning : motionWarnings(robot, watch, *recording, unplaced.size())) {
     warn(warning);
