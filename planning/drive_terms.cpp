@@ -77,7 +77,7 @@ double nearPeople(const DriveLimits& limits, const DriveTermParams& params, cons
     if (t > params.foresight_s) break;
     const double weight = 1.0 - 0.5 * t / params.foresight_s;
     weights += weight;
-    const double room = roomToPeople(*scene.people, option.poses[i].position, limits.radius_m, t);
+    const double room = roomToPeople(*scene.people, limits, option.poses[i], t);
     // After a touch the future ends: people don't walk through the robot.
     touched = touched || room <= 0.0;
     const double lack =
@@ -114,24 +114,28 @@ const char* nameOf(DriveTerm term) {
   return kNames[static_cast<std::size_t>(term)];
 }
 
-double roomToPeople(const std::vector<MovingPerson>& people, const Vector2d& position,
-                    double radius_m, double after_s) {
+double roomToPeople(const std::vector<MovingPerson>& people, const DriveLimits& limits,
+                    const FloorPose& pose, double after_s) {
+  const FloorLine axis = axisOf(limits, pose);
   double least = kUnbounded;
   for (const MovingPerson& p : people) {
-    const double off = (p.position + after_s * p.velocity - position).norm();
-    least = std::min(least, off - p.radius_m - radius_m);
+    const Vector2d there = p.position + after_s * p.velocity;
+    least = std::min(least, (there - axis.nearest(there)).norm() - p.radius_m - limits.radius_m);
   }
   return least;
 }
 
-double roomToWays(const std::vector<MovingPerson>& people, const Vector2d& position,
-                  double radius_m, double after_s) {
+double roomToWay(const MovingPerson& person, const DriveLimits& limits, const FloorPose& pose,
+                 double after_s) {
+  const FloorLine way{person.position, person.position + after_s * person.velocity};
+  return distanceBetween(way, axisOf(limits, pose)) - person.radius_m - limits.radius_m;
+}
+
+double roomToWays(const std::vector<MovingPerson>& people, const DriveLimits& limits,
+                  const FloorPose& pose, double after_s) {
   double least = kUnbounded;
   for (const MovingPerson& p : people) {
-    const Vector2d way = after_s * p.velocity, to = position - p.position;
-    const double length2 = way.squaredNorm();
-    const double share = length2 > 0.0 ? std::clamp(to.dot(way) / length2, 0.0, 1.0) : 0.0;
-    least = std::min(least, (to - share * way).norm() - p.radius_m - radius_m);
+    least = std::min(least, roomToWay(p, limits, pose, after_s));
   }
   return least;
 }

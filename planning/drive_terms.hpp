@@ -64,12 +64,16 @@ struct DriveOption {
 
 /// The room between the robot's body and the nearest person, `after_s` from now; infinite if
 /// nobody is there.
-double roomToPeople(const std::vector<MovingPerson>& people, const Eigen::Vector2d& position,
-                    double radius_m, double after_s);
+double roomToPeople(const std::vector<MovingPerson>& people, const DriveLimits& limits,
+                    const FloorPose& pose, double after_s);
 
-/// The least such room if each person may be anywhere on their way up to then.
-double roomToWays(const std::vector<MovingPerson>& people, const Eigen::Vector2d& position,
-                  double radius_m, double after_s);
+/// The room to one who may be anywhere on their way up to then.
+double roomToWay(const MovingPerson& person, const DriveLimits& limits, const FloorPose& pose,
+                 double after_s);
+
+/// The least such room.
+double roomToWays(const std::vector<MovingPerson>& people, const DriveLimits& limits,
+                  const FloorPose& pose, double after_s);
 
 /// The costs of a future, without weights.
 DriveScores driveCosts(const DriveLimits& limits, const DriveTermParams& params,

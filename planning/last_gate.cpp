@@ -44,7 +44,7 @@ const LastGateParams& checked(const LastGateParams& params) {
 // What is further away can't be touched before the robot stands, with a scan a control period, and
 // twice as long as a command can take to act; and as much for who walks.
 double rangeFor(const LastGateParams& params) {
-  return 2.0 * (params.limits.radius_m + params.margin_m +
+  return 2.0 * (axisReach(params.limits) + params.limits.radius_m + params.margin_m +
                 stoppingDistance(params.limits, params.limits.max_speed_mps,
                                  2.0 * params.wheels_latency_s + 0.5));
 }
@@ -75,14 +75,13 @@ void LastGate::addPoints(const std::vector<Eigen::Vector3f>& points, const Floor
 }
 
 // What can be touched, and how near it may come.
-void LastGate::approach(const Vector2d& robot, double reach_m, double then_s, double now_s) {
+void LastGate::approach(const FloorLine& body, double reach_m, double then_s) {
   near_.clear();
   const double body_m = params_.limits.radius_m;
   double nearest_m = body_m + params_.margin_m;
   for (const SeenThing& thing : sight_.things()) {
-    if (now_s - thing.seen_s > params_.sight.remembers_s) continue;
     const bool roams = thing.roams && thing.seen_s == sight_.newest_s();
-    const double away2 = (thing.place - robot).squaredNorm();
+    const double away2 = (thing.place - body.nearest(thing.place)).squaredNorm();
     if (!roams && away2 > reach_m * reach_m) continue;
     const double away_m = std::sqrt(away2);
     if (away_m >= body_m) nearest_m = std::min(nearest_m, away_m);
@@ -101,8 +100,8 @@ double LastGate::strays(const Near& thing, double after_s) const {
 // Whether a thing surely comes no nearer while the robot drives a piece of its way: it is behind
 // the robot, wherever in the piece that is and however it is turned.
 bool LastGate::recedes(const WayPiece& piece, double along_m, double aside_m) {
-  if (!piece.moves) return true;
-  if (piece.turned_rad > 1.0) return false;
+  if (!piece.advances && !piece.backs && !piece.swings) return true;
+  if (piece.swings || piece.turned_rad > 1.0) return false;
   const double cosine = 1.0 - 0.5 * piece.turned_rad * piece.turned_rad;  // or more
   const double aside = (std::abs(aside_m) + piece.aside_m) * piece.turned_rad;
   return (!piece.backs && (piece.first_m - along_m) * cosine >= aside) ||
@@ -139,14 +138,15 @@ bool LastGate::isFree(const std::vector<WayPiece>& pieces) const {
 // Whether the half of the body's rim that is in front has been seen free, or is where the body
 // stood at `start`. Things are `allow_m_` or more off the body's middle: so the rim is drawn half
 // of what they leave outside of the body, and a beam may end half of it before the rim.
-bool LastGate::isRimSeen(const Vector2d& start, const Vector2d& middle, const Vector2d& front,
+bool LastGate::isRimSeen(const FloorLine& start, const Vector2d& middle, const Vector2d& front,
                          double body_m, double stood_m, double now_s) {
   const double spare_m = 0.5 * (allow_m_ - params_.limits.radius_m);
   const double step_rad = M_PI / std::ceil(M_PI * body_m / rimStep());
   const Eigen::Matrix2d step = Eigen::Rotation2Dd(step_rad).toRotationMatrix();
   Vector2d ray(front.y(), -front.x());  // from the right to the left
   for (double turned = 0.0; turned < M_PI + 0.5 * step_rad; turned += step_rad) {
-    const bool stood_there = (middle + body_m * ray - start).squaredNorm() <= stood_m * stood_m;
+    const Vector2d rim = middle + body_m * ray;
+    const bool stood_there = (rim - start.nearest(rim)).squaredNorm() <= stood_m * stood_m;
     if (!stood_there && !sight_.isSeen(middle + (body_m + spare_m) * ray, spare_m, now_s))
       return false;
     ray = step * ray;
@@ -166,10 +166,10 @@ double LastGate::rimStep() const {
 // What the body newly covers while it goes one way is what the front half of its rim sweeps. That
 // is looked at in rows across the way; each end is taken further by the margin, or the robot could
 // creep on where nothing is seen.
-bool LastGate::isSeenAhead(const std::vector<WayPiece>& pieces, const Vector2d& start,
+bool LastGate::isSeenAhead(const std::vector<WayPiece>& pieces, const FloorLine& start,
                            double now_s) {
   const double apart_m = rimStep();
-  const double beside_m = sight_.besideView(params_.limits.radius_m);
+  const double beside_m = sight_.besideView(params_.limits.radius_m, params_.limits.front_m);
   for (const double sign : {1.0, -1.0}) {
     const auto goes = [&](const WayPiece& p) { return sign > 0.0 ? p.advances : p.backs; };
     // Forwards it never creeps on blindly: the scanner looks there.
@@ -196,7 +196,8 @@ GateReason LastGate::judge(const VelocityCommand& velocity, const FloorPose& fro
                            double now_s) {
   const std::vector<WayPiece>& pieces = ways_.layOut(velocity, from, then_s, now_s);
   if (!isFree(pieces)) return GateReason::kThing;
-  return isSeenAhead(pieces, from.position, now_s) ? GateReason::kFree : GateReason::kUnseen;
+  return isSeenAhead(pieces, axisOf(params_.limits, from), now_s) ? GateReason::kFree
+                                                                  : GateReason::kUnseen;
 }
 
 GatedVelocity LastGate::pass(const VelocityCommand& wanted, const DriveState& now, double age_s,
@@ -211,10 +212,10 @@ GatedVelocity LastGate::pass(const VelocityCommand& wanted, const DriveState& no
     ways_.believe(now.speed, then_s);
     const double top_mps = std::max(std::abs(wanted.forward_mps), ways_.fastest_mps(then_s));
     const double until_brakes_s = age_s + params_.limits.period_s + params_.wheels_latency_s;
-    approach(now.pose.position,
-             params_.limits.radius_m + params_.margin_m +
+    approach(axisOf(params_.limits, now.pose),
+             params_.limits.radius_m + params_.margin_m + 2.0 * axisReach(params_.limits) +
                  stoppingDistance(params_.limits, top_mps, until_brakes_s),
-             then_s, now_s);
+             then_s);
     const auto passes = [&](const VelocityCommand& velocity) {
       const GateReason reason = judge(velocity, now.pose, then_s, now_s);
       if (reason == GateReason::kFree) gated.velocity = velocity;

@@ -42,7 +42,7 @@ struct GatedVelocity {
 };
 
 /// Takes a velocity and gives one with which the robot stops in time, from raw readings alone:
-/// neither the map nor the tracks nor who is followed. The robot is a disc about its base's origin.
+/// neither the map nor the tracks nor who is followed. The robot is a disc drawn along an axis.
 ///
 /// It lets a velocity through if the robot, with it for a control period and then braking,
 /// - comes no nearer than `margin_m` to what was seen, or, where the nearest that it does not touch
@@ -96,21 +96,21 @@ class LastGate {
  private:
   struct Near {
     Eigen::Vector2d place;
-    double away_m;  // from the robot's middle
+    double away_m;  // from the body's axis
     Eigen::Vector2d velocity;
     bool roams;       // it may walk, and is a part of somebody
     double gait_mps;  // how far off its velocity may be
     double age_s;     // of the place
   };
 
-  void approach(const Eigen::Vector2d& robot, double reach_m, double then_s, double now_s);
+  void approach(const FloorLine& body, double reach_m, double then_s);
   double strays(const Near& thing, double after_s) const;
   static bool recedes(const WayPiece& piece, double along_m, double aside_m);
   bool isFree(const std::vector<WayPiece>& pieces) const;
-  bool isRimSeen(const Eigen::Vector2d& start, const Eigen::Vector2d& middle,
+  bool isRimSeen(const FloorLine& start, const Eigen::Vector2d& middle,
                  const Eigen::Vector2d& front, double body_m, double stood_m, double now_s);
   double rimStep() const;
-  bool isSeenAhead(const std::vector<WayPiece>& pieces, const Eigen::Vector2d& start, double now_s);
+  bool isSeenAhead(const std::vector<WayPiece>& pieces, const FloorLine& start, double now_s);
   GateReason judge(const VelocityCommand& velocity, const FloorPose& from, double then_s,
                    double now_s);
 

@@ -27,9 +27,15 @@ bool isFinite(const MovingPerson& p) {
 }
 
 /// The room around the body; none where nobody knows.
-double roomAt(const Clearance& clearance, const Vector2d& point, double radius_m) {
-  const double distance = clearance(point);
-  return std::isnan(distance) ? -kInfinite : distance - radius_m;
+double roomAt(const DriveLimits& limits, const FloorPose& pose, const Clearance& clearance) {
+  const double room_m = roomAround(limits, pose, clearance);
+  return std::isnan(room_m) ? -kInfinite : room_m;
+}
+
+/// No point of the body moves further between two poses of a future.
+double wayBetween(const DriveLimits& limits, const FloorPose& a, const FloorPose& b) {
+  return (b.position - a.position).norm() +
+         axisReach(limits) * std::abs(wrapped(b.yaw_rad - a.yaw_rad));
 }
 
 }  // namespace
@@ -91,10 +97,9 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
     plan.reason = *fault;
     return plan;
   }
-  const double radius = params_.limits.radius_m;
-  gap_m_ = roomAt(clearance, pose.position, radius);
+  gap_m_ = roomAt(params_.limits, pose, clearance);
   plan.gap_m = gap_m_;
-  plan.people_gap_m = roomToPeople(people, pose.position, radius, 0.0);
+  plan.people_gap_m = roomToPeople(people, params_.limits, pose, 0.0);
   if (gap_m_ == -kInfinite) {
     reset();
     plan.reason = DriveReason::kNoClearance;
@@ -164,13 +169,12 @@ bool LocalPlanner::hasArrived(const std::vector<Vector2d>& path, const Vector2d&
 
 bool LocalPlanner::isThreatened(const DriveScene& scene, double room_m) const {
   if (room_m < 0.5 * params_.people_margin_m) return true;
-  const double radius = params_.limits.radius_m;
+  const FloorPose& pose = scene.now.pose;
   for (const MovingPerson& p : *scene.people) {
-    const Vector2d to = scene.now.pose.position - p.position;
+    const Vector2d to = pose.position - p.position;
     if (p.velocity.dot(to) <= kComes_mps * to.norm()) continue;
-    const Vector2d way = params_.give_way_s * p.velocity;
-    const double share = std::clamp(to.dot(way) / way.squaredNorm(), 0.0, 1.0);
-    if ((to - share * way).norm() < p.radius_m + radius + params_.give_way_gap_m) return true;
+    if (roomToWay(p, params_.limits, pose, params_.give_way_s) < params_.give_way_gap_m)
+      return true;
   }
   return false;
 }
@@ -223,7 +227,7 @@ void LocalPlanner::layOut(const DriveScene& scene, bool threatened) {
                     static_cast<std::size_t>(params_.latency_periods);
   staying_gap_m_.resize(most);
   for (std::size_t i = 0; i < most; ++i) {
-    staying_gap_m_[i] = roomToWays(*scene.people, scene.now.pose.position, limits.radius_m,
+    staying_gap_m_[i] = roomToWays(*scene.people, limits, scene.now.pose,
                                    static_cast<double>(i + 1) * limits.period_s);
   }
 }
@@ -240,13 +244,12 @@ LocalPlanner::Braking LocalPlanner::brake(const DriveScene& scene, const Velocit
   };
   for (; step < staying_gap_m_.size() && (step < held || rolls()); ++step) {
     state = driven(limits, state, step < held ? command : VelocityCommand{}, limits.period_s);
-    const double way = (state.pose.position - scene.now.pose.position).norm();
+    const double way = wayBetween(limits, scene.now.pose, state.pose);
     // The room shrinks by no more than the way gone; look only where that doesn't settle it.
     const bool far = gap_m_ - way > std::max(params_.slow_gap_m, params_.margin_m);
-    out.gap_m = std::min(
-        out.gap_m, far ? gap_m_ - way : roomAt(clearance, state.pose.position, limits.radius_m));
+    out.gap_m = std::min(out.gap_m, far ? gap_m_ - way : roomAt(limits, state.pose, clearance));
     out.people_gap_m =
-        std::min(out.people_gap_m, roomToWays(*scene.people, state.pose.position, limits.radius_m,
+        std::min(out.people_gap_m, roomToWays(*scene.people, limits, state.pose,
                                               static_cast<double>(step + 1) * limits.period_s));
   }
   const double staying = staying_gap_m_[step - 1];
@@ -259,22 +262,21 @@ LocalPlanner::Braking LocalPlanner::brake(const DriveScene& scene, const Velocit
 std::size_t LocalPlanner::measure(const DriveScene& scene, std::size_t option,
                                   Clearance clearance) {
   const FloorPose* poses = futures_.row(option);
-  const double radius = params_.limits.radius_m;
+  const DriveLimits& limits = params_.limits;
   std::size_t clear = futures_.steps;
   double known = gap_m_;
-  Vector2d there = scene.now.pose.position;
+  FloorPose there = scene.now.pose;
   for (std::size_t i = 0; i < futures_.steps; ++i) {
-    const double moved = (poses[i].position - there).norm();
+    const double moved = wayBetween(limits, there, poses[i]);
     double gap = known - moved;
     if (gap < params_.terms.comfort_m && moved > 0.0) {
-      gap = known = roomAt(clearance, poses[i].position, radius);
-      there = poses[i].position;
+      gap = known = roomAt(limits, poses[i], clearance);
+      there = poses[i];
     }
     gaps_m_[i] = gap;
-    const double t = params_.limits.period_s * static_cast<double>(i + 1);
-    const bool touches =
-        gap < 0.0 || (t <= params_.terms.foresight_s &&
-                      roomToPeople(*scene.people, poses[i].position, radius, t) < 0.05);
+    const double t = limits.period_s * static_cast<double>(i + 1);
+    const bool touches = gap < 0.0 || (t <= params_.terms.foresight_s &&
+                                       roomToPeople(*scene.people, limits, poses[i], t) < 0.05);
     if (touches && clear == futures_.steps) clear = i;
   }
   return clear;
@@ -306,10 +308,7 @@ double LocalPlanner::allowedTowards(const DriveScene& scene, const MovingPerson&
   if (!(towards > 0.0)) return kInfinite;
   const double braked_s = (1.0 + params_.latency_periods) * limits.period_s +
                           std::abs(scene.now.speed.forward_mps) / limits.max_acceleration_mps2;
-  const Vector2d their_way = braked_s * person.velocity;
-  const double length2 = their_way.squaredNorm();
-  const double share = length2 > 0.0 ? std::clamp(-to.dot(their_way) / length2, 0.0, 1.0) : 0.0;
-  const double room_m = (to + share * their_way).norm() - person.radius_m - limits.radius_m;
+  const double room_m = roomToWay(person, limits, scene.now.pose, braked_s);
   const double full_m = params_.slow_people_gap_m - params_.people_margin_m;
   const double free_m = room_m - params_.people_margin_m;
   const double free = full_m > 0.0 ? std::clamp(free_m / full_m, 0.0, 1.0) : 1.0;
@@ -338,8 +337,8 @@ void LocalPlanner::explain(const DriveScene& scene, LocalPlan& plan) {
   } else {
     plan.status = DriveStatus::kBlocked;
     // Whether it is people who are in the way: would the room to them be too little soon?
-    const double soon = roomToWays(*scene.people, scene.now.pose.position, params_.limits.radius_m,
-                                   params_.terms.foresight_s);
+    const double soon =
+        roomToWays(*scene.people, params_.limits, scene.now.pose, params_.terms.foresight_s);
     plan.reason = soon < 2.0 * params_.terms.people_comfort_m ? DriveReason::kPersonInWay
                                                               : DriveReason::kObstacleInWay;
   }

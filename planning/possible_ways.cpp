@@ -119,6 +119,7 @@ const std::vector<WayPiece>& PossibleWays::layOut(const VelocityCommand& velocit
                                                   double now_s) {
   const std::array<Sent, 2> planned{{{now_s, velocity}, {now_s + limits_.period_s, {}}}};
   const double brakes_s = now_s + limits_.period_s + latency_s_;
+  const double reach_m = axisReach(limits_);
   VelocityCommand slow = slow_, fast = fast_;
   FloorPose pose = from;
   double time_s = then_s, along_m = 0.0, aside_m = 0.0, off_rad = 0.0, driven_m = 0.0;
@@ -157,7 +158,9 @@ const std::vector<WayPiece>& PossibleWays::layOut(const VelocityCommand& velocit
                               std::abs(mean.turn_radps * faster_mps));
     along_m = along + turn_rad * aside;
     aside_m = aside + turn_rad * along;
-    driven_m += way_m;
+    const double top_radps = std::max(most(slow.turn_radps, next_slow.turn_radps),
+                                      most(fast.turn_radps, next_fast.turn_radps));
+    driven_m += way_m + reach_m * top_radps * dt_s;
     const FloorPose next = alongArc(pose, mean.forward_mps * dt_s, mean.turn_radps * dt_s);
     const double half_rad = pose.yaw_rad + 0.5 * mean.turn_radps * dt_s;
     WayPiece piece;
@@ -168,15 +171,20 @@ const std::vector<WayPiece>& PossibleWays::layOut(const VelocityCommand& velocit
     piece.turned_rad = turn_rad + off_rad;
     piece.advances = fast.forward_mps > 0.0 || next_fast.forward_mps > 0.0;
     piece.backs = slow.forward_mps < 0.0 || next_slow.forward_mps < 0.0;
-    piece.moves = piece.advances || piece.backs;
+    piece.swings = reach_m * top_radps > 0.0;
     // Where it turns back within the piece it has been a little further.
     const double beyond_m =
         begin.forward_mps * end.forward_mps < 0.0 ? std::abs(faster_mps) * dt_s / 8.0 : 0.0;
     const double chord_m = (next.position - pose.position).dot(piece.way);
     const double spare_m = along_m + turn_rad * aside_m + beyond_m;
-    piece.first_m = std::min(chord_m, 0.0) - spare_m;
-    piece.last_m = std::max(chord_m, 0.0) + spare_m;
-    piece.aside_m = aside_m + turn_rad * along_m + 0.5 * way_m * turn_rad;
+    // The axis, turned off the way, is no longer along it, and aside by the sine.
+    const double cosine = std::max(1.0 - 0.5 * piece.turned_rad * piece.turned_rad, -1.0);
+    piece.first_m =
+        std::min(chord_m, 0.0) - spare_m + std::min(limits_.back_m, limits_.back_m * cosine);
+    piece.last_m =
+        std::max(chord_m, 0.0) + spare_m + std::max(limits_.front_m, limits_.front_m * cosine);
+    piece.aside_m = aside_m + turn_rad * along_m + 0.5 * way_m * turn_rad +
+                    reach_m * std::min(piece.turned_rad, 1.0);
     pieces_.push_back(piece);
     slow = next_slow;
     fast = next_fast;

@@ -15,14 +15,14 @@
 
 namespace heel {
 
-/// A box that the robot's middle does not leave for a while: along a way from a place, and aside.
+/// A box that the body's axis does not leave for a while: along a way from a place, and aside.
 struct WayPiece {
   Eigen::Vector2d from, way;
   double first_m, last_m, aside_m;
-  double turned_rad;            ///< The heading is off the way by no more than this.
-  double driven_m;              ///< No more, since the last odometry.
-  double time_s;                ///< At its end, since then.
-  bool moves, advances, backs;  ///< Maybe.
+  double turned_rad;             ///< The heading is off the way by no more than this.
+  double driven_m;               ///< By any point of the axis no more, since the last odometry.
+  double time_s;                 ///< At its end, since then.
+  bool advances, backs, swings;  ///< Maybe; swings: its ends move aside.
 };
 
 /// Keeps what was sent to the wheels, and follows a box around all ways that this can lead to: each

@@ -34,9 +34,9 @@ RecentSight::RecentSight(const RecentSightParams& params, double range_m)
       surface_m_(std::max(kSurface_m, kSurfaceSigmas * params.laser_sigma_m)),
       cells_(kCells * kCells),
       points_s_(kNotYet) {
-  for (const double value :
-       {params.remembers_s, params.laser_sigma_m, params.camera_half_view.minCoeff(),
-        params.camera_nearest_m, params.camera_range_m, params.min_points - 1.0}) {
+  for (const double value : {params.remembers_s, params.laser_sigma_m, params.keeps_within_m,
+                             params.camera_half_view.minCoeff(), params.camera_nearest_m,
+                             params.camera_range_m, params.min_points - 1.0}) {
     if (!(value >= 0.0) || !std::isfinite(value)) {
       throw std::invalid_argument("RecentSightParams: a parameter is out of its range");
     }
@@ -149,12 +149,16 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
   look.scan.first_rad = scan.first_rad;
   look.scan.step_rad = scan.step_rad;
   look.scan.ranges_m.assign(scan.ranges_m.begin(), scan.ranges_m.end());
-  things_.erase(std::remove_if(things_.begin(), things_.end(),
-                               [&](const SeenThing& thing) {
-                                 return stamp_s - thing.seen_s > params_.remembers_s ||
-                                        (thing.by_laser && sees(look, thing.place));
-                               }),
-                things_.end());
+  const double keeps_m2 = params_.keeps_within_m * params_.keeps_within_m;
+  things_.erase(
+      std::remove_if(things_.begin(), things_.end(),
+                     [&](const SeenThing& thing) {
+                       const bool is_old = stamp_s - thing.seen_s > params_.remembers_s;
+                       const bool is_kept =
+                           !thing.roams && (thing.place - base.position).squaredNorm() < keeps_m2;
+                       return (is_old && !is_kept) || (thing.by_laser && sees(look, thing.place));
+                     }),
+      things_.end());
   const Look& earlier = looks_[(newest_ + looks_.size() - 1) % looks_.size()];
   moves_.assign(scan.ranges_m.size(), kNotYet);
   roaming_.clear();
@@ -248,7 +252,7 @@ double RecentSight::clearance(const Vector2d& place) const {
   return std::sqrt(least2);
 }
 
-double RecentSight::besideView(double body_m) const {
+double RecentSight::besideView(double body_m, double front_m) const {
   const LaserScan& scan = looks_[newest_].scan;
   if (scan.ranges_m.empty()) return 0.0;
   const double yaw_rad = params_.T_base_scanner.yaw_rad;
@@ -256,8 +260,8 @@ double RecentSight::besideView(double body_m) const {
   const double last_rad = yaw_rad + scan.angle(scan.ranges_m.size()) - scan.step_rad;
   const double half_rad = std::min(std::abs(first_rad), std::abs(last_rad));
   if (half_rad + 2.0 * std::abs(scan.step_rad) >= M_PI) return 0.0;
-  const double ahead_m =
-      params_.T_base_scanner.position.x() + body_m / std::tan(std::max(half_rad, kRounding_rad));
+  const double ahead_m = params_.T_base_scanner.position.x() - front_m +
+                         body_m / std::tan(std::max(half_rad, kRounding_rad));
   const double within_m = std::clamp(ahead_m, 0.0, body_m);
   return body_m - std::sqrt(body_m * body_m - within_m * within_m);
 }

@@ -27,6 +27,9 @@ struct RecentSightParams {
   /// What no sensor looks at any more is known for so long: longer than a robot takes to turn
   /// about, shorter than people stay. A user's choice.
   double remembers_s = 4.0;
+  /// What stands so near to the base's origin is known until it is looked at again: an end of a
+  /// long body that turns would swing into it.
+  double keeps_within_m = 0.0;
   /// So many of a picture's points in a cell of 5 cm are a thing; fewer are errors of the stereo.
   int min_points = 6;
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();  ///< z is the line of sight.
@@ -82,9 +85,9 @@ class RecentSight {
   bool isSeen(const Eigen::Vector2d& place, double short_m, double now_s);
 
   /// What a robot that stands can not see of its way straight on: the strips along both sides of
-  /// the body of this radius, so wide, as far ahead as its scanner's first and last beam leave
-  /// them [m].
-  double besideView(double body_m) const;
+  /// the body of this radius, whose foremost disc is so far ahead, so wide, as far ahead as its
+  /// scanner's first and last beam leave them [m].
+  double besideView(double body_m, double front_m) const;
 
  private:
   struct Look {

@@ -5,9 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace heel {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kDiscs = 4.0;      // In a radius of the axis: their rims leave 0.8 % of it out.
+constexpr double kFinest_m = 1e-3;  // To which a body is fitted.
+
+}  // namespace
 
 void checkLimits(const DriveLimits& limits) {
   for (const double limit :
@@ -17,6 +26,82 @@ void checkLimits(const DriveLimits& limits) {
       throw std::invalid_argument("a drive's limits must be positive");
     }
   }
+  if (!(limits.back_m <= limits.front_m) || !std::isfinite(limits.front_m - limits.back_m)) {
+    throw std::invalid_argument("a body's front must be before its back");
+  }
+}
+
+DriveLimits withBodyAround(const std::vector<Vector2d>& corners, DriveLimits limits) {
+  double narrowest_m = 0.0, roundest_m = 0.0;
+  for (const Vector2d& corner : corners) {
+    narrowest_m = std::max(narrowest_m, std::abs(corner.y()));
+    roundest_m = std::max(roundest_m, corner.norm());
+  }
+  double least_m2 = std::numeric_limits<double>::infinity();
+  const int steps = static_cast<int>(std::ceil((roundest_m - narrowest_m) / kFinest_m));
+  for (int i = 0; i <= steps; ++i) {
+    const double radius_m = std::min(narrowest_m + i * kFinest_m, roundest_m);
+    double front_m = -roundest_m, back_m = roundest_m;
+    for (const Vector2d& corner : corners) {
+      const double along_m =
+          std::sqrt(std::max(radius_m * radius_m - corner.y() * corner.y(), 0.0));
+      front_m = std::max(front_m, corner.x() - along_m);
+      back_m = std::min(back_m, corner.x() + along_m);
+    }
+    // A disc that holds all of them about any point of the axis has room to spare.
+    if (front_m < back_m) front_m = back_m = 0.5 * (front_m + back_m);
+    const double area_m2 = radius_m * (M_PI * radius_m + 2.0 * (front_m - back_m));
+    if (area_m2 >= least_m2) continue;
+    least_m2 = area_m2;
+    limits.radius_m = radius_m;
+    limits.front_m = front_m;
+    limits.back_m = back_m;
+  }
+  return limits;
+}
+
+Vector2d FloorLine::nearest(const Vector2d& place) const {
+  const Vector2d way = to - from;
+  const double length2 = way.squaredNorm();
+  return from +
+         (length2 > 0.0 ? std::clamp((place - from).dot(way) / length2, 0.0, 1.0) : 0.0) * way;
+}
+
+double distanceBetween(const FloorLine& a, const FloorLine& b) {
+  const auto sideOf = [](const FloorLine& line, const Vector2d& place) {
+    const Vector2d way = line.to - line.from, off = place - line.from;
+    return way.x() * off.y() - way.y() * off.x();
+  };
+  if (sideOf(a, b.from) * sideOf(a, b.to) < 0.0 && sideOf(b, a.from) * sideOf(b, a.to) < 0.0) {
+    return 0.0;
+  }
+  return std::sqrt(std::min(
+      {(a.nearest(b.from) - b.from).squaredNorm(), (a.nearest(b.to) - b.to).squaredNorm(),
+       (b.nearest(a.from) - a.from).squaredNorm(), (b.nearest(a.to) - a.to).squaredNorm()}));
+}
+
+FloorLine axisOf(const DriveLimits& limits, const FloorPose& T_world_base) {
+  return {T_world_base * Vector2d(limits.back_m, 0.0),
+          T_world_base * Vector2d(limits.front_m, 0.0)};
+}
+
+double axisReach(const DriveLimits& limits) {
+  return std::max(std::abs(limits.back_m), std::abs(limits.front_m));
+}
+
+double roomAround(const DriveLimits& limits, const FloorPose& T_world_base, Clearance clearance) {
+  const FloorLine axis = axisOf(limits, T_world_base);
+  const Vector2d way = axis.to - axis.from;
+  const double discs = std::ceil(way.norm() * kDiscs / limits.radius_m);
+  double least_m = clearance(axis.from);
+  for (double i = 1.0; i <= discs; ++i) {
+    const double at_m = clearance(axis.from + i / discs * way);
+    if (!(at_m >= least_m)) least_m = at_m;  // Nor where it is not a number.
+    if (std::isnan(least_m)) return least_m;
+  }
+  if (discs == 0.0) return least_m - limits.radius_m;
+  const double beside_m = 0.5 * way.norm() / discs;  // of the nearest disc's middle
+  return std::sqrt(std::max(least_m * least_m - beside_m * beside_m, 0.0)) - limits.radius_m;
 }
 
 VelocityCommand speedAfter(const DriveLimits& limits, const VelocityCommand& from,
@@ -54,9 +139,9 @@ void addHeld(const DriveLimits& limits, const DriveState& now, const VelocityCom
   }
 }
 
-double turnToFace(const DriveLimits& limits, const DriveState& now, const Eigen::Vector2d& point,
+double turnToFace(const DriveLimits& limits, const DriveState& now, const Vector2d& point,
                   const FacingParams& params) {
-  const Eigen::Vector2d to = point - now.pose.position;
+  const Vector2d to = point - now.pose.position;
   if (!to.allFinite() || to.norm() < 1e-3 || !std::isfinite(now.pose.yaw_rad)) return 0.0;
   const double angle = wrapped(std::atan2(to.y(), to.x()) - now.pose.yaw_rad);
   const bool turns = std::abs(now.speed.turn_radps) > 1e-3;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <heel/mapping/floor_pose.hpp>
+#include <heel/planning/surroundings.hpp>
 
 #include <Eigen/Core>
 
@@ -20,9 +21,12 @@ struct VelocityCommand {
   double turn_radps = 0.0;  ///< To the left is positive.
 };
 
-/// The robot as a disc that drives and turns. The defaults are a Pioneer 3-DX at the paper's speed.
+/// The robot as a disc that drives and turns, or as what such a disc covers whose middle is drawn
+/// along the base's X axis: the body's axis. The defaults are a Pioneer 3-DX at the paper's speed.
 struct DriveLimits {
-  double radius_m = 0.26;      ///< Radius of the disc that holds the robot.
+  double radius_m = 0.26;      ///< Of the disc.
+  double front_m = 0.0;        ///< The axis ends here, ahead of the base's origin,
+  double back_m = 0.0;         ///< and begins here; both are 0 for a round robot.
   double max_speed_mps = 0.3;  ///< Greatest speed forwards.
   /// Greatest speed backwards, which is only used to make room for somebody.
   double max_reverse_mps = 0.15;
@@ -32,8 +36,31 @@ struct DriveLimits {
   double period_s = 0.1;                      ///< Time from one command to the next.
 };
 
-/// @throws std::invalid_argument  unless every limit is positive and finite.
+/// @throws std::invalid_argument  unless every limit is positive and finite, and so is the axis.
 void checkLimits(const DriveLimits& limits);
+
+/// The body of these limits of the least area that holds these corners [m, base].
+DriveLimits withBodyAround(const std::vector<Eigen::Vector2d>& corners, DriveLimits limits);
+
+/// A straight line from one place on the floor to another [m].
+struct FloorLine {
+  Eigen::Vector2d from, to;
+
+  Eigen::Vector2d nearest(const Eigen::Vector2d& place) const;  ///< Its point nearest to a place.
+};
+
+/// Between the points of two lines that are nearest to each other [m].
+double distanceBetween(const FloorLine& a, const FloorLine& b);
+
+/// The body's axis, from its back to its front.
+FloorLine axisOf(const DriveLimits& limits, const FloorPose& T_world_base);
+
+/// How far the axis reaches from the base's origin [m].
+double axisReach(const DriveLimits& limits);
+
+/// The room around the body; negative in a collision, NaN where nobody knows. It is looked at in
+/// discs along the axis, and may be too small by a hundredth of the radius, never too large [m].
+double roomAround(const DriveLimits& limits, const FloorPose& T_world_base, Clearance clearance);
 
 /// Where a robot is and how it moves.
 struct DriveState {

@@ -120,8 +120,7 @@ FollowLog runClosedLoop(const Scene& scene, const PetriPlan& plan, const ClosedL
   log.plan = plan.net.name;
   log.person = scene.people[kPerson].name;
   log.map = follower.floor();
-  log.robot_radius_m = robot.drive.radius_m;
-  log.max_speed_mps = robot.drive.max_speed_mps;
+  log.drive = robot.drive;
   log.camera_rate_hz = scene.robot.camera.rate_hz;
   log.outcome = "timeout";
   // At once, for an hour at most: a list that outgrows its memory again and again leaves holes.

@@ -20,6 +20,7 @@ constexpr int kHeader = 44;
 constexpr int kFooter = 30;
 constexpr double kPersonRadius_m = 0.22;
 constexpr double kAround_m = 6.0;  // Of the robot, so much is shown where there are no walls.
+constexpr int kCorners = 48;       // Of the drawn body; as many at its front as at its back.
 
 const cv::Scalar kWall(196, 186, 176);
 const cv::Scalar kRobot(240, 170, 96);
@@ -48,9 +49,9 @@ void drawTrail(const Outline& trail, const cv::Scalar& color, cv::Mat& panel) {
 
 }  // namespace
 
-FollowVideo::FollowVideo(const OccupancyGrid& map, double robot_radius_m,
+FollowVideo::FollowVideo(const OccupancyGrid& map, const DriveLimits& robot,
                          const FollowVideoParams& params)
-    : params_(params), grid_(map), robot_radius_m_(robot_radius_m), bounds_m_(occupiedBounds(map)) {
+    : params_(params), grid_(map), robot_(robot), bounds_m_(occupiedBounds(map)) {
   if (map.empty() || params.panel_height_px <= 0 || params.least_map_width_px <= 0 ||
       params.most_map_width_px < params.least_map_width_px || !(params.image_aspect > 0.0)) {
     throw std::invalid_argument("FollowVideo: the map is empty, or a size is not above 0");
@@ -151,21 +152,31 @@ void FollowVideo::drawObstacles(const FollowVideoFrame& frame, cv::Mat& panel) c
   }
 }
 
+/// The body's outline, so much wider.
+std::vector<cv::Point2d> FollowVideo::bodyAt(const FloorPose& pose, double wider_m) const {
+  std::vector<Vector2d> rim;
+  for (int i = 0; i < kCorners; ++i) {
+    const double angle = 2.0 * M_PI / kCorners * (i + 0.5);
+    const double middle_m = std::cos(angle) > 0.0 ? robot_.front_m : robot_.back_m;
+    rim.push_back(pose *
+                  (Vector2d(middle_m, 0.0) +
+                   (robot_.radius_m + wider_m) * Vector2d(std::cos(angle), std::sin(angle))));
+  }
+  return onMap(rim);
+}
+
 void FollowVideo::drawRobot(const FollowVideoFrame& frame, cv::Mat& panel) const {
-  const auto nose = [&](const FloorPose& pose) {
-    return onMap(pose * Vector2d(1.4 * robot_radius_m_, 0.0));
-  };
-  const double radius = scale_ * robot_radius_m_;
   if (frame.robot_true.position.allFinite()) {
-    const cv::Point2d at = onMap(frame.robot_true.position);
-    fillCircle(panel, at, radius, kRobot, 0.75);
-    drawLine(panel, at, nose(frame.robot_true), palette::kInk, 2);
+    const FloorPose& pose = frame.robot_true;
+    fillOutline(panel, bodyAt(pose), kRobot, 0.75);
+    drawLine(panel, onMap(pose.position),
+             onMap(pose * Vector2d(robot_.front_m + 1.4 * robot_.radius_m, 0.0)), palette::kInk, 2);
   }
   if (frame.robot_estimated.position.allFinite()) {
-    const cv::Point2d at = onMap(frame.robot_estimated.position);
-    drawCircle(panel, at, radius, kRobot);
+    drawOutline(panel, bodyAt(frame.robot_estimated), true, kRobot);
     if (frame.position_sigma_m > 0.0) {
-      drawCircle(panel, at, radius + scale_ * 2.0 * std::min(frame.position_sigma_m, 5.0), kRobot);
+      const double wider_m = 2.0 * std::min(frame.position_sigma_m, 5.0);
+      drawOutline(panel, bodyAt(frame.robot_estimated, wider_m), true, kRobot);
     }
   }
 }

@@ -8,6 +8,7 @@
 #include <heel/apps/pictures/annotate.hpp>
 #include <heel/mapping/floor_pose.hpp>
 #include <heel/mapping/occupancy_grid.hpp>
+#include <heel/planning/trajectory.hpp>
 
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>
@@ -50,7 +51,7 @@ class FollowVideo {
   /// @param map  Its walls are drawn once, and bound what the camera is shown to see. Without any
   ///             the robot's surroundings are shown.
   /// @throws std::invalid_argument  if the map is empty or a size is not above 0.
-  FollowVideo(const OccupancyGrid& map, double robot_radius_m,
+  FollowVideo(const OccupancyGrid& map, const DriveLimits& robot,
               const FollowVideoParams& params = {});
 
   /// Size of the pictures; both numbers are even, as films need it.
@@ -69,13 +70,14 @@ class FollowVideo {
   std::vector<cv::Point2d> onMap(const std::vector<Eigen::Vector2d>& places_m) const;
   void drawMap();
   std::vector<Eigen::Vector2d> seenArea(const DrawnFrame& view) const;
+  std::vector<cv::Point2d> bodyAt(const FloorPose& pose, double wider_m = 0.0) const;
   void drawRobot(const FollowVideoFrame& frame, cv::Mat& panel) const;
   void drawPeople(const FollowVideoFrame& frame, cv::Mat& panel) const;
   void drawObstacles(const FollowVideoFrame& frame, cv::Mat& panel) const;
 
   FollowVideoParams params_;
   OccupancyGrid grid_;
-  double robot_radius_m_;
+  DriveLimits robot_;
   Eigen::AlignedBox2d bounds_m_;
   bool goes_along_ = false;  ///< The panel shows where the robot is.
   double scale_ = 1.0;       ///< Pixels a metre on the map.

@@ -66,6 +66,8 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   gate.limits = robot.drive;
   gate.sight.T_base_scanner = robot.T_base_scanner;
   gate.sight.laser_sigma_m = robot.laser_sigma_m;
+  const double reach_m = axisReach(robot.drive);  // Only a body that is not round swings.
+  gate.sight.keeps_within_m = reach_m > 0.0 ? reach_m + robot.drive.radius_m + gate.margin_m : 0.0;
   gate.wheels_latency_s = robot.wheels_latency_s;
   gate.sight.T_base_camera = robot.camera.T_base_camera;
   const PinholeCamera& left = robot.camera.camera.left;

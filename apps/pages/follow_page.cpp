@@ -96,10 +96,11 @@ std::vector<Chart> charts(const FollowLog& log) {
   distance.least_top = 2.0;
   distance.limit = 1.0;
   distance.has_losses = true;
-  Chart speed{"Speed", "m/s", "dashed: the limit of " + shownNumber(log.max_speed_mps, 2, "m/s"),
-              "speed", "--robot"};
+  Chart speed{"Speed", "m/s",
+              "dashed: the limit of " + shownNumber(log.drive.max_speed_mps, 2, "m/s"), "speed",
+              "--robot"};
   speed.least_top = 0.1;
-  speed.limit = log.max_speed_mps;
+  speed.limit = log.drive.max_speed_mps;
   Chart clearance{"Clearance", "m", "gap between the robot and the nearest thing or person",
                   "clearance", "--s-face"};
   clearance.least_top = 0.5;
@@ -166,7 +167,7 @@ std::string besideThePaper(const FollowLog& log, const FollowSummary& sum) {
   return "<section class=\"card\"><div class=\"two\"><section aria-labelledby=\"paper\"><h2 "
          "id=\"paper\">Beside the paper</h2><div class=\"scroll\"><table><caption>Table 1 of the "
          "paper; both with a limit of " +
-         shownNumber(log.max_speed_mps, 1, "m/s") +
+         shownNumber(log.drive.max_speed_mps, 1, "m/s") +
          "</caption><thead><tr><th class=\"text\" scope=\"col\">run</th><th "
          "scope=\"col\">distance</th><th scope=\"col\">time</th><th scope=\"col\">speed</th><th "
          "scope=\"col\">seeking</th><th scope=\"col\">share</th></tr></thead><tbody>\n" +

@@ -181,13 +181,17 @@ std::string movingMarks(const FollowLog& log) {
     marks += "<circle id=\"now-other-" + std::to_string(i) +
              "\" class=\"now-other\" r=\".22\" visibility=\"hidden\"/>\n";
   }
-  const std::string radius = fixedText(log.robot_radius_m, 3);
+  const DriveLimits& body = log.drive;
+  const double along_m = body.front_m - body.back_m + 2.0 * body.radius_m;
+  const auto size = [](double size_m) { return fixedText(size_m, 3); };
   marks +=
       "<circle id=\"now-estimate\" class=\"now-estimate\" r=\".32\" visibility=\"hidden\"/>\n"
       "<circle id=\"now-person\" class=\"now-person\" r=\".22\" visibility=\"hidden\"/>\n"
-      "<g id=\"now-robot\" visibility=\"hidden\"><circle class=\"now-robot\" r=\"" +
-      radius + "\"/><line class=\"now-nose\" x1=\"0\" y1=\"0\" x2=\"" + radius +
-      "\" y2=\"0\"/></g>\n";
+      "<g id=\"now-robot\" visibility=\"hidden\"><rect class=\"now-robot\" x=\"" +
+      size(body.back_m - body.radius_m) + "\" y=\"" + size(-body.radius_m) + "\" width=\"" +
+      size(along_m) + "\" height=\"" + size(2.0 * body.radius_m) + "\" rx=\"" +
+      size(body.radius_m) + "\"/><line class=\"now-nose\" x1=\"0\" y1=\"0\" x2=\"" +
+      size(body.front_m + body.radius_m) + "\" y2=\"0\"/></g>\n";
   return marks;
 }
 

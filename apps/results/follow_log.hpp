@@ -87,8 +87,7 @@ struct FollowLog {
   std::string outcome;  ///< The follower's own word: "reached", "failed", "done", "timeout", ...
   std::string person;   ///< Whom to follow.
   OccupancyGrid map;
-  double robot_radius_m = 0.26;
-  double max_speed_mps = 0.3;
+  DriveLimits drive;
   std::vector<FollowSample> samples;  ///< In order of time.
   std::vector<FollowSnapshot> snapshots;
   std::vector<StageTime> stages;

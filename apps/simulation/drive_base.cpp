@@ -32,10 +32,9 @@ FloorPose DriveBase::ahead(double dt_s) const {
   return alongArc(pose_, speed_.forward_mps * dt_s, speed_.turn_radps * dt_s);
 }
 
-void DriveBase::go(double dt_s, bool free_ahead) {
-  if (!free_ahead) speed_.forward_mps = 0.0;
-  pose_ = ahead(dt_s);
-}
+void DriveBase::stop(bool may_turn) { speed_ = {0.0, may_turn ? speed_.turn_radps : 0.0}; }
+
+void DriveBase::go(double dt_s) { pose_ = ahead(dt_s); }
 
 WheelOdometry::WheelOdometry(const OdometryParams& params, std::uint64_t seed)
     : params_(params), random_(seed) {}

@@ -20,8 +20,11 @@ class DriveBase {
   /// Changes the speed towards the command for `dt_s`.
   void accelerate(double dt_s, const VelocityCommand& command);
 
-  /// Moves for `dt_s` at the present speed, or only turns if something is in the way.
-  void go(double dt_s, bool free_ahead);
+  /// Something is in the way: it stands, or only turns.
+  void stop(bool may_turn);
+
+  /// Moves for `dt_s` at the present speed.
+  void go(double dt_s);
 
   /// Where `go` would lead.
   FloorPose ahead(double dt_s) const;

@@ -120,7 +120,10 @@ void visit(Keys& keys, Part& p) {
   } else {
     auto& drive = p.drive;
     keys.number("radius_m", drive.radius_m, kPositive,
-                "[m] of the disc that holds the robot; or footprint: its corners, as Nav2's");
+                "[m] of a round robot; or footprint: its corners, as Nav2's");
+    keys.number("front_m", drive.front_m, {-5.0, 5.0},
+                "[m] a long body's disc is drawn ahead to here,");
+    keys.number("back_m", drive.back_m, {-5.0, 5.0}, "[m] and back to here");
     keys.number("height_m", p.height_m, kPositive, "[m] what hangs lower is in its way");
     keys.number("max_speed_mps", drive.max_speed_mps, kPositive, "[m/s] forwards");
     keys.number("max_reverse_mps", drive.max_reverse_mps, kPositive, "[m/s] backwards");
@@ -137,25 +140,29 @@ void visit(Keys& keys, Part& p) {
   }
 }
 
-/// The radius of the disc around the base's origin that holds these corners [m].
-double radiusAround(YamlMap& map) {
+/// The body around these corners.
+DriveLimits bodyAround(YamlMap& map, const DriveLimits& limits) {
   constexpr const char* kKey = "footprint";
   const std::vector<Eigen::Vector2d> corners = map.points2(kKey);
-  if (map.has("radius_m")) map.fail(kKey, "and 'radius_m' tell the same; give one of them");
+  for (const char* other : {"radius_m", "front_m", "back_m"}) {
+    if (map.has(other)) {
+      map.fail(kKey, "and '" + std::string(other) + "' tell the same; give one of them");
+    }
+  }
   if (corners.size() < 3) map.fail(kKey, "needs three corners or more");
-  double radius_m = 0.0;
-  for (const Eigen::Vector2d& corner : corners) radius_m = std::max(radius_m, corner.norm());
-  if (!(radius_m > 0.0)) map.fail(kKey, "must have a size");
-  return radius_m;
+  const DriveLimits body = withBodyAround(corners, limits);
+  if (!(body.radius_m > 0.0)) map.fail(kKey, "must have a width");
+  return body;
 }
 
 }  // namespace
 
 RobotParams readRobotItself(YamlMap& map) {
   RobotParams robot;
-  if (map.has("footprint")) robot.drive.radius_m = radiusAround(map);
+  if (map.has("footprint")) robot.drive = bodyAround(map, robot.drive);
   RobotReader reader{map};
   visit(reader, robot);
+  if (robot.drive.back_m > robot.drive.front_m) map.fail("back_m", "is ahead of front_m");
   map.done();
   return robot;
 }

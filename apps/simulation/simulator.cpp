@@ -82,8 +82,9 @@ struct Simulator::State {
   void placeBodies();
   void render();
   void tellTruth();
-  double clearance(const Eigen::Vector2d& p) const;
-  bool isDrivenInto(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
+  double clearance(const FloorPose& pose) const;
+  double roomTo(const Mover& mover, const FloorPose& pose) const;
+  bool isDrivenInto(const FloorPose& from, const FloorPose& to) const;
   void give(const VelocityCommand& command);
 
   Scene scene;
@@ -113,24 +114,26 @@ struct Simulator::State {
   RenderedView left, right;
 };
 
-double Simulator::State::clearance(const Eigen::Vector2d& p) const {
-  double least = plan.clearance(p);
-  for (const Walker& walker : walkers) {
-    const Mover mover = walker.mover();
-    least = std::min(least, (mover.position - p).norm() - mover.radius_m);
-  }
-  return least - scene.robot.drive.radius_m;
+double Simulator::State::clearance(const FloorPose& pose) const {
+  const DriveLimits& drive = scene.robot.drive;
+  double least =
+      roomAround(drive, pose, [&](const Eigen::Vector2d& p) { return plan.clearance(p); });
+  for (const Walker& walker : walkers) least = std::min(least, roomTo(walker.mover(), pose));
+  return least;
 }
 
-/// Whether the robot, on its way from one place to another, moves towards what it touches there.
-bool Simulator::State::isDrivenInto(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
-  if (plan.clearance(to) < scene.robot.drive.radius_m) return true;
+double Simulator::State::roomTo(const Mover& mover, const FloorPose& pose) const {
+  const Eigen::Vector2d near = axisOf(scene.robot.drive, pose).nearest(mover.position);
+  return (mover.position - near).norm() - mover.radius_m - scene.robot.drive.radius_m;
+}
+
+/// Whether the robot, on its way from one pose to another, moves towards what it touches there.
+bool Simulator::State::isDrivenInto(const FloorPose& from, const FloorPose& to) const {
+  const auto things = [&](const Eigen::Vector2d& p) { return plan.clearance(p); };
+  if (roomAround(scene.robot.drive, to, things) < 0.0) return true;
   return std::any_of(walkers.begin(), walkers.end(), [&](const Walker& walker) {
-    const Mover mover = walker.mover();
-    const double before_m = (mover.position - from).norm();
-    const double after_m = (mover.position - to).norm();
-    return after_m < mover.radius_m + scene.robot.drive.radius_m &&
-           before_m - after_m > kMoves_mps * kTick_s;
+    const double after_m = roomTo(walker.mover(), to);
+    return after_m < 0.0 && roomTo(walker.mover(), from) - after_m > kMoves_mps * kTick_s;
   });
 }
 
@@ -150,16 +153,20 @@ void Simulator::State::tick() {
   }
   robot.accelerate(kTick_s, obeyed);
   // Something in the way stops the robot, but it may always back out of it.
-  const double now_m = clearance(robot.pose().position);
-  const double next_m = clearance(robot.ahead(kTick_s).position);
-  const bool blocked = next_m < 0.0 && next_m < now_m;
-  if (next_m < 0.0) {
+  const double now_m = clearance(robot.pose());
+  const auto isBlocked = [&] {
+    const double next_m = clearance(robot.ahead(kTick_s));
+    return next_m < 0.0 && next_m < now_m;
+  };
+  if (clearance(robot.ahead(kTick_s)) < 0.0) {
     WorldTruth& truth = readings.truth;
     truth.contact = true;
-    truth.contact_by_robot = truth.contact_by_robot ||
-                             isDrivenInto(robot.pose().position, robot.ahead(kTick_s).position);
+    truth.contact_by_robot =
+        truth.contact_by_robot || isDrivenInto(robot.pose(), robot.ahead(kTick_s));
   }
-  robot.go(kTick_s, !blocked);
+  if (isBlocked()) robot.stop(true);
+  if (isBlocked()) robot.stop(false);
+  robot.go(kTick_s);
   odometry.add(robot.speed().forward_mps * kTick_s, robot.speed().turn_radps * kTick_s);
   ++ticks;
   if (ticks % kTicksPerStride != 0) return;
@@ -172,8 +179,9 @@ void Simulator::State::tick() {
     for (std::size_t j = 0; j < walkers.size(); ++j) {
       if (j != i) others.push_back(walkers[j].mover());
     }
-    others.push_back(
-        {robot.pose().position, robot_velocity, scene.robot.drive.radius_m + kRobotRoom_m});
+    const DriveLimits& drive = scene.robot.drive;
+    others.push_back({axisOf(drive, robot.pose()).nearest(walkers[i].pose().position),
+                      robot_velocity, drive.radius_m + kRobotRoom_m});
     walkers[i].step(kTicksPerStride * kTick_s, plan, others, others.back());
   }
 }
@@ -224,7 +232,7 @@ void Simulator::State::tellTruth() {
     truth.people[i] = {scene.people[i].name, mover.position, mover.velocity,
                        walkers[i].pose().yaw_rad, walkers[i].done()};
   }
-  truth.clearance_m = clearance(robot.pose().position);
+  truth.clearance_m = clearance(robot.pose());
 }
 
 Simulator::Simulator(Scene scene, const SimulatorOptions& options)

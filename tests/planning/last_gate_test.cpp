@@ -348,6 +348,8 @@ class WithoutMargin {
   explicit WithoutMargin(std::uint64_t seed) : random_(seed) {
     params_.margin_m = 0.0;
     params_.limits.radius_m = 0.2;
+    params_.limits.front_m = seed % 2 == 0 ? 0.0 : between(0.0, 0.4);
+    params_.limits.back_m = seed % 2 == 0 ? 0.0 : between(-0.4, 0.0);
     params_.limits.max_speed_mps = 0.5;
     params_.limits.max_acceleration_mps2 = between(0.3, 1.5);
     params_.wheels_latency_s = between(0.0, 0.3);
@@ -379,9 +381,11 @@ class WithoutMargin {
                       now_s - 0.001 * then, now_s);
       send(out.velocity);
     }
-    lets_through = out.velocity.forward_mps != 0.0;
+    lets_through = out.velocity.forward_mps != 0.0 || out.velocity.turn_radps != 0.0;
     for (int period = 0; period < 25; ++period) send({});
-    const auto away = [&](std::size_t i) { return (place - states_[i].pose.position).norm(); };
+    const auto away = [&](std::size_t i) {
+      return (place - axisOf(params_.limits, states_[i].pose).nearest(place)).norm();
+    };
     double least_m = away(static_cast<std::size_t>(then));
     const double may_m = std::min(least_m, params_.limits.radius_m);
     for (auto i = static_cast<std::size_t>(then); i < states_.size(); ++i) {

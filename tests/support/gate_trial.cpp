@@ -30,10 +30,11 @@ struct Post {
 
 /// A robot among posts, all of it drawn. Keeps its memory from trial to trial.
 struct World {
-  void draw(std::mt19937_64& random);
+  void draw(std::mt19937_64& random, std::uint64_t seed);
   double between(double low, double high) { return low + (high - low) * share(); }
   double share() { return std::uniform_real_distribution<double>(0.0, 1.0)(*random_); }
   void scan(const FloorPose& base, LaserScan& out);
+  double roomTo(const Post& post, const FloorPose& robot) const;
   double touch(Post& post, const DriveState& robot) const;
 
   LastGateParams params;
@@ -45,13 +46,19 @@ struct World {
   std::mt19937_64* random_ = nullptr;
 };
 
-void World::draw(std::mt19937_64& random) {
+void World::draw(std::mt19937_64& random, std::uint64_t seed) {
   random_ = &random;
+  is_uneven = seed % 2 == 0;
+  tells_means = seed / 2 % 2 == 0;
   DriveLimits& limits = params.limits;
   limits.radius_m = between(0.15, 0.35);
   limits.max_speed_mps = between(0.2, 1.0);
   limits.max_reverse_mps = limits.max_speed_mps;
   limits.max_acceleration_mps2 = between(0.3, 1.5);
+  std::mt19937_64 body(seed);
+  const double longest_m = seed / 8 % 2 == 1 ? 0.4 : 0.0;
+  limits.front_m = std::uniform_real_distribution<double>(0.0, longest_m)(body);
+  limits.back_m = -std::uniform_real_distribution<double>(0.0, longest_m)(body);
   params.sight.T_base_scanner.position = {0.1, 0.0};
   const bool is_late = share() < 0.7;
   scan_ticks = is_late ? static_cast<int>(between(0.0, kTicks)) : 0;
@@ -66,7 +73,7 @@ void World::draw(std::mt19937_64& random) {
     post.radius_m = between(0.02, 0.15);
     const double away_m = between(0.3, 1.6), angle = between(-M_PI, M_PI);
     post.at = away_m * Vector2d(std::cos(angle), std::sin(angle));
-    post.nearest_m = away_m - post.radius_m - limits.radius_m;
+    post.nearest_m = roomTo(post, {});
     if (post.nearest_m > -0.03) posts.push_back(post);
   }
 }
@@ -95,11 +102,15 @@ void World::scan(const FloorPose& base, LaserScan& out) {
   }
 }
 
+double World::roomTo(const Post& post, const FloorPose& robot) const {
+  const Vector2d near = axisOf(params.limits, robot).nearest(post.at);
+  return (post.at - near).norm() - post.radius_m - params.limits.radius_m;
+}
+
 // How much deeper in the post the robot is than it ever was since it touched it.
 double World::touch(Post& post, const DriveState& robot) const {
   if (!post.is_seen) return 0.0;
-  const double away_m = (post.at - robot.pose.position).norm();
-  const double gap_m = std::min(away_m - post.radius_m - params.limits.radius_m, 0.0);
+  const double gap_m = std::min(roomTo(post, robot.pose), 0.0);
   post.nearest_m = std::max(std::min(post.nearest_m, 0.0), gap_m);
   return post.nearest_m - gap_m;
 }
@@ -127,9 +138,7 @@ GateTrial runGateTrial(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   static thread_local World world;
   static thread_local LaserScan scan;
-  world.draw(random);
-  world.is_uneven = seed % 2 == 0;
-  world.tells_means = seed / 2 % 2 == 0;
+  world.draw(random, seed);
   const std::array<int, kPeriods> arrives = arrivals(world, seed);
   const DriveLimits& limits = world.params.limits;
   LastGate gate(world.params);

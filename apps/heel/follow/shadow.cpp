@@ -130,8 +130,7 @@ FollowLog runShadow(const ShadowParams& params, const PetriPlan& plan, const Loo
   log.scene = info.name;
   log.plan = plan.net.name;
   log.map = follower.floor();
-  log.robot_radius_m = follower.robot().drive.radius_m;
-  log.max_speed_mps = follower.robot().drive.max_speed_mps;
+  log.drive = follower.robot().drive;
   if (info.duration_s > 0.0) {
     log.camera_rate_hz = static_cast<double>(info.frame_count) / info.duration_s;
   }

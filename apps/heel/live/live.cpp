@@ -176,8 +176,7 @@ void run(const LiveOptions& options) {
   log.scene = "live";
   log.plan = options.plan;
   log.map = follower->floor();
-  log.robot_radius_m = robot.drive.radius_m;
-  log.max_speed_mps = robot.drive.max_speed_mps;
+  log.drive = robot.drive;
   log.is_live = true;
   log.outcome = "ended";
   LapClock clock;

@@ -108,7 +108,7 @@ bool FollowOutput::isWorthAPicture(const FollowSample& sample) const {
 void FollowOutput::draw(const Readings& readings, const FollowStep& step, const Follower& follower,
                         const FollowSample& sample) {
   if (!video_) {
-    video_.emplace(follower.floor(), follower.robot().drive.radius_m);
+    video_.emplace(follower.floor(), follower.robot().drive);
     drawn_.emplace(follower.robot().camera);
     if (film_wanted_) film_.emplace(output_ / "follow.mp4", kFilmRate_hz, video_->size());
   }

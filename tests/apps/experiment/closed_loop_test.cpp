@@ -106,7 +106,7 @@ void expectGoodEnd(const FollowLog& log) {
         << sample.person_distance_m << " m from the person, who is seen to be "
         << (sample.target_estimate ? (*sample.target_estimate - *sample.person_true).norm() : -1.0)
         << " m off";
-    ASSERT_LE(sample.command.forward_mps, log.max_speed_mps + 1e-9);
+    ASSERT_LE(sample.command.forward_mps, log.drive.max_speed_mps + 1e-9);
   }
 }
 

@@ -27,7 +27,7 @@ cv::Vec3b colorAt(const cv::Mat& picture, cv::Point2d at) {
 }
 
 TEST(FollowVideo, PictureIsOfTheStatedEvenSizeAndOfTheSameBytes) {
-  FollowVideo video(flatMap(), 0.26);
+  FollowVideo video(flatMap(), {});
   cv::Mat first, second;
   video.draw(videoFrame(flatRun(), 600), first);
   video.draw(videoFrame(flatRun(), 600), second);
@@ -37,7 +37,7 @@ TEST(FollowVideo, PictureIsOfTheStatedEvenSizeAndOfTheSameBytes) {
 }
 
 TEST(FollowVideo, EverybodyIsWhereTheyAre) {
-  FollowVideo video(flatMap(), 0.26);
+  FollowVideo video(flatMap(), {});
   FollowVideoFrame frame;
   frame.robot_true.position = frame.robot_estimated.position = {1.0, 3.0};
   frame.person_true = Vector2d(3.0, 3.0);
@@ -56,7 +56,7 @@ TEST(FollowVideo, EverybodyIsWhereTheyAre) {
 }
 
 TEST(FollowVideo, WhatIsSeenEndsAtWalls) {
-  FollowVideo video(flatMap(), 0.26);
+  FollowVideo video(flatMap(), {});
   FollowVideoFrame frame = videoFrame(flatRun(), 0);
   frame = {};
   cv::Mat blind, seeing;
@@ -71,7 +71,7 @@ TEST(FollowVideo, WhatIsSeenEndsAtWalls) {
 }
 
 TEST(FollowVideo, DrawsNonsenseWithoutHarm) {
-  FollowVideo video(flatMap(), 0.26);
+  FollowVideo video(flatMap(), {});
   cv::Mat picture;
   EXPECT_NO_THROW(video.draw({}, picture));
   FollowVideoFrame frame = videoFrame(flatRun(), 600);
@@ -86,7 +86,7 @@ TEST(FollowVideo, DrawsNonsenseWithoutHarm) {
 }
 
 TEST(FollowVideo, GoesAlongWithTheRobotWhereThereAreNoWalls) {
-  FollowVideo video(heel::OccupancyGrid({-50, -50}, 0.1, 1000, 1000), 0.26);
+  FollowVideo video(heel::OccupancyGrid({-50, -50}, 0.1, 1000, 1000), {});
   FollowVideoFrame frame;
   cv::Mat picture;
   video.draw(frame, picture);
@@ -97,8 +97,8 @@ TEST(FollowVideo, GoesAlongWithTheRobotWhereThereAreNoWalls) {
 }
 
 TEST(FollowVideo, RefusesAnEmptyMap) {
-  EXPECT_THROW(FollowVideo({}, 0.26), std::invalid_argument);
-  EXPECT_NO_THROW(FollowVideo(heel::OccupancyGrid({0, 0}, 0.1, 5, 5), 0.26));
+  EXPECT_THROW(FollowVideo({}, {}), std::invalid_argument);
+  EXPECT_NO_THROW(FollowVideo(heel::OccupancyGrid({0, 0}, 0.1, 5, 5), {}));
 }
 
 }  // namespace

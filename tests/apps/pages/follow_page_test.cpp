@@ -123,7 +123,7 @@ TEST(FollowPage, WhatIsNotKnownIsADash) {
     sample.person_true = sample.target_estimate = Eigen::Vector2d(nan, nan);
     sample.others_true = {Eigen::Vector2d(nan, nan)};
   }
-  log.max_speed_mps = log.stages[0].mean_ms = nan;
+  log.drive.max_speed_mps = log.stages[0].mean_ms = nan;
   const std::string page = pageOf(log);
   expectSelfContained(page);
   EXPECT_THAT(page, Not(HasSubstr("nan")));

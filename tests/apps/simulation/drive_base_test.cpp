@@ -18,7 +18,7 @@ TEST(DriveBase, ObeysItsLimitsOfSpeedAndAcceleration) {
     robot.accelerate(0.01, {5.0, 9.0});
     EXPECT_LE(robot.speed().forward_mps - last, params.drive.max_acceleration_mps2 * 0.01 + 1e-12);
     last = robot.speed().forward_mps;
-    robot.go(0.01, true);
+    robot.go(0.01);
   }
   EXPECT_DOUBLE_EQ(robot.speed().forward_mps, 0.3);
   EXPECT_DOUBLE_EQ(robot.speed().turn_radps, params.drive.max_turn_radps);
