@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <stdexcept>
 
 namespace heel {
@@ -29,6 +31,60 @@ TEST(Drive, RefusesLimitsThatAreNotPositive) {
   DriveLimits limits;
   limits.period_s = std::nan("");
   EXPECT_THROW(checkLimits(limits), std::invalid_argument);
+  limits = {};
+  limits.back_m = 0.1;
+  EXPECT_THROW(checkLimits(limits), std::invalid_argument) << "before its front";
+}
+
+DriveLimits longBody() {
+  return withBodyAround({{0.35, 0.2}, {-0.35, 0.2}, {-0.35, -0.2}, {0.35, -0.2}}, {});
+}
+
+TEST(DriveBody, HoldsItsCornersAndIsNarrow) {
+  const DriveLimits body = longBody();
+  for (const Vector2d& corner : {Vector2d(0.35, 0.2), Vector2d(-0.35, -0.2)}) {
+    EXPECT_LE((corner - axisOf(body, {}).nearest(corner)).norm(), body.radius_m + 1e-9);
+  }
+  EXPECT_LT(body.radius_m, 0.22);
+  EXPECT_NEAR(body.front_m, -body.back_m, 1e-9);
+  const DriveLimits round = withBodyAround({{0.4, 0.1}, {0.2, 0.1}, {0.3, 0.2}, {0.3, 0.0}}, {});
+  EXPECT_EQ(round.front_m, round.back_m) << "whose middle is ahead";
+}
+
+TEST(DriveBody, ItsRoomIsThatAroundItsAxis) {
+  const DriveLimits body = longBody();
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  for (int i = 0; i < 1000; ++i) {
+    const FloorPose pose{{any(random), any(random)}, 4.0 * any(random)};
+    const Vector2d post(2.0 * any(random), 2.0 * any(random));
+    const auto clearance = [&](const Vector2d& p) { return (p - post).norm(); };
+    const double room_m = (post - axisOf(body, pose).nearest(post)).norm() - body.radius_m;
+    if (room_m < 0.0) {
+      EXPECT_LT(roomAround(body, pose, clearance), 0.0);
+      continue;
+    }
+    EXPECT_LE(roomAround(body, pose, clearance), room_m + 1e-9);
+    EXPECT_GE(roomAround(body, pose, clearance), room_m - 0.01 * body.radius_m);
+  }
+  EXPECT_TRUE(std::isnan(
+      roomAround(body, {}, [](const Vector2d& p) { return p.x() > 0.1 ? std::nan("") : 1.0; })));
+}
+
+TEST(FloorLine, DistanceIsThatOfTheNearestPoints) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> any(-1.0, 1.0);
+  const auto place = [&] { return Vector2d(any(random), any(random)); };
+  for (int i = 0; i < 300; ++i) {
+    const FloorLine a{place(), place()}, b{place(), place()};
+    double least = 10.0;
+    for (int k = 0; k <= 400; ++k) {
+      const Vector2d p = a.from + k / 400.0 * (a.to - a.from);
+      least = std::min(least, (p - b.nearest(p)).norm());
+    }
+    EXPECT_NEAR(distanceBetween(a, b), least, 0.004);
+    EXPECT_EQ(distanceBetween(a, {b.from, b.from}), (b.from - a.nearest(b.from)).norm());
+  }
 }
 
 TEST(PathAhead, BeginsAtTheNearestPointAndEndsWithThePath) {
@@ -57,10 +113,10 @@ TEST(PathAhead, TakesAPathOfOnePointAndOneThatStandsStill) {
 
 TEST(RoomToPeople, IsBetweenTheEdgesOfBodies) {
   const std::vector<MovingPerson> people = {{{2.0, 0.0}, {-1.0, 0.0}, 0.25}};
-  EXPECT_NEAR(roomToPeople(people, {0, 0}, 0.26, 0.0), 1.49, 1e-12);  // 2 - 0.25 - 0.26
-  EXPECT_NEAR(roomToPeople(people, {0, 0}, 0.26, 1.0), 0.49, 1e-12);
-  EXPECT_NEAR(roomToPeople(people, {0, 0}, 0.26, 4.0), 1.49, 1e-12);  // Has gone by.
-  EXPECT_NEAR(roomToWays(people, {0, 0}, 0.26, 4.0), -0.51, 1e-12);   // But went through here.
+  EXPECT_NEAR(roomToPeople(people, {}, {}, 0.0), 1.49, 1e-12);  // 2 - 0.25 - 0.26
+  EXPECT_NEAR(roomToPeople(people, {}, {}, 1.0), 0.49, 1e-12);
+  EXPECT_NEAR(roomToPeople(people, {}, {}, 4.0), 1.49, 1e-12);  // Has gone by.
+  EXPECT_NEAR(roomToWays(people, {}, {}, 4.0), -0.51, 1e-12);   // But went through here.
 }
 
 class DriveTerms : public testing::Test {

@@ -90,6 +90,49 @@ TEST(LastGate, TurnsWhereItCanNotGoOn) {
   EXPECT_EQ(out.reason, GateReason::kThing);
 }
 
+/// A long body with a wall beside it, 0.27 m left of its axis.
+struct LongGate : Gate {
+  explicit LongGate(double view_rad) : Gate(9.0, view_rad) {
+    LastGateParams params = usual();
+    params.limits.radius_m = 0.22;
+    params.limits.front_m = 0.3;
+    params.limits.back_m = -0.3;
+    params.sight.T_base_scanner.position = {0.3, 0.0};
+    params.sight.keeps_within_m = 0.6;
+    gate = LastGate(params);
+  }
+  /// Sees the wall from where the robot is.
+  void look(const FloorPose& base, double now_s, double view_rad) {
+    LaserScan scan;
+    scan.first_rad = -0.5 * view_rad;
+    scan.step_rad = view_rad / 720.0;
+    for (std::size_t i = 0; i < 720; ++i) {
+      const double sine = std::sin(base.yaw_rad + scan.angle(i));
+      scan.ranges_m.push_back(static_cast<float>(sine > 0.05 ? 0.27 / sine : kInfinite));
+    }
+    gate.addScan(scan, base, now_s);
+  }
+};
+
+TEST(LastGate, DoesNotSwingALongBodyIntoAWallBesideIt) {
+  LongGate at(2.0 * kPi);
+  at.look({}, 11.0, 2.0 * kPi);
+  EXPECT_EQ(at.gate.pass({0.3, 0.0}, {}, 0.0, 11.0).velocity.forward_mps, 0.3) << "goes along it";
+  EXPECT_LT(std::abs(at.gate.pass({0.0, 1.0}, {}, 0.0, 11.0).velocity.turn_radps), 0.5);
+  EXPECT_LT(std::abs(at.gate.pass({0.0, -1.0}, {}, 0.0, 11.0).velocity.turn_radps), 0.5);
+  EXPECT_EQ(Gate(9.0).pass(0.0, 1.0).velocity.turn_radps, 1.0) << "a round one turns";
+}
+
+TEST(LastGate, KnowsWhatStandsBesideALongBodyUntilItLooksThereAgain) {
+  // A scanner that looks ahead only has seen the wall on the way here, and has stood for long.
+  LongGate at(kPi);
+  for (int i = 0; i <= 12; ++i) at.look({{0.1 * i - 1.2, 0.0}, 0.0}, 11.0 + 0.3 * i, kPi);
+  for (int i = 0; i <= 100; ++i) at.look({}, 15.0 + 0.1 * i, kPi);
+  const GatedVelocity out = at.gate.pass({0.0, -1.0}, {}, 0.0, 25.0);
+  EXPECT_LT(std::abs(out.velocity.turn_radps), 0.5) << "its back would swing into the wall";
+  EXPECT_EQ(out.reason, GateReason::kThing);
+}
+
 TEST(LastGate, DrivesAwayFromWhatItTouches) {
   EXPECT_EQ(Gate(0.2).pass(-0.15, 0.0).velocity.forward_mps, -0.15);
   EXPECT_EQ(Gate(0.2).pass(0.1, 0.0).velocity.forward_mps, 0.0);

@@ -77,6 +77,20 @@ TEST(LocalPlanner, PassesDoorwaysAtSpeed) {
   }
 }
 
+TEST(LocalPlanner, TakesALongBodyThroughDoorwaysThatAreNarrowerThanItIsLong) {
+  LocalPlannerParams params;
+  params.limits = withBodyAround({{0.35, 0.2}, {-0.35, 0.2}, {-0.35, -0.2}, {0.35, -0.2}}, {});
+  for (const double width : {0.7, 0.8, 0.9}) {
+    for (const double y : {0.8, 2.0, 3.2}) {
+      const DrawnFloor floor = test::roomWithDoorway(width);
+      const Path path = test::wayOn(floor, {1.0, y}, {5.0, 4.0 - y}, params.limits.radius_m);
+      DriveLoop loop(floor, {{1.0, y}, 0.0}, params);
+      ASSERT_TRUE(drive(loop, path, 60.0)) << width << " " << y;
+      EXPECT_GT(loop.leastGap(), 0.035) << width << " " << y;
+    }
+  }
+}
+
 TEST(LocalPlanner, StopsWithinItsStoppingDistanceWhenSomethingAppears) {
   const Path path = {{0, 0}, {4, 0}};
   DriveLoop loop(emptyRoom(), {{0, 0}, 0});

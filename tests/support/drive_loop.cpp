@@ -169,7 +169,7 @@ const LocalPlan& DriveLoop::step(const std::vector<Vector2d>& path,
     const double speed = std::abs(state_.speed.forward_mps);
     way_m_ += speed * dt;
     if (speed > 0.02) moving_s_ += dt;
-    least_gap_m_ = std::min(least_gap_m_, floor.clearance(state_.pose.position) - limits.radius_m);
+    least_gap_m_ = std::min(least_gap_m_, roomAround(limits, state_.pose, clearance));
     for (LineWalker& walker : walkers) {
       walker.step(dt, state_.pose.position, limits.radius_m);
       least_people_gap_m_ =

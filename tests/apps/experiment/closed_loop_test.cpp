@@ -136,11 +136,12 @@ void expectStopsAndGoesOn(const FollowLog& log, double for_s, double blind_s,
 
 TEST(ClosedLoop, ARobotOfCornersTouchesNothingByFclEither) {
   Scene scene = test::smallHome();
-  scene.robot.drive.radius_m = std::hypot(0.3, 0.15);  // As a footprint of 0.6 x 0.3 m is read.
+  scene.robot.drive =
+      withBodyAround({{0.35, 0.2}, {0.35, -0.2}, {-0.35, -0.2}, {-0.35, 0.2}}, scene.robot.drive);
   const FollowLog log = follow(scene);
   for (Furniture& piece : scene.furniture) piece.in_map = true;
   RobotBody body;
-  body.footprint = BoxFootprint{0.6, 0.3, 0.0};
+  body.footprint = BoxFootprint{0.7, 0.4, 0.0};
   body.top_m = scene.robot.height_m;
   const BodyCheck world(body, *wallMapOf(scene).tree());
   std::vector<FloorPose> driven;

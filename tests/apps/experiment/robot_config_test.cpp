@@ -70,6 +70,9 @@ TEST_F(RobotConfigFile, AFootprintIsDrivenAsTheDiscAroundIt) {
   };
   EXPECT_DOUBLE_EQ(radiusOf("[[0.3, 0.4], [-0.3, 0.4], [-0.1, -0.2]]"), 0.5);
   EXPECT_DOUBLE_EQ(radiusOf("\"[ [0.3, 0.4], [-0.3, 0.4], [-0.1, -0.2] ]\""), 0.5) << "as Nav2's";
+  EXPECT_LT(radiusOf("[[0.35, 0.2], [-0.35, 0.2], [-0.35, -0.2], [0.35, -0.2]]"), 0.22)
+      << "a long one is no disc";
+  EXPECT_THAT(errorOf("robot:\n  back_m: 0.1\n"), HasSubstr("'back_m' of the robot"));
   for (const char* wrong : {"[[1, 2], [3, 4]]", "[[0, 0], [0, 0], [0, 0]]"}) {
     EXPECT_THAT(errorOf(std::string("robot:\n  footprint: ") + wrong + "\n"),
                 HasSubstr(file_ + ", line 2: 'footprint'"));
