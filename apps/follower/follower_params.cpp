@@ -59,7 +59,7 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   params.gate.eye_height_m = robot.camera.T_base_camera.translation().z();
   params.paths.robot_radius_m = robot.drive.radius_m;
   params.goal.radius_m = robot.drive.radius_m;
-  params.wayside.radius_m = robot.drive.radius_m;
+  params.wayside.radius_m = axisReach(robot.drive) + robot.drive.radius_m;  // however it stands
   params.drive.limits = robot.drive;
   params.search.map.limits = robot.drive;
   LastGateParams& gate = params.last_gate;

@@ -25,6 +25,7 @@ const std::vector<std::string>& episodeColumns() {
                                                    "contacts_by_robot",
                                                    "contacts_by_people",
                                                    "wrong_person_s",
+                                                   "near_others_s",
                                                    "min_clearance_m",
                                                    "losses",
                                                    "position_rms_m",
@@ -41,6 +42,7 @@ void addRows(CsvWriter& csv, const std::string& group, const Episodes& episodes)
     csv.text(s.outcome).number(s.distance_m, 3).number(s.elapsed_s, 3).number(s.seek_s, 3);
     csv.number(s.moving_speed_mps, 4).integer(s.contacts_by_robot);
     csv.integer(s.contactsByPeople()).number(s.wrong_person_s, 3);
+    csv.number(s.near_others_s, 3);
     csv.number(s.min_clearance_m, 3).integer(s.losses).number(s.position_rms_m, 4);
     csv.number(s.yaw_rms_rad, 5).text(e.cause).text(e.command).endRow();
   }
@@ -65,6 +67,7 @@ EpisodeCounts countEpisodes(const Episodes& episodes, const std::string& plan) {
     counts.elapsed_s += e.summary.elapsed_s;
     counts.seek_s += e.summary.seek_s;
     counts.wrong_person_s += e.summary.wrong_person_s;
+    counts.near_others_s += e.summary.near_others_s;
     counts.distance_m += e.summary.distance_m;
   }
   return counts;
@@ -97,12 +100,13 @@ void readEpisodesCsv(const std::filesystem::path& file, FollowExperiment& experi
     s.contacts_by_robot = static_cast<int>(csv.integer(9));
     s.contacts = s.contacts_by_robot + static_cast<int>(csv.integer(10));
     s.wrong_person_s = csv.number(11);
-    s.min_clearance_m = numberOrUnknown(12);
-    s.losses = static_cast<int>(csv.integer(13));
-    s.position_rms_m = numberOrUnknown(14);
-    s.yaw_rms_rad = numberOrUnknown(15);
-    e.cause = csv.text(16);
-    e.command = csv.text(17);
+    s.near_others_s = csv.number(12);
+    s.min_clearance_m = numberOrUnknown(13);
+    s.losses = static_cast<int>(csv.integer(14));
+    s.position_rms_m = numberOrUnknown(15);
+    s.yaw_rms_rad = numberOrUnknown(16);
+    e.cause = csv.text(17);
+    e.command = csv.text(18);
   }
 }
 

@@ -51,6 +51,7 @@ struct EpisodeCounts {
   double elapsed_s = 0.0;
   double seek_s = 0.0;
   double wrong_person_s = 0.0;
+  double near_others_s = 0.0;
   double distance_m = 0.0;
   double wrongShare() const { return elapsed_s > 0.0 ? wrong_person_s / elapsed_s : 0.0; }
 };

@@ -42,6 +42,7 @@ std::vector<TargetEvent> targetEvents(const std::vector<FollowSample>& samples,
 namespace {
 
 constexpr double kDrives_mps = 0.01;
+constexpr double kPersonalZone_m = 1.2;  // Hall, The Hidden Dimension, 1966.
 constexpr const char* kLearning = "learn";
 
 /// A root mean square, weighted with time.
@@ -157,6 +158,10 @@ FollowSummary summarize(const FollowLog& log) {
     }
     if (s.target_estimate) sum.with_target_s += dt_s;
     if (s.wrong_person) sum.wrong_person_s += dt_s;
+    const auto isNear = [&s](const Eigen::Vector2d& other) {
+      return (other - s.robot_true.position).norm() < kPersonalZone_m;
+    };
+    if (std::any_of(s.others_true.begin(), s.others_true.end(), isNear)) sum.near_others_s += dt_s;
     if (log.is_shadow) {
       forward.add(s.command.forward_mps - s.speed_true.forward_mps, dt_s);
       turn.add(s.command.turn_radps - s.speed_true.turn_radps, dt_s);
@@ -221,6 +226,7 @@ nlohmann::ordered_json followJson(const FollowLog& log, const FollowSummary& sum
     json["contacts_by_robot"] = sum.contacts_by_robot;
     json["contacts_by_people"] = sum.contactsByPeople();
     json["wrong_person_s"] = numberOrNull(sum.wrong_person_s, 3);
+    json["near_others_s"] = numberOrNull(sum.near_others_s, 3);
   }
   json["min_clearance_m"] = numberOrNull(sum.min_clearance_m, 3);
   json["losses"] = sum.losses;

@@ -147,9 +147,10 @@ struct FollowSummary {
   double last_distance_m = kNotKnown;    ///< Distance to the person at the end.
   double with_target_s = 0.0;            ///< With an estimate of the target's place.
   double wrong_person_s = 0.0;
-  int losses = 0;                      ///< Of the target; see targetEvents().
-  int contacts = 0;                    ///< Separate ones: from a touch until it ends.
-  int contacts_by_robot = 0;           ///< In which the robot moved towards what it touched.
+  double near_others_s = 0.0;  ///< In the personal zone, 1.2 m, of somebody else than the person.
+  int losses = 0;              ///< Of the target; see targetEvents().
+  int contacts = 0;            ///< Separate ones: from a touch until it ends.
+  int contacts_by_robot = 0;   ///< In which the robot moved towards what it touched.
   double min_clearance_m = kNotKnown;  ///< 0 in contact.
   double localized_s = 0.0;            ///< The next two are over this time.
   double position_rms_m = kNotKnown;   ///< Of the estimated against the true pose.

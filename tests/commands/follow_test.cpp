@@ -62,7 +62,7 @@ TEST_F(Follow, WritesAReportOfAsLongAsItMay) {
   const auto summary = nlohmann::json::parse(readText(folder_ / "out/summary.json"));
   EXPECT_EQ(summary.at("outcome"), "timeout");
   for (const char* key : {"distance_m", "elapsed_s", "seek_s", "moving_speed_mps", "contacts",
-                          "wrong_person_s", "min_clearance_m"}) {
+                          "wrong_person_s", "near_others_s", "min_clearance_m"}) {
     EXPECT_TRUE(summary.contains(key)) << key;
   }
 }

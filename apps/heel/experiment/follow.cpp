@@ -122,11 +122,13 @@ void run(FollowExperimentOptions& options) {
   const ShareInterval wrong = bootstrapInterval(wrong_s);
   std::printf(
       "random episodes (95 %% intervals): reached %s; with a contact by the robot %s;\n"
-      "wrong person %.2f %% of the time (%.2f-%.2f %%), seeking %.0f %%\n",
+      "wrong person %.2f %% of the time (%.2f-%.2f %%), seeking %.0f %%, within 1.2 m of others "
+      "%.0f %%\n",
       withInterval({all.reached, all.episodes}).c_str(),
       withInterval({all.with_contact, all.episodes}).c_str(), 100.0 * all.wrongShare(),
       100.0 * wrong.low, 100.0 * wrong.high,
-      all.elapsed_s > 0.0 ? 100.0 * all.seek_s / all.elapsed_s : 0.0);
+      all.elapsed_s > 0.0 ? 100.0 * all.seek_s / all.elapsed_s : 0.0,
+      all.elapsed_s > 0.0 ? 100.0 * all.near_others_s / all.elapsed_s : 0.0);
   writeFollowExperimentPage(*output / "report.html", experiment);
   writePartSummary(*output, shared, experiment.episodes.size());
   endExperiment(output);

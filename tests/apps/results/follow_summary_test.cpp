@@ -83,9 +83,12 @@ TEST(FollowSummary, WrongPersonAndTargetAreTimedUntilTheNextSample) {
   log.samples[1].target_estimate = Vector2d(1.0, 0.0);
   log.samples[3].target_estimate = Vector2d(1.0, 0.0);
   log.samples[3].wrong_person = true;
+  log.samples[1].others_true = {log.samples[1].robot_true.position + Vector2d(0.0, 1.3)};
+  log.samples[3].others_true = {log.samples[3].robot_true.position + Vector2d(0.0, 1.1)};
   const FollowSummary sum = summarize(log);
   EXPECT_DOUBLE_EQ(sum.with_target_s, 12.0);
   EXPECT_DOUBLE_EQ(sum.wrong_person_s, 2.0);
+  EXPECT_DOUBLE_EQ(sum.near_others_s, 2.0) << "their personal zone ends at 1.2 m";
   EXPECT_DOUBLE_EQ(sum.wrongShare(), 2.0 / 17.0);
   EXPECT_EQ(sum.losses, 2) << "it is found once, and lost again at the end";
 }
@@ -181,7 +184,7 @@ TEST(FollowFiles, HoldTheRunAndAreTheSameOnEveryRun) {
   const auto json = nlohmann::json::parse(readText(folder / "a/summary.json"));
   for (const char* key :
        {"outcome", "distance_m", "elapsed_s", "seek_s", "moving_speed_mps", "contacts_by_robot",
-        "contacts_by_people", "wrong_person_s", "min_clearance_m"}) {
+        "contacts_by_people", "wrong_person_s", "near_others_s", "min_clearance_m"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
   heel::CsvReader csv(folder / "a/follow.csv", {"stamp_s", "x_m", "localized"});
