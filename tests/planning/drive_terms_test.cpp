@@ -83,7 +83,7 @@ TEST(FloorLine, DistanceIsThatOfTheNearestPoints) {
       least = std::min(least, (p - b.nearest(p)).norm());
     }
     EXPECT_NEAR(distanceBetween(a, b), least, 0.004);
-    EXPECT_EQ(distanceBetween(a, {b.from, b.from}), (b.from - a.nearest(b.from)).norm());
+    EXPECT_DOUBLE_EQ(distanceBetween(a, {b.from, b.from}), (b.from - a.nearest(b.from)).norm());
   }
 }
 

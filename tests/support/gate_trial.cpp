@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -19,14 +20,20 @@ using Eigen::Vector2d;
 constexpr int kPeriods = 20;
 constexpr int kTicks = 20;  // a period
 constexpr double kTick_s = 0.005;
-constexpr std::size_t kBeams = 360;
 
 struct Post {
   Vector2d at;
   double radius_m;
   double nearest_m;  // from its rim to the robot's; where that is less than 0, the most so far
   bool is_seen = false;
+  std::bitset<64> seen{};  // parts of its rim, by their direction
 };
+
+std::size_t partOf(const Post& post, const Vector2d& towards) {
+  const Vector2d way = towards - post.at;
+  const double turn = std::atan2(way.y(), way.x()) / (2.0 * M_PI) + 0.5;
+  return static_cast<std::size_t>(turn * 64.0) % 64;
+}
 
 /// A robot among posts, all of it drawn. Keeps its memory from trial to trial.
 struct World {
@@ -39,7 +46,9 @@ struct World {
 
   LastGateParams params;
   int scan_ticks = 0, odometry_ticks = 0, wheel_ticks = 0;  // how late they are
+  bool is_long = false;
   bool looks_round = true;
+  std::size_t beams = 360;
   bool is_uneven = false;    // Commands come early too, each as late as it happens to,
   bool tells_means = false;  // and odometry tells the mean speed of the last period.
   std::vector<Post> posts;
@@ -56,7 +65,9 @@ void World::draw(std::mt19937_64& random, std::uint64_t seed) {
   limits.max_reverse_mps = limits.max_speed_mps;
   limits.max_acceleration_mps2 = between(0.3, 1.5);
   std::mt19937_64 body(seed);
-  const double longest_m = seed / 8 % 2 == 1 ? 0.4 : 0.0;
+  is_long = seed / 8 % 2 == 1;
+  const double longest_m = is_long ? 0.4 : 0.0;
+  beams = is_long ? 720 : 360;  // It touches what is twice as far from the scanner.
   limits.front_m = std::uniform_real_distribution<double>(0.0, longest_m)(body);
   limits.back_m = -std::uniform_real_distribution<double>(0.0, longest_m)(body);
   params.sight.T_base_scanner.position = {0.1, 0.0};
@@ -82,9 +93,9 @@ void World::scan(const FloorPose& base, LaserScan& out) {
   const FloorPose scanner = base * params.sight.T_base_scanner;
   const double view_rad = looks_round ? 2.0 * M_PI : 220.0 / 180.0 * M_PI;
   out.first_rad = -0.5 * view_rad;
-  out.step_rad = view_rad / kBeams;
-  out.ranges_m.resize(kBeams);
-  for (std::size_t i = 0; i < kBeams; ++i) {
+  out.step_rad = view_rad / static_cast<double>(beams);
+  out.ranges_m.resize(beams);
+  for (std::size_t i = 0; i < beams; ++i) {
     const double angle = scanner.yaw_rad + out.angle(i);
     const Vector2d way(std::cos(angle), std::sin(angle));
     Post* hit = nullptr;
@@ -97,7 +108,10 @@ void World::scan(const FloorPose& base, LaserScan& out) {
       range_m = along - std::sqrt(depth2);
       hit = &post;
     }
-    if (hit != nullptr) hit->is_seen = true;
+    if (hit != nullptr) {
+      hit->is_seen = true;
+      hit->seen.set(partOf(*hit, scanner.position + range_m * way));
+    }
     out.ranges_m[i] = static_cast<float>(range_m);
   }
 }
@@ -110,6 +124,9 @@ double World::roomTo(const Post& post, const FloorPose& robot) const {
 // How much deeper in the post the robot is than it ever was since it touched it.
 double World::touch(Post& post, const DriveState& robot) const {
   if (!post.is_seen) return 0.0;
+  // An end of a long body swings, on trust, where the scanner has not looked.
+  const Vector2d axis = axisOf(params.limits, robot.pose).nearest(post.at);
+  if (is_long && !post.seen[partOf(post, axis)]) return 0.0;
   const double gap_m = std::min(roomTo(post, robot.pose), 0.0);
   post.nearest_m = std::max(std::min(post.nearest_m, 0.0), gap_m);
   return post.nearest_m - gap_m;
