@@ -123,11 +123,11 @@ double World::roomTo(const Post& post, const FloorPose& robot) const {
 
 // How much deeper in the post the robot is than it ever was since it touched it.
 double World::touch(Post& post, const DriveState& robot) const {
-  if (!post.is_seen) return 0.0;
-  // An end of a long body swings, on trust, where the scanner has not looked.
-  const Vector2d axis = axisOf(params.limits, robot.pose).nearest(post.at);
-  if (is_long && !post.seen[partOf(post, axis)]) return 0.0;
   const double gap_m = std::min(roomTo(post, robot.pose), 0.0);
+  // An end of a long body swings, on trust, to where the scanner has not looked.
+  const Vector2d axis = axisOf(params.limits, robot.pose).nearest(post.at);
+  if (is_long && !post.seen[partOf(post, axis)]) post.nearest_m = gap_m;
+  if (!post.is_seen) return 0.0;
   post.nearest_m = std::max(std::min(post.nearest_m, 0.0), gap_m);
   return post.nearest_m - gap_m;
 }
