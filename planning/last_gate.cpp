@@ -168,6 +168,9 @@ double LastGate::rimStep() const {
 // creep on where nothing is seen.
 bool LastGate::isSeenAhead(const std::vector<WayPiece>& pieces, const FloorLine& start,
                            double now_s) {
+  const bool is_blind = now_s - sight_.newest_s() > params_.sight.remembers_s;
+  const auto swings = [](const WayPiece& piece) { return piece.swings; };
+  if (is_blind && std::any_of(pieces.begin(), pieces.end(), swings)) return false;
   const double apart_m = rimStep();
   const double beside_m = sight_.besideView(params_.limits.radius_m, params_.limits.front_m);
   for (const double sign : {1.0, -1.0}) {

@@ -69,8 +69,9 @@ struct GatedVelocity {
 /// around it, as free. Of a scanner that looks ahead, the strips beside the body that it can not
 /// see of the way straight on are taken on trust, forwards, or the robot could never drive off: 28
 /// mm for 180 degrees, 0.12 m ahead of the middle of a body of 0.26 m; none for 220 degrees 0.09 m
-/// ahead. No component is ever larger than that which was asked for, nor of the other
-/// sign.
+/// ahead. So are, where nobody looked, the strips beside a long body into which its ends swing as
+/// it turns; what was seen there is known until it is looked at again. No component is ever larger
+/// than that which was asked for, nor of the other sign.
 ///
 /// All poses are of the base in one frame that does not jump, the odometry's. Nothing is allocated
 /// once as many things have been seen as ever will be.
