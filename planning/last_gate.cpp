@@ -203,24 +203,39 @@ GateReason LastGate::judge(const VelocityCommand& velocity, const FloorPose& fro
                                                                   : GateReason::kUnseen;
 }
 
-GatedVelocity LastGate::pass(const VelocityCommand& wanted, const DriveState& now, double age_s,
-                             double now_s) {
-  GatedVelocity gated;
+// What it must know to judge velocities up to one; false if the motion is not known.
+bool LastGate::prepare(const VelocityCommand& wanted, const DriveState& now, double age_s,
+                       double now_s) {
   if (!isNumber(wanted) || !isNumber(now.speed) || !now.pose.position.allFinite() ||
       !std::isfinite(now.pose.yaw_rad) || !std::isfinite(now_s) ||
       !(age_s >= 0.0 && age_s <= kOldest_s)) {
+    return false;
+  }
+  const double then_s = now_s - age_s;
+  ways_.believe(now.speed, then_s);
+  const double top_mps = std::max(std::abs(wanted.forward_mps), ways_.fastest_mps(then_s));
+  const double until_brakes_s = age_s + params_.limits.period_s + params_.wheels_latency_s;
+  approach(axisOf(params_.limits, now.pose),
+           params_.limits.radius_m + params_.margin_m + 2.0 * axisReach(params_.limits) +
+               stoppingDistance(params_.limits, top_mps, until_brakes_s),
+           then_s);
+  return true;
+}
+
+bool LastGate::lets(const VelocityCommand& wanted, const DriveState& now, double age_s,
+                    double now_s) {
+  return prepare(wanted, now, age_s, now_s) &&
+         judge(scaled(wanted, 1.0 / kShares), now.pose, now_s - age_s, now_s) == GateReason::kFree;
+}
+
+GatedVelocity LastGate::pass(const VelocityCommand& wanted, const DriveState& now, double age_s,
+                             double now_s) {
+  GatedVelocity gated;
+  if (!prepare(wanted, now, age_s, now_s)) {
     gated.reason = GateReason::kBadMotion;
   } else {
-    const double then_s = now_s - age_s;
-    ways_.believe(now.speed, then_s);
-    const double top_mps = std::max(std::abs(wanted.forward_mps), ways_.fastest_mps(then_s));
-    const double until_brakes_s = age_s + params_.limits.period_s + params_.wheels_latency_s;
-    approach(axisOf(params_.limits, now.pose),
-             params_.limits.radius_m + params_.margin_m + 2.0 * axisReach(params_.limits) +
-                 stoppingDistance(params_.limits, top_mps, until_brakes_s),
-             then_s);
     const auto passes = [&](const VelocityCommand& velocity) {
-      const GateReason reason = judge(velocity, now.pose, then_s, now_s);
+      const GateReason reason = judge(velocity, now.pose, now_s - age_s, now_s);
       if (reason == GateReason::kFree) gated.velocity = velocity;
       if (gated.reason == GateReason::kFree) gated.reason = reason;  // why not all of it
       return reason == GateReason::kFree;

@@ -88,6 +88,9 @@ class LastGate {
   /// that asks for it plans nothing that the gate holds back. [m]
   double clearance(const Eigen::Vector2d& place) const { return sight_.clearance(place); }
 
+  /// Whether it would let a part of a velocity through on its arc; as pass(), but nothing is sent.
+  bool lets(const VelocityCommand& wanted, const DriveState& now, double age_s, double now_s);
+
   /// @param now    Where the base was by the last odometry, and its speed.
   /// @param age_s  How old that is.
   /// @param now_s  The time at which the velocity is sent, on the clock of the stamps.
@@ -112,6 +115,7 @@ class LastGate {
                  const Eigen::Vector2d& front, double body_m, double stood_m, double now_s);
   double rimStep() const;
   bool isSeenAhead(const std::vector<WayPiece>& pieces, const FloorLine& start, double now_s);
+  bool prepare(const VelocityCommand& wanted, const DriveState& now, double age_s, double now_s);
   GateReason judge(const VelocityCommand& velocity, const FloorPose& from, double then_s,
                    double now_s);
 

@@ -20,6 +20,8 @@ constexpr double kStands_mps = 0.02;
 constexpr double kStands_radps = 0.05;
 /// A robot that waits for longer tries to turn to its path first.
 constexpr double kTurnsFirstAfter_s = 0.5;
+/// A long body that waits for longer backs off.
+constexpr double kBacksAfter_s = 1.0;
 
 bool isFinite(const MovingPerson& p) {
   return p.position.allFinite() && p.velocity.allFinite() && std::isfinite(p.radius_m) &&
@@ -47,12 +49,13 @@ const char* describe(DriveStatus status) {
 }
 
 const char* describe(DriveReason reason) {
-  static constexpr std::array<const char*, 12> kTexts = {"on the way",
+  static constexpr std::array<const char*, 13> kTexts = {"on the way",
                                                          "turns to the path",
                                                          "at the goal",
                                                          "turns to face the target",
                                                          "no path",
                                                          "gives way to a person",
+                                                         "backs off to turn",
                                                          "a person is in the way",
                                                          "an obstacle is in the way",
                                                          "pose or speed is not finite",
@@ -82,13 +85,13 @@ LocalPlanner::LocalPlanner(const LocalPlannerParams& params) : params_(params) {
 void LocalPlanner::reset() {
   last_ = {};
   arrived_ = false;
-  blocked_s_ = waited_s_ = 0.0;
+  blocked_s_ = waited_s_ = backs_s_ = 0.0;
 }
 
 LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed,
                              const std::vector<Vector2d>& path, Clearance clearance,
                              const std::vector<MovingPerson>& people,
-                             const std::optional<Vector2d>& face) {
+                             const std::optional<Vector2d>& face, Permission permits) {
   DriveScene scene{{pose, speed}, last_, &path_, {}, &people, face};
   if (face && !face->allFinite()) scene.face.reset();
   LocalPlan plan;
@@ -114,12 +117,17 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
   }
   const bool threatened = isThreatened(scene, plan.people_gap_m);
   DriveScores weights = params_.terms.weights;
-  if (threatened) {  // To make room comes before getting on, and before ease.
+  if (waited_s_ > kBacksAfter_s) {
+    backs_s_ = (params_.limits.front_m - params_.limits.back_m) / params_.limits.max_reverse_mps;
+  }
+  const bool backs = backs_s_ > 0.0 && !path_.empty();
+  backs_s_ = std::max(backs_s_ - params_.limits.period_s, 0.0);
+  if (threatened || backs) {  // To make room comes before getting on, and before ease.
     weights[static_cast<std::size_t>(DriveTerm::kProgress)] = 0.0;
     weights[static_cast<std::size_t>(DriveTerm::kSmooth)] *= 0.1;
   }
   if (waited_s_ > params_.look_away_s) weights[static_cast<std::size_t>(DriveTerm::kView)] = 0.0;
-  layOut(scene, threatened);
+  layOut(scene, threatened || backs);
   plan.options = futures_.size();
 
   double least = kInfinite;
@@ -132,11 +140,14 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
     const DriveScores costs = driveCosts(params_.limits, params_.terms, scene, option);
     const double cost = total(costs, weights);
     if (!(cost < least)) continue;
+    const VelocityCommand command = slowed(scene, futures_.commands[i], braking.gap_m);
+    const bool stands = command.forward_mps == 0.0 && command.turn_radps == 0.0;
+    if (!stands && !permits(command)) continue;
     least = cost;
     plan.costs = costs;
-    plan.command = slowed(scene, futures_.commands[i], braking.gap_m);
+    plan.command = command;
   }
-  explain(scene, plan);
+  explain(scene, plan, threatened);
   last_ = plan.command;
   return plan;
 }
@@ -179,7 +190,7 @@ bool LocalPlanner::isThreatened(const DriveScene& scene, double room_m) const {
   return false;
 }
 
-void LocalPlanner::layOut(const DriveScene& scene, bool threatened) {
+void LocalPlanner::layOut(const DriveScene& scene, bool backs) {
   const DriveLimits& limits = params_.limits;
   futures_.clear();
   if (path_.empty()) {
@@ -212,7 +223,7 @@ void LocalPlanner::layOut(const DriveScene& scene, bool threatened) {
       addHeld(limits, scene.now, {0.0, turn * limits.max_turn_radps}, futures_);
     }
   }
-  if (threatened) {
+  if (backs) {
     for (const double turn : {0.0, -0.3, 0.3, -0.7, 0.7}) {
       addHeld(limits, scene.now, {-limits.max_reverse_mps, turn * limits.max_turn_radps}, futures_);
     }
@@ -315,14 +326,14 @@ double LocalPlanner::allowedTowards(const DriveScene& scene, const MovingPerson&
   return free < 1.0 ? free * limits.max_speed_mps / towards : kInfinite;
 }
 
-void LocalPlanner::explain(const DriveScene& scene, LocalPlan& plan) {
+void LocalPlanner::explain(const DriveScene& scene, LocalPlan& plan, bool threatened) {
   const VelocityCommand& c = plan.command;
   const bool has_way = !path_.empty();
   const bool drives = std::abs(c.forward_mps) > kStands_mps;
   const bool turns = std::abs(c.turn_radps) > kStands_radps;
   if (c.forward_mps < 0.0) {
     plan.status = DriveStatus::kMoving;
-    plan.reason = DriveReason::kGivesWay;
+    plan.reason = threatened ? DriveReason::kGivesWay : DriveReason::kBacksOff;
   } else if (drives) {
     plan.status = DriveStatus::kMoving;
     plan.reason = DriveReason::kOnTheWay;

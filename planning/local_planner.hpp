@@ -48,7 +48,8 @@ enum class DriveReason {
   kAtGoal,
   kFaces,
   kNoPath,
-  kGivesWay,     ///< Backs off before a person.
+  kGivesWay,     ///< Backs off before a person,
+  kBacksOff,     ///< or to where a long body can turn.
   kPersonInWay,  ///< A person comes too near to go on.
   kObstacleInWay,
   kBadPose,      ///< Pose or speed isn't finite.
@@ -58,6 +59,10 @@ enum class DriveReason {
 };
 const char* describe(DriveStatus status);
 const char* describe(DriveReason reason);
+
+/// Whether something else would let a command through.
+using Permission = FunctionRef<bool(const VelocityCommand&)>;
+inline constexpr auto kAnyCommand = [](const VelocityCommand&) { return true; };
 
 /// What to do until the next period, and why.
 struct LocalPlan {
@@ -72,12 +77,13 @@ struct LocalPlan {
 };
 
 /// Chooses among futures: the path pursued at several speeds and on either side of it, arcs, turns
-/// on the spot, a stop, and backing off from somebody who comes too near.
+/// on the spot, a stop, and backing off from somebody who comes too near. A long body that has
+/// found no way to go backs off as far as it is long, to where it can turn.
 ///
 /// A future is admissible if the robot, having held its first command for a period and the latency
 /// and then braked, still has its margins to all that stands and to where people can be by then; or
 /// if it comes no nearer than it would by standing. Of those the cheapest (see `DriveTerm`) is
-/// taken. If there is none it brakes. Same calls, same answers.
+/// permitted one is taken. If there is none it brakes. Same calls, same answers.
 class LocalPlanner {
  public:
   /// @throws std::invalid_argument  if a limit or a parameter is out of range.
@@ -88,10 +94,12 @@ class LocalPlanner {
   /// @param path       From about here to the goal [m, world]; empty if there is nowhere to go.
   /// @param clearance  Distance to what stands; without the people of `people`. Must not allocate.
   /// @param face       What to keep in view, and to turn to when there is no way to go.
+  /// @param permits    Asked for commands that are not 0, in no certain order.
   LocalPlan step(const FloorPose& pose, const VelocityCommand& speed,
                  const std::vector<Eigen::Vector2d>& path, Clearance clearance,
                  const std::vector<MovingPerson>& people,
-                 const std::optional<Eigen::Vector2d>& face = std::nullopt);
+                 const std::optional<Eigen::Vector2d>& face = std::nullopt,
+                 Permission permits = kAnyCommand);
 
   /// Forgets what went before.
   void reset();
@@ -111,19 +119,20 @@ class LocalPlanner {
   bool hasArrived(const std::vector<Eigen::Vector2d>& path, const Eigen::Vector2d& position);
   /// Whether somebody walks at the robot, or stands all but at it.
   bool isThreatened(const DriveScene& scene, double room_m) const;
-  void layOut(const DriveScene& scene, bool threatened);
+  void layOut(const DriveScene& scene, bool backs);
   Braking brake(const DriveScene& scene, const VelocityCommand& command, Clearance clearance) const;
   std::size_t measure(const DriveScene& scene, std::size_t option, Clearance clearance);
   VelocityCommand slowed(const DriveScene& scene, const VelocityCommand& command,
                          double gap_m) const;
   double allowedTowards(const DriveScene& scene, const MovingPerson& person, double way) const;
-  void explain(const DriveScene& scene, LocalPlan& plan);
+  void explain(const DriveScene& scene, LocalPlan& plan, bool threatened);
 
   LocalPlannerParams params_;
   VelocityCommand last_;
   bool arrived_ = false;
   double blocked_s_ = 0.0;
   double waited_s_ = 0.0;  // since it last drove, with a way to go
+  double backs_s_ = 0.0;   // so long a long body still backs off
   double gap_m_ = 0.0;
   PathAhead path_;
   Trajectories futures_;

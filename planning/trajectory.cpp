@@ -89,6 +89,8 @@ double axisReach(const DriveLimits& limits) {
   return std::max(std::abs(limits.back_m), std::abs(limits.front_m));
 }
 
+double turningRadius(const DriveLimits& limits) { return axisReach(limits) + limits.radius_m; }
+
 double roomAround(const DriveLimits& limits, const FloorPose& T_world_base, Clearance clearance) {
   const FloorLine axis = axisOf(limits, T_world_base);
   const Vector2d way = axis.to - axis.from;

@@ -58,6 +58,9 @@ FloorLine axisOf(const DriveLimits& limits, const FloorPose& T_world_base);
 /// How far the axis reaches from the base's origin [m].
 double axisReach(const DriveLimits& limits);
 
+/// The radius of the disc that the body needs to turn on the spot [m].
+double turningRadius(const DriveLimits& limits);
+
 /// The room around the body; negative in a collision, NaN where nobody knows. It is looked at in
 /// discs along the axis, and may be too small by a hundredth of the radius, never too large [m].
 double roomAround(const DriveLimits& limits, const FloorPose& T_world_base, Clearance clearance);

@@ -105,7 +105,7 @@ class Follower {
   bool isSomebody(const Eigen::Vector2d& place) const;
   void keepUnmapped(const std::vector<Eigen::Vector3f>& points, const FloorPose& T_base_then);
   void driveTo(const Eigen::Vector2d& goal);
-  VelocityCommand localCommand();
+  VelocityCommand localCommand(const std::optional<Eigen::Vector2d>& face);
   void follow();
   void face();
   bool standsInDoorway() const;
@@ -120,6 +120,7 @@ class Follower {
   void seek();
   void search();
   void lookAt(const Eigen::Vector2d& place);
+  std::optional<Eigen::Vector2d> turningPlace() const;
   double sideOf(const Eigen::Vector2d& place) const;
   void passLastGate();
 

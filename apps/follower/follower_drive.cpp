@@ -15,6 +15,8 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kHalfBody_m = 0.25;
+constexpr double kRings_m = 0.1;         // Between rings on which room to turn is looked for,
+constexpr double kFurthestTurn_m = 1.5;  // up to so far off.
 
 }  // namespace
 
@@ -125,7 +127,10 @@ MovingPerson Follower::expected() const {
 // A turn on the spot, towards the side where the person was last seen.
 void Follower::seek() {
   if (looksAtSuspect()) return;
-  step_.velocity.turn_radps = seek_side_ * params_.seek_radps;
+  lookAt(step_.robot.pose * Vector2d(0.0, seek_side_));
+  const double most_radps = params_.seek_radps;
+  double& turn_radps = step_.velocity.turn_radps;
+  turn_radps = std::clamp(turn_radps, -most_radps, most_radps);
   turned_rad_ += std::abs(watch_.increment().yaw_rad);
 }
 
@@ -150,10 +155,32 @@ void Follower::search() {
   is_there_ = step_.velocity.turn_radps == 0.0;
 }
 
+// A round robot touches nothing by turning. A long one goes to where it can turn.
 void Follower::lookAt(const Vector2d& place) {
-  const double turn =
-      turnToFace(robot_.drive, {step_.robot.pose, speed_}, place, params_.drive.facing);
-  step_.velocity = {0.0, turn};
+  const DriveLimits& drive = robot_.drive;
+  const double turn_radps =
+      turnToFace(drive, {step_.robot.pose, speed_}, place, params_.drive.facing);
+  step_.velocity = {0.0, turn_radps};
+  if (axisReach(drive) == 0.0 || turn_radps == 0.0) return;
+  const bool has_room = room_.clearance(step_.robot.pose.position) > turningRadius(drive);
+  const std::optional<Vector2d> elsewhere = has_room ? std::nullopt : turningPlace();
+  if (elsewhere) return driveTo(*elsewhere);
+  plan_.path.clear();
+  step_.velocity = localCommand(place);
+}
+
+// The nearest with room to turn, in rings about the robot.
+std::optional<Vector2d> Follower::turningPlace() const {
+  const double need_m = turningRadius(robot_.drive) + params_.goal.margin_m;
+  for (double away_m = kRings_m; away_m < kFurthestTurn_m; away_m += kRings_m) {
+    for (int i = 0; i < 16; ++i) {
+      const double angle = M_PI / 8.0 * i;
+      const Vector2d place =
+          step_.robot.pose * Vector2d(-away_m * std::cos(angle), away_m * std::sin(angle));
+      if (room_.clearance(place) > need_m) return place;
+    }
+  }
+  return std::nullopt;
 }
 
 // Nothing gets to the wheels but through it.
@@ -183,7 +210,7 @@ void Follower::face() {
     return;
   }
   plan_.path.clear();
-  step_.velocity = localCommand();
+  step_.velocity = localCommand(looks_away_ ? std::nullopt : step_.target);
 }
 
 bool Follower::standsInDoorway() const {
@@ -260,14 +287,14 @@ void Follower::driveTo(const Vector2d& goal) {
     planner_.setObstacles(standing_, &layer_.window());
   }
   if (!plan_.found()) plan_.path.clear();
-  step_.velocity = localCommand();
+  step_.velocity = localCommand(looks_away_ ? std::nullopt : step_.target);
   step_.goal = goal;
   step_.path = &plan_.path;
   has_arrived_ = has_arrived_ || !plan_.found();
 }
 
-// Along the path, if there is one, without touching anything; in view of the target.
-VelocityCommand Follower::localCommand() {
+// Along the path, if there is one, without touching anything; else turned to the face.
+VelocityCommand Follower::localCommand(const std::optional<Vector2d>& face) {
   // The map's walls may be off, and what is near them is left out of the layer: not so what the
   // last gate sees, which leaves as little room as this.
   const FloorPose to_motion = motion_.pose() * step_.robot.pose.inverse();
@@ -275,8 +302,12 @@ VelocityCommand Follower::localCommand() {
   const auto room = [&](const Vector2d& p) {
     return std::min(room_.clearance(p), last_gate_.clearance(to_motion * p) + spare_m);
   };
-  const LocalPlan now = local_planner_.step(step_.robot.pose, speed_, plan_.path, room, people_,
-                                            looks_away_ ? std::nullopt : step_.target);
+  const DriveState motion{motion_.pose(), speed_};
+  const auto permits = [&](const VelocityCommand& velocity) {
+    return last_gate_.lets(velocity, motion, steady_s_ - motion_.stamp_s(), steady_s_);
+  };
+  const LocalPlan now =
+      local_planner_.step(step_.robot.pose, speed_, plan_.path, room, people_, face, permits);
   has_arrived_ = now.status == DriveStatus::kArrived || now.blocked_s > params_.give_up_s;
   step_.reason += (step_.reason.empty() ? "" : "; ") + std::string(describe(now.reason));
   return now.command;

@@ -58,16 +58,17 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   params.obstacles.laser_height_m = robot.scanner_height_m;
   params.gate.eye_height_m = robot.camera.T_base_camera.translation().z();
   params.paths.robot_radius_m = robot.drive.radius_m;
-  params.goal.radius_m = robot.drive.radius_m;
-  params.wayside.radius_m = axisReach(robot.drive) + robot.drive.radius_m;  // however it stands
+  params.goal.radius_m = params.wayside.radius_m = turningRadius(robot.drive);
   params.drive.limits = robot.drive;
   params.search.map.limits = robot.drive;
+  params.search.map.limits.radius_m = turningRadius(robot.drive);  // It looks around there.
   LastGateParams& gate = params.last_gate;
   gate.limits = robot.drive;
   gate.sight.T_base_scanner = robot.T_base_scanner;
   gate.sight.laser_sigma_m = robot.laser_sigma_m;
-  const double reach_m = axisReach(robot.drive);  // Only a body that is not round swings.
-  gate.sight.keeps_within_m = reach_m > 0.0 ? reach_m + robot.drive.radius_m + gate.margin_m : 0.0;
+  if (axisReach(robot.drive) > 0.0) {  // Only a body that is not round swings.
+    gate.sight.keeps_within_m = turningRadius(robot.drive) + gate.margin_m;
+  }
   gate.wheels_latency_s = robot.wheels_latency_s;
   gate.sight.T_base_camera = robot.camera.T_base_camera;
   const PinholeCamera& left = robot.camera.camera.left;
