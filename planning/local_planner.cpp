@@ -127,7 +127,7 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
     weights[static_cast<std::size_t>(DriveTerm::kSmooth)] *= 0.1;
   }
   if (waited_s_ > params_.look_away_s) weights[static_cast<std::size_t>(DriveTerm::kView)] = 0.0;
-  layOut(scene, threatened || backs);
+  layOut(scene, threatened, backs);
   plan.options = futures_.size();
 
   double least = kInfinite;
@@ -190,13 +190,13 @@ bool LocalPlanner::isThreatened(const DriveScene& scene, double room_m) const {
   return false;
 }
 
-void LocalPlanner::layOut(const DriveScene& scene, bool backs) {
+void LocalPlanner::layOut(const DriveScene& scene, bool threatened, bool backs) {
   const DriveLimits& limits = params_.limits;
   futures_.clear();
   if (path_.empty()) {
     const double turn = scene.face ? turnToFace(limits, scene.now, *scene.face, params_.facing) : 0;
     addHeld(limits, scene.now, {0.0, turn}, futures_);
-  } else {
+  } else if (!backs) {
     for (const double aside : {0.0, -0.2, 0.2, -0.4, 0.4, -0.65, 0.65}) {
       for (const double share : {1.0, 0.5}) {
         addPursuit(limits, scene.now, path_,
@@ -223,7 +223,7 @@ void LocalPlanner::layOut(const DriveScene& scene, bool backs) {
       addHeld(limits, scene.now, {0.0, turn * limits.max_turn_radps}, futures_);
     }
   }
-  if (backs) {
+  if (threatened || backs) {
     for (const double turn : {0.0, -0.3, 0.3, -0.7, 0.7}) {
       addHeld(limits, scene.now, {-limits.max_reverse_mps, turn * limits.max_turn_radps}, futures_);
     }

@@ -119,7 +119,7 @@ class LocalPlanner {
   bool hasArrived(const std::vector<Eigen::Vector2d>& path, const Eigen::Vector2d& position);
   /// Whether somebody walks at the robot, or stands all but at it.
   bool isThreatened(const DriveScene& scene, double room_m) const;
-  void layOut(const DriveScene& scene, bool backs);
+  void layOut(const DriveScene& scene, bool threatened, bool backs);
   Braking brake(const DriveScene& scene, const VelocityCommand& command, Clearance clearance) const;
   std::size_t measure(const DriveScene& scene, std::size_t option, Clearance clearance);
   VelocityCommand slowed(const DriveScene& scene, const VelocityCommand& command,

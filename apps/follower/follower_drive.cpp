@@ -152,7 +152,7 @@ void Follower::search() {
   driveTo(view->camera.position);
   if (!has_arrived_) return;
   lookAt(view->camera * Vector2d(2.0, 0.0));
-  is_there_ = step_.velocity.turn_radps == 0.0;
+  is_there_ = step_.velocity.forward_mps == 0.0 && step_.velocity.turn_radps == 0.0;
 }
 
 // A round robot touches nothing by turning. A long one goes to where it can turn.
