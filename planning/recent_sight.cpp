@@ -154,8 +154,8 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
       std::remove_if(things_.begin(), things_.end(),
                      [&](const SeenThing& thing) {
                        const bool is_old = stamp_s - thing.seen_s > params_.remembers_s;
-                       const bool is_kept =
-                           !thing.roams && (thing.place - base.position).squaredNorm() < keeps_m2;
+                       const bool is_kept = thing.by_laser && !thing.roams &&
+                                            (thing.place - base.position).squaredNorm() < keeps_m2;
                        return (is_old && !is_kept) || (thing.by_laser && sees(look, thing.place));
                      }),
       things_.end());

@@ -27,8 +27,8 @@ struct RecentSightParams {
   /// What no sensor looks at any more is known for so long: longer than a robot takes to turn
   /// about, shorter than people stay. A user's choice.
   double remembers_s = 4.0;
-  /// What stands so near to the base's origin is known until it is looked at again: an end of a
-  /// long body that turns would swing into it.
+  /// What the laser saw stand so near to the base's origin is known until it is looked at again: an
+  /// end of a long body that turns would swing into it.
   double keeps_within_m = 0.0;
   /// So many of a picture's points in a cell of 5 cm are a thing; fewer are errors of the stereo.
   int min_points = 6;
