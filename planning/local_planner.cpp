@@ -117,8 +117,9 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
   }
   const bool threatened = isThreatened(scene, plan.people_gap_m);
   DriveScores weights = params_.terms.weights;
-  if (waited_s_ > kBacksAfter_s) {
+  if (waited_s_ > kBacksAfter_s && params_.limits.front_m > params_.limits.back_m) {
     backs_s_ = (params_.limits.front_m - params_.limits.back_m) / params_.limits.max_reverse_mps;
+    waited_s_ = 0.0;  // Then it looks again for a way ahead.
   }
   const bool backs = backs_s_ > 0.0 && !path_.empty();
   backs_s_ = std::max(backs_s_ - params_.limits.period_s, 0.0);

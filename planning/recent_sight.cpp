@@ -24,6 +24,7 @@ constexpr double kBody_m = 0.4;         // So far apart are parts of one body.
 constexpr double kWalks_mps = 1.2;      // Nobody walks faster.
 constexpr double kGait_mps = 0.4;       // A leg stands, or swings at twice its owner's speed.
 constexpr double kOldestLook_s = 1.0;   // Of a look from which to reckon who walks.
+constexpr double kMostBeside = 60.0;    // Beams on either side that an edge may be off.
 constexpr double kRounding_rad = 1e-9;
 
 }  // namespace
@@ -58,6 +59,7 @@ double RecentSight::beamTo(const Look& look, const Vector2d& at) {
 bool RecentSight::endsBeyond(const Look& look, double beam, double away_m) {
   const double turn = std::round(2.0 * M_PI / std::abs(look.scan.step_rad));
   if (beam >= turn) beam -= turn;
+  if (beam < 0.0) beam += turn;
   if (!(beam < static_cast<double>(look.scan.ranges_m.size()))) return false;
   const auto range_m = static_cast<double>(look.scan.ranges_m[static_cast<std::size_t>(beam)]);
   return range_m > 0.0 && range_m > away_m;  // Not where it is not a number.
@@ -118,9 +120,20 @@ std::size_t RecentSight::nearestBeam(const Look& look, const Vector2d& at, doubl
 
 // How what is seen at a place has come there. Where the look before saw nothing, something came,
 // from the nearest that it saw, or too fast to tell (not a number); else it stands.
-Vector2d RecentSight::velocityOf(const Vector2d& place, const Look& before, double dt_s) const {
-  if (!(dt_s <= kOldestLook_s) || !sawFree(before, place, -surface_m_)) return Vector2d::Zero();
+Vector2d RecentSight::velocityOf(const Vector2d& place, const Vector2d& scanner, const Look& before,
+                                 double dt_s) const {
   const Vector2d at = before.turn * (place - before.scanner);
+  // Seen from elsewhere, an error of the range is one aside: so an edge is no news beside itself.
+  const Vector2d way = (place - scanner).normalized();
+  const Vector2d was = place - before.scanner;
+  const double aside_m = surface_m_ * std::abs(way.x() * was.y() - way.y() * was.x()) / was.norm();
+  const double beams = std::ceil(aside_m / (was.norm() * std::abs(before.scan.step_rad)));
+  bool was_free = dt_s <= kOldestLook_s && beams < kMostBeside;
+  const double first = std::floor(beamTo(before, at));
+  for (double k = -beams; k <= beams + 1.0 && was_free; ++k) {
+    was_free = endsBeyond(before, first + k, at.norm() + surface_m_);
+  }
+  if (!was_free) return Vector2d::Zero();
   const std::size_t from = nearestBeam(before, at, kWalks_mps * dt_s);
   if (from == before.scan.ranges_m.size()) return Vector2d::Constant(kUnknown);
   const double angle = before.scan.angle(from);
@@ -167,7 +180,8 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
     if (!(range_m > 0.0 && range_m < range_m_)) continue;
     const double angle = scan.angle(i);
     const Vector2d place = scanner * Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
-    const Vector2d velocity = velocityOf(place, earlier, stamp_s - earlier.stamp_s);
+    const Vector2d velocity =
+        velocityOf(place, scanner.position, earlier, stamp_s - earlier.stamp_s);
     moves_[i] = velocity.isZero() ? lastMoved(place) : stamp_s;
     const bool roams = stamp_s - moves_[i] <= params_.remembers_s;
     if (roams) roaming_.push_back({place, velocity});

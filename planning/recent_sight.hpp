@@ -111,7 +111,8 @@ class RecentSight {
   static bool sawFree(const Look& look, const Eigen::Vector2d& place, double short_m);
   bool isInPicture(const SeenThing& thing, const FloorPose& T_base_world) const;
   static std::size_t nearestBeam(const Look& look, const Eigen::Vector2d& at, double reach_m);
-  Eigen::Vector2d velocityOf(const Eigen::Vector2d& place, const Look& before, double dt_s) const;
+  Eigen::Vector2d velocityOf(const Eigen::Vector2d& place, const Eigen::Vector2d& scanner,
+                             const Look& before, double dt_s) const;
   double lastMoved(const Eigen::Vector2d& place) const;
   void keep(const SeenThing& thing);
 
