@@ -120,7 +120,7 @@ class Follower {
   void seek();
   void search();
   void lookAt(const Eigen::Vector2d& place);
-  std::optional<Eigen::Vector2d> turningPlace() const;
+  Eigen::Vector2d turningPlace() const;
   double sideOf(const Eigen::Vector2d& place) const;
   void passLastGate();
 

@@ -162,25 +162,28 @@ void Follower::lookAt(const Vector2d& place) {
       turnToFace(drive, {step_.robot.pose, speed_}, place, params_.drive.facing);
   step_.velocity = {0.0, turn_radps};
   if (axisReach(drive) == 0.0 || turn_radps == 0.0) return;
-  const bool has_room = room_.clearance(step_.robot.pose.position) > turningRadius(drive);
-  const std::optional<Vector2d> elsewhere = has_room ? std::nullopt : turningPlace();
-  if (elsewhere) return driveTo(*elsewhere);
   plan_.path.clear();
   step_.velocity = localCommand(place);
+  if (step_.velocity.turn_radps == 0.0) driveTo(turningPlace());
 }
 
-// The nearest with room to turn, in rings about the robot.
-std::optional<Vector2d> Follower::turningPlace() const {
-  const double need_m = turningRadius(robot_.drive) + params_.goal.margin_m;
-  for (double away_m = kRings_m; away_m < kFurthestTurn_m; away_m += kRings_m) {
+// The nearest with room to turn, in rings about the robot; else that with the most room.
+Vector2d Follower::turningPlace() const {
+  const double need_m = turningRadius(robot_.drive) + params_.drive.margin_m;
+  Vector2d best = step_.robot.pose.position;
+  double most_m = room_.clearance(best);
+  for (double away_m = kRings_m; away_m < kFurthestTurn_m && most_m < need_m; away_m += kRings_m) {
     for (int i = 0; i < 16; ++i) {
-      const double angle = M_PI / 8.0 * i;
-      const Vector2d place =
-          step_.robot.pose * Vector2d(-away_m * std::cos(angle), away_m * std::sin(angle));
-      if (room_.clearance(place) > need_m) return place;
+      const double angle = M_PI + M_PI / 8.0 * i;  // behind it first: from there it came
+      const Vector2d way(std::cos(angle), std::sin(angle));
+      const Vector2d place = step_.robot.pose * Vector2d(away_m * way);
+      const double room_m = room_.clearance(place);
+      if (room_m <= most_m) continue;
+      most_m = room_m;
+      best = place;
     }
   }
-  return std::nullopt;
+  return best;
 }
 
 // Nothing gets to the wheels but through it.
