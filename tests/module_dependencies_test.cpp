@@ -41,7 +41,7 @@ const std::map<std::string, Folders> kKnows = {
 
     {"apps/results", {"cloud", "mapping", "planning", "apps/output"}},
     {"apps/pictures", {"cloud", "mapping", "planning", "apps/output"}},
-    {"apps/film", {"mapping", "apps/output", "apps/pictures"}},
+    {"apps/film", {"mapping", "planning", "apps/output", "apps/pictures"}},
     {"apps/pages", {"cloud", "mapping", "apps/output", "apps/pictures", "apps/results"}},
     {"apps/simulation",
      {"cloud", "mapping", "planning", "apps/film", "apps/output", "apps/recording",
