@@ -24,7 +24,6 @@ constexpr double kBody_m = 0.4;         // So far apart are parts of one body.
 constexpr double kWalks_mps = 1.2;      // Nobody walks faster.
 constexpr double kGait_mps = 0.4;       // A leg stands, or swings at twice its owner's speed.
 constexpr double kOldestLook_s = 1.0;   // Of a look from which to reckon who walks.
-constexpr double kMostBeside = 60.0;    // Beams on either side that an edge may be off.
 constexpr double kRounding_rad = 1e-9;
 
 }  // namespace
@@ -126,9 +125,10 @@ Vector2d RecentSight::velocityOf(const Vector2d& place, const Vector2d& scanner,
   // Seen from elsewhere, an error of the range is one aside: so an edge is no news beside itself.
   const Vector2d way = (place - scanner).normalized();
   const Vector2d was = place - before.scanner;
-  const double aside_m = surface_m_ * std::abs(way.x() * was.y() - way.y() * was.x()) / was.norm();
-  const double beams = std::ceil(aside_m / (was.norm() * std::abs(before.scan.step_rad)));
-  bool was_free = dt_s <= kOldestLook_s && beams < kMostBeside;
+  const double aside_rad =
+      surface_m_ * std::abs(way.x() * was.y() - way.y() * was.x()) / was.squaredNorm();
+  bool was_free = dt_s <= kOldestLook_s && aside_rad < 1.0;  // Not where it is not a number.
+  const double beams = std::ceil(aside_rad / std::abs(before.scan.step_rad));
   const double first = std::floor(beamTo(before, at));
   for (double k = -beams; k <= beams + 1.0 && was_free; ++k) {
     was_free = endsBeyond(before, first + k, at.norm() + surface_m_);

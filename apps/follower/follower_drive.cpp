@@ -38,7 +38,7 @@ void Follower::drive() {
     step_.reason = watch_.blindness();
     return;
   }
-  if (step_.robot.lost) {  // Another view may tell; a round robot touches nothing by turning.
+  if (step_.robot.lost) {  // Another view may tell; the last gate lets it turn where it can.
     step_.reason = "does not know where it is";
     step_.velocity.turn_radps = params_.lost_turn_radps;
     return;
