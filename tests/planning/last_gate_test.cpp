@@ -250,10 +250,10 @@ LaserScan doorwayFrom(const Eigen::Vector2d& scanner, std::mt19937& random) {
 TEST(RecentSight, AnEdgeThatIsPassedIsNobodyWhoComes) {
   std::mt19937 random(7);
   int people = 0;
-  for (int passage = 0; passage < 50; ++passage) {
+  for (int passage = 0; passage < 41; ++passage) {
     RecentSight sight({}, 3.0);
     for (int i = 0; i < 80; ++i) {
-      const FloorPose base{{0.5 + 0.03 * i, 0.02 * passage - 0.2}, 0.0};
+      const FloorPose base{{0.5 + 0.03 * i, 0.01 * passage - 0.2}, 0.0};
       sight.addScan(doorwayFrom(base.position, random), base, 0.1 * i);
       for (const SeenThing& thing : sight.things()) {
         people += thing.roams && thing.seen_s == sight.newest_s() ? 1 : 0;
