@@ -18,8 +18,13 @@ constexpr double kNotYet = -std::numeric_limits<double>::infinity();
 constexpr double kCell_m = 0.05;        // Of the camera's points,
 constexpr int kCells = 48;              // so many on each side of a square about the robot.
 constexpr double kSame_m = 0.1;         // So far apart two pictures may see one thing.
+constexpr double kUsualSigma_m = 0.01;  // Of a laser's ranges.
 constexpr double kSurface_m = 0.05;     // So far behind a beam's end may be the thing that it hit:
 constexpr double kSurfaceSigmas = 5.0;  // errors of ranges are larger once in 200,000 times.
+constexpr double kStands = 1e-3;        // Who moves and turns less from scan to scan [m, rad].
+constexpr std::size_t kFewBeams = 20;   // Fewer tell nothing of all.
+constexpr double kManyScans = 100.0;    // A mean over more forgets the oldest.
+constexpr double kMedianStep = 0.954;   // Of two normal errors' difference: 0.6745 * sqrt(2) sigma.
 constexpr double kBody_m = 0.4;         // So far apart are parts of one body.
 constexpr double kWalks_mps = 1.2;      // Nobody walks faster.
 constexpr double kGait_mps = 0.4;       // A leg stands, or swings at twice its owner's speed.
@@ -31,12 +36,13 @@ constexpr double kRounding_rad = 1e-9;
 RecentSight::RecentSight(const RecentSightParams& params, double range_m)
     : params_(params),
       range_m_(range_m),
-      surface_m_(std::max(kSurface_m, kSurfaceSigmas * params.laser_sigma_m)),
+      sigma_m_(kUsualSigma_m),
+      surface_m_(kSurface_m),
       cells_(kCells * kCells),
       points_s_(kNotYet) {
-  for (const double value : {params.remembers_s, params.laser_sigma_m, params.keeps_within_m,
-                             params.camera_half_view.minCoeff(), params.camera_nearest_m,
-                             params.camera_range_m, params.min_points - 1.0}) {
+  for (const double value :
+       {params.remembers_s, params.keeps_within_m, params.camera_half_view.minCoeff(),
+        params.camera_nearest_m, params.camera_range_m, params.min_points - 1.0}) {
     if (!(value >= 0.0) || !std::isfinite(value)) {
       throw std::invalid_argument("RecentSightParams: a parameter is out of its range");
     }
@@ -148,6 +154,28 @@ double RecentSight::lastMoved(const Vector2d& place) const {
   return was < moved_s_.size() ? moved_s_[was] : kNotYet;
 }
 
+// Most of what a standing robot sees stands, too. A thing that moved is beyond errors, or too few.
+void RecentSight::measureErrors(const Look& look) {
+  const std::vector<float>& now_m = look.scan.ranges_m;
+  const std::vector<float>& last_m = last_.scan.ranges_m;
+  if (now_m.size() != last_m.size() || (look.scanner - last_.scanner).norm() > kStands ||
+      (look.turn - last_.turn).norm() > kStands) {
+    return;
+  }
+  steps_m_.clear();
+  for (std::size_t i = 0; i < now_m.size(); ++i) {
+    const double a = static_cast<double>(now_m[i]), b = static_cast<double>(last_m[i]);
+    const double step_m = std::abs(a - b);
+    if (a > 0.0 && a < range_m_ && b > 0.0 && step_m < kSame_m) steps_m_.push_back(step_m);
+  }
+  if (steps_m_.size() < kFewBeams) return;
+  const auto middle = steps_m_.begin() + static_cast<std::ptrdiff_t>(steps_m_.size() / 2);
+  std::nth_element(steps_m_.begin(), middle, steps_m_.end());
+  measured_ = std::min(measured_ + 1.0, kManyScans);
+  sigma_m_ += (*middle / kMedianStep - sigma_m_) / measured_;
+  surface_m_ = std::max(kSurface_m, kSurfaceSigmas * sigma_m_);
+}
+
 void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double stamp_s) {
   if (!(stamp_s > looks_[newest_].stamp_s) || scan.step_rad == 0.0) return;
   // As many looks as there is room for, evenly over the time that they are known.
@@ -172,6 +200,7 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
                        return (is_old && !is_kept) || (thing.by_laser && sees(look, thing.place));
                      }),
       things_.end());
+  measureErrors(look);
   const Look& earlier = looks_[(newest_ + looks_.size() - 1) % looks_.size()];
   moves_.assign(scan.ranges_m.size(), kNotYet);
   roaming_.clear();

@@ -21,9 +21,6 @@ namespace heel {
 /// Where the sensors are, and for how long what they saw is known.
 struct RecentSightParams {
   FloorPose T_base_scanner;  ///< Where the laser scanner is, in the base frame.
-  /// Standard deviation of the laser's ranges. What a scan sees 5 of them, and no less than 5 cm,
-  /// before where another saw nothing has come there: it may be somebody who walks.
-  double laser_sigma_m = 0.01;
   /// What no sensor looks at any more is known for so long: longer than a robot takes to turn
   /// about, shorter than people stay. A user's choice.
   double remembers_s = 4.0;
@@ -54,6 +51,11 @@ struct SeenThing {
 /// Remembers the newest scans, and the points that scans and pictures saw. All poses are of the
 /// base in one frame that does not jump, the odometry's. Nothing is allocated once as many things
 /// have been seen as ever will be.
+///
+/// What a scan sees five standard deviations of the laser's ranges, and no less than 5 cm, before
+/// where another saw nothing has come there: it may be somebody who walks. These errors are
+/// measured while the robot stands, by what most of the beams tell; until then they are taken for 1
+/// cm.
 class RecentSight {
  public:
   static constexpr std::size_t kMostThings = 4096;
@@ -70,6 +72,9 @@ class RecentSight {
   /// alone may be an error of the stereo. All of a picture's points that are in the robot's way, in
   /// the base frame of `stamp_s` [m].
   void addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& base, double stamp_s);
+
+  /// Standard deviation of the laser's ranges, as far as it is known [m].
+  double laserSigma() const { return sigma_m_; }
 
   /// At most kMostThings, of which some may be older than is remembered.
   const std::vector<SeenThing>& things() const { return things_; }
@@ -115,10 +120,14 @@ class RecentSight {
                              const Look& before, double dt_s) const;
   double lastMoved(const Eigen::Vector2d& place) const;
   void keep(const SeenThing& thing);
+  void measureErrors(const Look& look);
 
   RecentSightParams params_;
   double range_m_;
-  double surface_m_;  // so far behind a beam's end is the thing that it hit
+  double sigma_m_;
+  double surface_m_;             // so far behind a beam's end is the thing that it hit
+  double measured_ = 0.0;        // so many scans of a robot that stood
+  std::vector<double> steps_m_;  // of the beams, from the last scan to this
   std::vector<SeenThing> things_;
   std::array<Look, 20> looks_;  // a ring; looks_[newest_] is the last
   std::size_t newest_ = 0;

@@ -44,7 +44,6 @@ RobotDescription describeRobot(const RobotParams& params) {
   robot.height_m = params.height_m;
   robot.T_base_scanner.position = params.laser.at.head<2>();
   robot.scanner_height_m = params.laser.at.z();
-  robot.laser_sigma_m = params.laser.noise_m;
   robot.scan_latency_s = params.laser.latency_s;
   robot.wheels_latency_s = params.wheels_latency_s;
   return robot;

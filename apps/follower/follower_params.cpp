@@ -52,8 +52,7 @@ double RobotDescription::halfView_rad() const {
 
 FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   check(params);
-  requireNotNegative("RobotDescription",
-                     {robot.laser_sigma_m, robot.scan_latency_s, robot.wheels_latency_s});
+  requireNotNegative("RobotDescription", {robot.scan_latency_s, robot.wheels_latency_s});
   params.obstacles.max_height_m = params.obstacle_points.max_height_m = robot.height_m;
   params.obstacles.laser_height_m = robot.scanner_height_m;
   params.gate.eye_height_m = robot.camera.T_base_camera.translation().z();
@@ -65,7 +64,6 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   LastGateParams& gate = params.last_gate;
   gate.limits = robot.drive;
   gate.sight.T_base_scanner = robot.T_base_scanner;
-  gate.sight.laser_sigma_m = robot.laser_sigma_m;
   if (axisReach(robot.drive) > 0.0) {  // Only a body that is not round swings.
     gate.sight.keeps_within_m = turningRadius(robot.drive) + gate.margin_m;
   }

@@ -28,7 +28,6 @@ struct RobotDescription {
   double height_m = 1.1;          ///< Its height over the floor: what hangs lower is in its way.
   FloorPose T_base_scanner;       ///< Where the laser scanner is, in the base frame.
   double scanner_height_m = 0.3;  ///< Height of the laser's plane over the floor.
-  double laser_sigma_m = 0.01;    ///< Standard deviation of its ranges.
   CameraSetup camera;             ///< Its camera, which looks ahead along the base frame's X axis.
   /// A scan that comes without a stamp of its own was measured so long before.
   double scan_latency_s = 0.0;

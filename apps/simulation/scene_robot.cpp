@@ -106,8 +106,7 @@ void visit(Keys& keys, Part& p) {
     keys.integer("beams", p.beams, 2, 100000, "of a scan");
     keys.number("rate_hz", p.rate_hz, kPositive, "[1/s] scans; of a simulated robot");
     keys.number("max_range_m", p.max_range_m, kPositive, "[m] simulated");
-    keys.number("noise_m", p.noise_m, kNotNegative,
-                "[m] standard deviation of a range, by the data sheet");
+    keys.number("noise_m", p.noise_m, kNotNegative, "[m] simulated: standard deviation");
     keys.number("latency_s", p.latency_s, {0.0, 1.0}, "[s] a scan comes at most so late");
   } else if constexpr (kIs<Part, OdometryParams>) {
     keys.number("rate_hz", p.rate_hz, kPositive, "[1/s] simulated, as all of odometry");

@@ -207,23 +207,28 @@ TEST(LastGate, StandsBeforeALegThatCameTooFastToTell) {
 }
 
 // Bug: errors of a cheaper laser's ranges were people who walk, and robots stood in doorways.
-TEST(LastGate, TakesNoErrorsOfRangesForPeopleWhoWalk) {
-  const auto passedBeforeAWall = [](double laser_sigma_m) {
-    LastGateParams params = usual();
-    params.wheels_latency_s = 0.5;
-    params.sight.laser_sigma_m = laser_sigma_m;
-    LastGate gate(params);
+TEST(RecentSight, MeasuresTheErrorsOfRangesWhileTheRobotStands) {
+  for (const double sigma_m : {0.0, 0.01, 0.025, 0.04}) {
     std::mt19937 random(5);
-    std::normal_distribution<float> error(0.0F, 0.025F);
-    for (double now_s = 10.0; now_s < 14.05; now_s += 0.1) {
+    std::normal_distribution<double> error(0.0, sigma_m);
+    RecentSight sight({}, 3.0);
+    int people = 0;
+    for (int i = 0; i < 120; ++i) {
       LaserScan scan = wallAhead(0.8);
-      for (float& range_m : scan.ranges_m) range_m += error(random);
-      gate.addScan(scan, {}, now_s);
+      for (float& range_m : scan.ranges_m) range_m += static_cast<float>(error(random));
+      for (std::size_t k = 170; k < 190; ++k) {  // Somebody walks past the robot, behind it.
+        scan.ranges_m[(k + 180) % 360] = static_cast<float>(0.5 + 0.015 * i);
+      }
+      const FloorPose base{{0.05 * std::max(i - 80, 0), 0.0}, 0.0};  // And then it drives.
+      sight.addScan(scan, base, 0.1 * i);
+      if (i < 10 || i > 80) continue;
+      for (const SeenThing& thing : sight.things()) {
+        people += thing.roams && thing.place.x() > 0.0 && thing.seen_s == sight.newest_s() ? 1 : 0;
+      }
     }
-    return gate.pass({0.3, 0.0}, {}, 0.0, 14.0).velocity.forward_mps;
-  };
-  EXPECT_EQ(passedBeforeAWall(0.025), 0.3);
-  EXPECT_LT(passedBeforeAWall(0.005), 0.3) << "what a better laser says is believed";
+    EXPECT_NEAR(sight.laserSigma(), sigma_m, 0.1 * sigma_m + 1e-6);
+    EXPECT_EQ(people, 0) << sigma_m;
+  }
 }
 
 /// A scan of the posts of a doorway, 10 cm square, 0.9 m apart, and of nothing else.
