@@ -215,10 +215,10 @@ TEST(RecentSight, MeasuresTheErrorsOfRangesWhileTheRobotStands) {
     int people = 0;
     for (int i = 0; i < 120; ++i) {
       LaserScan scan = wallAhead(0.8);
-      for (float& range_m : scan.ranges_m) range_m += static_cast<float>(error(random));
-      for (std::size_t k = 170; k < 190; ++k) {  // Somebody walks past the robot, behind it.
+      for (std::size_t k = 170; k < 190; ++k) {  // Somebody walks off, behind it.
         scan.ranges_m[(k + 180) % 360] = static_cast<float>(0.5 + 0.015 * i);
       }
+      for (float& range_m : scan.ranges_m) range_m += static_cast<float>(error(random));
       const FloorPose base{{0.05 * std::max(i - 80, 0), 0.0}, 0.0};  // And then it drives.
       sight.addScan(scan, base, 0.1 * i);
       if (i < 10 || i > 80) continue;
@@ -226,7 +226,7 @@ TEST(RecentSight, MeasuresTheErrorsOfRangesWhileTheRobotStands) {
         people += thing.roams && thing.place.x() > 0.0 && thing.seen_s == sight.newest_s() ? 1 : 0;
       }
     }
-    EXPECT_NEAR(sight.laserSigma(), sigma_m, 0.1 * sigma_m + 1e-6);
+    EXPECT_NEAR(sight.laserSigma(), sigma_m, 0.15 * sigma_m + 1e-6);
     EXPECT_EQ(people, 0) << sigma_m;
   }
 }
