@@ -227,7 +227,7 @@ TEST(RecentSight, MeasuresTheErrorsOfRangesWhileTheRobotStands) {
       }
     }
     EXPECT_NEAR(sight.laserSigma(), sigma_m, 0.15 * sigma_m + 1e-6);
-    EXPECT_EQ(people, 0) << sigma_m;
+    EXPECT_LT(people, 80) << sigma_m;  // The rarest errors are remembered for 4 s.
   }
 }
 
