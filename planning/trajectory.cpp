@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kDiscs = 4.0;      // In a radius of the axis: their rims leave 0.8 % of it out.
+constexpr double kDiscs = 2.0;      // In a radius of the axis: their rims leave 3.2 % of it out.
 constexpr double kFinest_m = 1e-3;  // To which a body is fitted.
 
 }  // namespace

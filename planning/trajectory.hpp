@@ -62,7 +62,7 @@ double axisReach(const DriveLimits& limits);
 double turningRadius(const DriveLimits& limits);
 
 /// The room around the body; negative in a collision, NaN where nobody knows. It is looked at in
-/// discs along the axis, and may be too small by a hundredth of the radius, never too large [m].
+/// discs along the axis, and may be too small by 3.2 % of the radius, never too large [m].
 double roomAround(const DriveLimits& limits, const FloorPose& T_world_base, Clearance clearance);
 
 /// Where a robot is and how it moves.
