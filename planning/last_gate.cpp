@@ -22,6 +22,9 @@ constexpr double kGap_m = 0.01;        // Between places on the rim, at least.
 constexpr double kBeyondLegs_m = 0.2;  // So far beyond what a laser sees of legs is the body.
 constexpr double kRounding_m = 1e-9;
 constexpr double kOldest_s = 1.0;  // Of a motion from which to reckon.
+// What a scan has seen free is free of who walks for so long: two scans, a quarter of a second
+// late.
+constexpr double kInView_s = 0.5;
 
 bool isNumber(const VelocityCommand& v) {
   return std::isfinite(v.forward_mps) && std::isfinite(v.turn_radps);
@@ -139,7 +142,7 @@ bool LastGate::isFree(const std::vector<WayPiece>& pieces) const {
 // stood at `start`. Things are `allow_m_` or more off the body's middle: so the rim is drawn half
 // of what they leave outside of the body, and a beam may end half of it before the rim.
 bool LastGate::isRimSeen(const FloorLine& start, const Vector2d& middle, const Vector2d& front,
-                         double body_m, double stood_m, double now_s) {
+                         double body_m, double stood_m, double since_s) {
   const double spare_m = 0.5 * (allow_m_ - params_.limits.radius_m);
   const double step_rad = M_PI / std::ceil(M_PI * body_m / rimStep());
   const Eigen::Matrix2d step = Eigen::Rotation2Dd(step_rad).toRotationMatrix();
@@ -147,7 +150,7 @@ bool LastGate::isRimSeen(const FloorLine& start, const Vector2d& middle, const V
   for (double turned = 0.0; turned < M_PI + 0.5 * step_rad; turned += step_rad) {
     const Vector2d rim = middle + body_m * ray;
     const bool stood_there = (rim - start.nearest(rim)).squaredNorm() <= stood_m * stood_m;
-    if (!stood_there && !sight_.isSeen(middle + (body_m + spare_m) * ray, spare_m, now_s))
+    if (!stood_there && !sight_.isSeen(middle + (body_m + spare_m) * ray, spare_m, since_s))
       return false;
     ray = step * ray;
   }
@@ -178,6 +181,7 @@ bool LastGate::isSeenAhead(const std::vector<WayPiece>& pieces, const FloorLine&
     // Forwards it never creeps on blindly: the scanner looks there.
     const double stood_m =
         params_.limits.radius_m + (sign > 0.0 ? std::max(kGrazed_m, beside_m) : kGrazed_m);
+    const double since_s = now_s - (sign > 0.0 ? params_.sight.remembers_s : kInView_s);
     double looked_m = kNever;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       const WayPiece& piece = pieces[i];
@@ -187,7 +191,7 @@ bool LastGate::isSeenAhead(const std::vector<WayPiece>& pieces, const FloorLine&
       const double along_m =
           (sign > 0.0 ? piece.last_m : piece.first_m) + (ends ? sign * params_.margin_m : 0.0);
       if (!isRimSeen(start, piece.from + along_m * piece.way, sign * piece.way,
-                     params_.limits.radius_m + piece.aside_m, stood_m, now_s)) {
+                     params_.limits.radius_m + piece.aside_m, stood_m, since_s)) {
         return false;
       }
     }

@@ -50,8 +50,10 @@ struct GatedVelocity {
 /// - does the same with what came, in the last `remembers_s`, to where a look had seen nothing,
 ///   wherever that may walk to meanwhile; what the robot leaves behind may come as near as it will;
 /// - does not drive towards what it touched then, not even as far as it has moved off since;
-/// - goes only where scans of the last `remembers_s` have seen: all that the body newly covers is
-///   looked at, and `margin_m` beyond, for things of 4 cm across or more.
+/// - goes only where scans of the last `remembers_s` have seen, and backwards only where those of
+/// the
+///   last half second have, for somebody may have come up from behind: all that the body newly
+///   covers is looked at, and `margin_m` beyond, for things of 4 cm across or more.
 /// Else it scales forward speed and turn alike; else it lets only the turn through; else nothing.
 ///
 /// The first two hold for every way that the robot can take, not for some of them: each command
@@ -112,7 +114,7 @@ class LastGate {
   static bool recedes(const WayPiece& piece, double along_m, double aside_m);
   bool isFree(const std::vector<WayPiece>& pieces) const;
   bool isRimSeen(const FloorLine& start, const Eigen::Vector2d& middle,
-                 const Eigen::Vector2d& front, double body_m, double stood_m, double now_s);
+                 const Eigen::Vector2d& front, double body_m, double stood_m, double since_s);
   double rimStep() const;
   bool isSeenAhead(const std::vector<WayPiece>& pieces, const FloorLine& start, double now_s);
   bool prepare(const VelocityCommand& wanted, const DriveState& now, double age_s, double now_s);

@@ -85,9 +85,9 @@ bool RecentSight::sawFree(const Look& look, const Vector2d& place, double short_
 }
 
 // Of the ring of looks, the one that saw the last place is asked first.
-bool RecentSight::isSeen(const Vector2d& place, double short_m, double now_s) {
+bool RecentSight::isSeen(const Vector2d& place, double short_m, double since_s) {
   const auto sawIt = [&](const Look& look) {
-    return now_s - look.stamp_s <= params_.remembers_s && sawFree(look, place, short_m);
+    return look.stamp_s >= since_s && sawFree(look, place, short_m);
   };
   if (sawIt(looks_[saw_])) return true;
   for (std::size_t i = 0; i < looks_.size(); ++i) {

@@ -85,9 +85,9 @@ class RecentSight {
   /// Distance from a place to the nearest of them [m].
   double clearance(const Eigen::Vector2d& place) const;
 
-  /// Whether a scan that is remembered has seen that a place is free: both beams beside it end no
-  /// nearer than `short_m` before it.
-  bool isSeen(const Eigen::Vector2d& place, double short_m, double now_s);
+  /// Whether a scan since then has seen that a place is free: both beams beside it end no nearer
+  /// than `short_m` before it.
+  bool isSeen(const Eigen::Vector2d& place, double short_m, double since_s);
 
   /// What a robot that stands can not see of its way straight on: the strips along both sides of
   /// the body of this radius, whose foremost disc is so far ahead, so wide, as far ahead as its
