@@ -52,6 +52,12 @@ double rangeFor(const LastGateParams& params) {
                                  2.0 * params.wheels_latency_s + 0.5));
 }
 
+// Only a body that is not round swings.
+double keptFor(const LastGateParams& params) {
+  const bool swings = axisReach(params.limits) > 0.0;
+  return swings ? turningRadius(params.limits) + params.margin_m : 0.0;
+}
+
 }  // namespace
 
 const char* describe(GateReason reason) {
@@ -63,7 +69,7 @@ const char* describe(GateReason reason) {
 
 LastGate::LastGate(const LastGateParams& params)
     : params_(checked(params)),
-      sight_(params.sight, rangeFor(params)),
+      sight_(params.sight, rangeFor(params), keptFor(params)),
       ways_(params.limits, params.wheels_latency_s) {
   near_.reserve(2 * RecentSight::kMostThings);
 }

@@ -18,7 +18,6 @@ constexpr double kNotYet = -std::numeric_limits<double>::infinity();
 constexpr double kCell_m = 0.05;        // Of the camera's points,
 constexpr int kCells = 48;              // so many on each side of a square about the robot.
 constexpr double kSame_m = 0.1;         // So far apart two pictures may see one thing.
-constexpr double kUsualSigma_m = 0.01;  // Of a laser's ranges.
 constexpr double kSurface_m = 0.05;     // So far behind a beam's end may be the thing that it hit:
 constexpr double kSurfaceSigmas = 5.0;  // errors of ranges are larger once in 200,000 times.
 constexpr double kStands = 1e-3;        // Who moves and turns less from scan to scan [m, rad].
@@ -33,16 +32,17 @@ constexpr double kRounding_rad = 1e-9;
 
 }  // namespace
 
-RecentSight::RecentSight(const RecentSightParams& params, double range_m)
+RecentSight::RecentSight(const RecentSightParams& params, double range_m, double keeps_m)
     : params_(params),
       range_m_(range_m),
-      sigma_m_(kUsualSigma_m),
+      keeps_m_(keeps_m),
+      sigma_m_(kSurface_m / kSurfaceSigmas),
       surface_m_(kSurface_m),
       cells_(kCells * kCells),
       points_s_(kNotYet) {
   for (const double value :
-       {params.remembers_s, params.keeps_within_m, params.camera_half_view.minCoeff(),
-        params.camera_nearest_m, params.camera_range_m, params.min_points - 1.0}) {
+       {params.remembers_s, params.camera_half_view.minCoeff(), params.camera_nearest_m,
+        params.camera_range_m, params.min_points - 1.0}) {
     if (!(value >= 0.0) || !std::isfinite(value)) {
       throw std::invalid_argument("RecentSightParams: a parameter is out of its range");
     }
@@ -190,7 +190,7 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
   look.scan.first_rad = scan.first_rad;
   look.scan.step_rad = scan.step_rad;
   look.scan.ranges_m.assign(scan.ranges_m.begin(), scan.ranges_m.end());
-  const double keeps_m2 = params_.keeps_within_m * params_.keeps_within_m;
+  const double keeps_m2 = keeps_m_ * keeps_m_;
   things_.erase(
       std::remove_if(things_.begin(), things_.end(),
                      [&](const SeenThing& thing) {

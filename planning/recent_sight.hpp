@@ -24,9 +24,6 @@ struct RecentSightParams {
   /// What no sensor looks at any more is known for so long: longer than a robot takes to turn
   /// about, shorter than people stay. A user's choice.
   double remembers_s = 4.0;
-  /// What the laser saw stand so near to the base's origin is known until it is looked at again: an
-  /// end of a long body that turns would swing into it.
-  double keeps_within_m = 0.0;
   /// So many of a picture's points in a cell of 5 cm are a thing; fewer are errors of the stereo.
   int min_points = 6;
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();  ///< z is the line of sight.
@@ -61,8 +58,10 @@ class RecentSight {
   static constexpr std::size_t kMostThings = 4096;
 
   /// @param range_m  What a scan sees further away is left out.
+  /// @param keeps_m  What the laser saw stand so near to the base's origin is known until it is
+  ///                 looked at again: an end of a long body that turns would swing into it.
   /// @throws std::invalid_argument  if a parameter is out of its range.
-  RecentSight(const RecentSightParams& params, double range_m);
+  RecentSight(const RecentSightParams& params, double range_m, double keeps_m = 0.0);
 
   /// @param base     Where the base was at `stamp_s`, when the scan was measured.
   /// A scan that is not later than the last is left out.
@@ -123,7 +122,7 @@ class RecentSight {
   void measureErrors(const Look& look);
 
   RecentSightParams params_;
-  double range_m_;
+  double range_m_, keeps_m_;
   double sigma_m_;
   double surface_m_;             // so far behind a beam's end is the thing that it hit
   double measured_ = 0.0;        // so many scans of a robot that stood

@@ -64,9 +64,6 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   LastGateParams& gate = params.last_gate;
   gate.limits = robot.drive;
   gate.sight.T_base_scanner = robot.T_base_scanner;
-  if (axisReach(robot.drive) > 0.0) {  // Only a body that is not round swings.
-    gate.sight.keeps_within_m = turningRadius(robot.drive) + gate.margin_m;
-  }
   gate.wheels_latency_s = robot.wheels_latency_s;
   gate.sight.T_base_camera = robot.camera.T_base_camera;
   const PinholeCamera& left = robot.camera.camera.left;

@@ -153,19 +153,19 @@ void Simulator::State::tick() {
   }
   robot.accelerate(kTick_s, obeyed);
   // Something in the way stops the robot, but it may always back out of it.
-  const double now_m = clearance(robot.pose());
-  const auto isBlocked = [&] {
-    const double next_m = clearance(robot.ahead(kTick_s));
-    return next_m < 0.0 && next_m < now_m;
-  };
   if (clearance(robot.ahead(kTick_s)) < 0.0) {
     WorldTruth& truth = readings.truth;
     truth.contact = true;
     truth.contact_by_robot =
         truth.contact_by_robot || isDrivenInto(robot.pose(), robot.ahead(kTick_s));
+    const double now_m = clearance(robot.pose());
+    const auto isBlocked = [&] {
+      const double next_m = clearance(robot.ahead(kTick_s));
+      return next_m < 0.0 && next_m < now_m;
+    };
+    if (isBlocked()) robot.stop(true);
+    if (isBlocked()) robot.stop(false);
   }
-  if (isBlocked()) robot.stop(true);
-  if (isBlocked()) robot.stop(false);
   robot.go(kTick_s);
   odometry.add(robot.speed().forward_mps * kTick_s, robot.speed().turn_radps * kTick_s);
   ++ticks;

@@ -98,7 +98,6 @@ struct LongGate : Gate {
     params.limits.front_m = 0.3;
     params.limits.back_m = -0.3;
     params.sight.T_base_scanner.position = {0.3, 0.0};
-    params.sight.keeps_within_m = 0.6;
     gate = LastGate(params);
   }
   /// Sees the wall from where the robot is.
