@@ -91,19 +91,20 @@ void LastGate::approach(const FloorLine& body, double reach_m, double then_s) {
   for (const SeenThing& thing : sight_.things()) {
     const bool roams = thing.roams && thing.seen_s == sight_.newest_s();
     const double away2 = (thing.place - body.nearest(thing.place)).squaredNorm();
-    if (!roams && away2 > reach_m * reach_m) continue;
+    const double around_m = thing.is_somebody ? kBeyondLegs_m : 0.0;
+    if (!roams && away2 > (reach_m + around_m) * (reach_m + around_m)) continue;
     const double away_m = std::sqrt(away2);
     if (away_m >= body_m) nearest_m = std::min(nearest_m, away_m);
     near_.push_back({thing.place, away_m, roams ? thing.velocity : Vector2d::Zero(), roams,
-                     thing.gait_mps, then_s - thing.seen_s});
+                     around_m, thing.gait_mps, then_s - thing.seen_s});
   }
   allow_m_ = nearest_m;
 }
 
 // How far it can be from where it was seen, as it walked, some time after [m].
 double LastGate::strays(const Near& thing, double after_s) const {
-  if (!thing.roams) return 0.0;
-  return kBeyondLegs_m + (thing.gait_mps + 0.5 * params_.walkers_mps2 * after_s) * after_s;
+  if (!thing.roams) return thing.around_m;
+  return thing.around_m + (thing.gait_mps + 0.5 * params_.walkers_mps2 * after_s) * after_s;
 }
 
 // Whether a thing surely comes no nearer while the robot drives a piece of its way: it is behind

@@ -49,10 +49,11 @@ struct GatedVelocity {
 ///   was nearer at the last odometry, no nearer than that;
 /// - does the same with what came, in the last `remembers_s`, to where a look had seen nothing,
 ///   wherever that may walk to meanwhile; what the robot leaves behind may come as near as it will;
+/// - stays as far off the legs of who came in the last half minute, and stands, as a body goes
+///   beyond them;
 /// - does not drive towards what it touched then, not even as far as it has moved off since;
 /// - goes only where scans of the last `remembers_s` have seen, and backwards only where those of
-/// the
-///   last half second have, for somebody may have come up from behind: all that the body newly
+///   the last half second have, for somebody may have come up from behind: all that the body newly
 ///   covers is looked at, and `margin_m` beyond, for things of 4 cm across or more.
 /// Else it scales forward speed and turn alike; else it lets only the turn through; else nothing.
 ///
@@ -104,7 +105,8 @@ class LastGate {
     Eigen::Vector2d place;
     double away_m;  // from the body's axis
     Eigen::Vector2d velocity;
-    bool roams;       // it may walk, and is a part of somebody
+    bool roams;       // it may walk
+    double around_m;  // it is a part of somebody, who may be so far around it
     double gait_mps;  // how far off its velocity may be
     double age_s;     // of the place
   };

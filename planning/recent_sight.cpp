@@ -14,6 +14,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kStands_s = 30.0;  // Who came is taken for somebody who stands for so long.
 constexpr double kNotYet = -std::numeric_limits<double>::infinity();
 constexpr double kCell_m = 0.05;        // Of the camera's points,
 constexpr int kCells = 48;              // so many on each side of a square about the robot.
@@ -214,7 +215,8 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
     moves_[i] = velocity.isZero() ? lastMoved(place) : stamp_s;
     const bool roams = stamp_s - moves_[i] <= params_.remembers_s;
     if (roams) roaming_.push_back({place, velocity});
-    keep({place, 0.0, stamp_s, true, true, roams, velocity, 0.0});
+    const bool is_somebody = stamp_s - moves_[i] <= kStands_s;
+    keep({place, 0.0, stamp_s, true, true, roams, is_somebody, velocity, 0.0});
   }
   moved_s_.swap(moves_);
   last_ = look;
@@ -275,7 +277,7 @@ void RecentSight::addPoints(const std::vector<Eigen::Vector3f>& points, const Fl
   for (const Cell& cell : cells_) {
     if (cell.points < params_.min_points) continue;
     keep({placeOf(cell), static_cast<double>(cell.highest_m), stamp_s, false, cell.is_sure, false,
-          Vector2d::Zero(), 0.0});
+          false, Vector2d::Zero(), 0.0});
   }
 }
 
