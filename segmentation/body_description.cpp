@@ -173,8 +173,7 @@ void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDe
         const Eigen::Vector3f p = eye + depth[u] * ray;
         if ((p.head<2>() - place).squaredNorm() > radius2) continue;
         height_m = p.z();
-        // Where stereo has found no depth, a head may be.
-        if (!view.is_stereo) heights_.add(static_cast<double>(height_m), v);
+        heights_.add(static_cast<double>(height_m), v);
       } else if (board.contains(cv::Point(u, v))) {
         const float along = ray.head<2>().dot(towards);
         if (along <= 0.0F) continue;

@@ -16,6 +16,8 @@ namespace {
 constexpr float kUnseenShare = 0.1F;
 constexpr double kMostWeight = 30.0;  // Independent looks; an older one fades as new ones come.
 constexpr double kFirstWeight = 3.0;  // What is known beforehand counts for so many.
+constexpr double kHeights_m = 1.0;    // What is seen to end over so many metres may be a head.
+constexpr double kRoot2Pi = 2.5066282746310002;
 // Makes a misfit's slope of 1 the one between gamma distributions with these means.
 constexpr double kMisfitShape = 1.0 / (1.0 / kMisfit - 1.0 / kOthersMisfit);
 
@@ -119,6 +121,13 @@ double Gallery::likeness(const Person& person) {
   return best;
 }
 
+/// Of a look at a stature per metre; a lintel over them, or a hand, may be taken for their head.
+double Gallery::densityOf(double stature_m, double mean_m, double sigma_m) const {
+  const double off = (stature_m - mean_m) / sigma_m;
+  return (1.0 - params_.misleading_share) * std::exp(-0.5 * off * off) / (kRoot2Pi * sigma_m) +
+         params_.misleading_share / kHeights_m;
+}
+
 Evidence Gallery::logLikelihood(const Observation& seen) {
   Evidence evidence = Evidence::Constant(-std::numeric_limits<double>::infinity());
   evidence[kThing] = evidence[kStranger] = evidence[kTarget] = 0.0;
@@ -134,14 +143,6 @@ Evidence Gallery::logLikelihood(const Observation& seen) {
   for (int h = kTarget; h < kHypotheses; ++h) {
     if (isKnown(h)) evidence[h] = likeness(people_[index(h)]);
   }
-  if (looks_.stature_m && seen.stature_m) {
-    // Among people, statures are spread by about 0.1 m.
-    const double sigma = looks_.stature_sigma_m;
-    const double apart = (*seen.stature_m - *looks_.stature_m) / sigma;
-    const double usual = (*seen.stature_m - 1.7) / std::hypot(0.1, sigma);
-    evidence[kTarget] +=
-        0.5 * (usual * usual - apart * apart) + std::log(std::hypot(0.1, sigma) / sigma);
-  }
   for (int h = kTarget; h < kHypotheses; ++h) {
     if (!std::isfinite(evidence[h])) continue;
     const double mislead = params_.misleading_share;
@@ -149,6 +150,12 @@ Evidence Gallery::logLikelihood(const Observation& seen) {
     // Fewer looks are like somebody by chance than are unlike themselves.
     evidence[h] =
         std::log((1.0 - mislead) * ratio + mislead) - std::log1p(mislead * mislead * ratio);
+  }
+  if (looks_.stature_m && seen.stature_m) {
+    // Among people, statures are spread by about 0.1 m.
+    const double sigma = looks_.stature_sigma_m;
+    evidence[kTarget] += std::log(densityOf(*seen.stature_m, *looks_.stature_m, sigma) /
+                                  densityOf(*seen.stature_m, 1.7, std::hypot(0.1, sigma)));
   }
   return evidence;
 }

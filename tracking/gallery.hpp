@@ -57,8 +57,9 @@ inline constexpr double kMisfit = 0.97, kOthersMisfit = 2.0;
 inline constexpr double kRarityShare = 0.5;
 
 struct GalleryParams {
-  /// Share of looks that mislead (shade, somebody half in front). It bounds what one look can say
-  /// against anybody; its square bounds what one can say for them.
+  /// Share of looks that mislead (shade, somebody half in front, a lintel over them). It bounds
+  /// what one look at colours, and one at stature, can say against anybody; its square bounds what
+  /// one at colours can say for them.
   double misleading_share = 0.05;
 };
 
@@ -96,6 +97,7 @@ class Gallery {
   static void average(Person& person, const Eigen::ArrayXXf& look, double weight);
   void takeApart(const Eigen::ArrayXXf& look);
   double likeness(const Person& person);
+  double densityOf(double stature_m, double mean_m, double sigma_m) const;
   void mixLately();
 
   TargetLooks looks_;

@@ -178,14 +178,21 @@ TEST(Gallery, StatureIsEvidenceAmongPeople) {
   const Eigen::ArrayXXf look = clothes(0, 1);
   Observation tall = seen(0, 0, &look);
   tall.stature_m = 1.85;
-  // ln N(1.85; 1.9, 0.05) - ln N(1.85; 1.7, hypot(0.1, 0.05)), by hand.
-  const double usual_sigma = std::sqrt(0.0125);
-  const double gauss =
-      (-0.5 - std::log(0.05)) - (-0.5 * 0.15 * 0.15 / 0.0125 - std::log(usual_sigma));
-  EXPECT_NEAR(gallery.logLikelihood(tall)[kTarget], target(2.0 * partLogOdds(1.0) + gauss), 1e-5);
+  // A look misleads with 0.05, and may then end anywhere over a metre; N(1.85; 1.9, 0.05) and
+  // N(1.85; 1.7, hypot(0.1, 0.05)) by hand.
+  const auto odds = [](double of_target, double of_anybody) {
+    return std::log((0.95 * of_target + 0.05) / (0.95 * of_anybody + 0.05));
+  };
+  const double root = std::sqrt(2.0 * std::acos(-1.0));
+  const double close = std::exp(-0.5) / (0.05 * root);
+  const double usual = std::exp(-0.5 * 0.15 * 0.15 / 0.0125) / (std::sqrt(0.0125) * root);
+  EXPECT_NEAR(gallery.logLikelihood(tall)[kTarget],
+              target(2.0 * partLogOdds(1.0)) + odds(close, usual), 1e-5);
   EXPECT_NEAR(without.logLikelihood(tall)[kTarget], target(2.0 * partLogOdds(1.0)), 1e-5);
   tall.stature_m = 1.6;
-  EXPECT_LT(gallery.logLikelihood(tall)[kTarget], without.logLikelihood(tall)[kTarget]);
+  EXPECT_LT(gallery.logLikelihood(tall)[kTarget], without.logLikelihood(tall)[kTarget] - 1.0);
+  tall.stature_m = 2.05;  // Under a lintel.
+  EXPECT_GT(gallery.logLikelihood(tall)[kTarget], without.logLikelihood(tall)[kTarget] - 1.0);
 }
 
 TEST(Gallery, WhatWasLearnedAtFirstKeepsHalfOfTheSay) {
