@@ -17,6 +17,7 @@ enum class Sight {
   kUnknown,
   kOutside,  ///< Not in the picture.
   kHidden,   ///< Something stands before it.
+  kThing,    ///< What stands there seems to be no person, who may touch it though.
   kFree,     ///< It is seen through: nobody is there, or they would be seen.
 };
 

@@ -93,7 +93,7 @@ Sight LaserBodies::sightOf(const Eigen::Vector2d& place_m) const {
       std::remainder(std::atan2(place.y(), place.x()) - scan_.first_rad, kTwoPi) / scan_.step_rad;
   if (middle < 0.0) middle += turn;
   int through = 0;
-  bool is_hidden = false;
+  bool is_hidden = false, is_thing = false;
   for (double b = std::ceil(middle - beams_each_side); b <= middle + beams_each_side; ++b) {
     const auto i = static_cast<long>(b < 0.0 ? b + turn : b >= turn ? b - turn : b);
     if (i < 0 || i >= count) continue;
@@ -104,9 +104,11 @@ Sight LaserBodies::sightOf(const Eigen::Vector2d& place_m) const {
       return Sight::kUnknown;
     }
     is_hidden = is_hidden || behind_m < -params_.reach_m;
+    is_thing = is_thing || behind_m < 0.0;
     ++through;
   }
   if (is_hidden) return Sight::kHidden;
+  if (is_thing) return Sight::kThing;
   return through >= kLeastBeams ? Sight::kFree : Sight::kUnknown;
 }
 

@@ -52,8 +52,9 @@ class LaserBodies {
   /// Persons and things, without looks; the score is the number of beams. In the world.
   const std::vector<Observation>& bodies() const { return bodies_; }
 
-  /// What the scan says of a person at a place of the world: free where it goes through, or ends at
-  /// what the map shows, or at what is too wide for a person; unknown where one may stand.
+  /// What the scan says of a person at a place of the world: free where it goes through; a thing
+  /// where it ends at what the map shows, or at what is too wide for a person; unknown where one
+  /// may stand.
   Sight sightOf(const Eigen::Vector2d& place_m) const;
 
  private:

@@ -159,7 +159,7 @@ void Perception::track(const RobotPlace& robot, const LaserBodies* legs, bool ha
                             (basePose(robot.pose) * T_base_camera_).inverse());
   const auto sight_of = [&](const Eigen::Vector2d& place_m) {
     const Sight by_legs = legs != nullptr ? legs->sightOf(place_m) : Sight::kUnknown;
-    if (by_legs != Sight::kUnknown || !has_image) return by_legs;
+    if (by_legs == Sight::kFree || by_legs == Sight::kHidden || !has_image) return by_legs;
     const Sight sight = by_depth.at(place_m);
     // With a laser, who is not in the picture need not be out of sight.
     return sight == Sight::kOutside && legs != nullptr ? Sight::kUnknown : sight;
@@ -268,7 +268,8 @@ void Perception::addLegs(const LaserBodies& legs) {
   }
   for (std::size_t k = 0; k < has_legs_.size(); ++k) {
     Observation& seen = step_.observations[k];
-    if (!has_legs_[k] && legs.sightOf(seen.position_m) == Sight::kFree) {
+    const Sight sight = has_legs_[k] ? Sight::kUnknown : legs.sightOf(seen.position_m);
+    if (sight == Sight::kFree || sight == Sight::kThing) {
       seen.log_person += std::log(kMissedLegs);
     }
   }

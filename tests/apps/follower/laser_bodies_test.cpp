@@ -94,7 +94,7 @@ TEST_F(LaserBodiesTest, NobodyIsWhereBeamsGoThroughOrEndAtTheMap) {
   look();
   EXPECT_EQ(bodies.sightOf({3.0, 3.0}), Sight::kFree) << "free floor";
   EXPECT_EQ(bodies.sightOf({5.6, 3.0}), Sight::kFree) << "the wall, seen too near";
-  EXPECT_EQ(bodies.sightOf({2.0, 4.3}), Sight::kFree) << "the pillar";
+  EXPECT_EQ(bodies.sightOf({2.0, 4.3}), Sight::kThing) << "the pillar";
   LaserScan seen = scan();
   std::fill(seen.ranges_m.begin(), seen.ranges_m.end(), std::numeric_limits<float>::infinity());
   look(seen);
@@ -105,7 +105,7 @@ TEST_F(LaserBodiesTest, AWideThingIsNobody) {
   for (double y = 2.4; y < 3.7; y += 0.1) discs.push_back({{3.5, y}, 0.1});  // a shelf
   look();
   EXPECT_TRUE(bodies.bodies().empty());
-  EXPECT_EQ(bodies.sightOf({3.5, 3.0}), Sight::kFree);
+  EXPECT_EQ(bodies.sightOf({3.5, 3.0}), Sight::kThing);
   person({2.9, 3.0});
   look();
   EXPECT_EQ(bodies.sightOf({2.9, 3.0}), Sight::kUnknown) << "before the shelf";
