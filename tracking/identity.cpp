@@ -16,7 +16,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTwoPi = 6.283185307179586;
 constexpr double kRest_m = 0.2;         // Whoever is no further off has not moved.
 constexpr double kPlaceSigma_m = 0.25;  // Of where a person who is tracked is observed next.
-constexpr double kMissed = 0.1;         // Of the looks at somebody in full view.
+constexpr double kRestSigma_m = 0.5 * kRest_m;  // Of where whoever rests is observed again.
+constexpr double kMissed = 0.1;                 // Of the looks at somebody in full view.
 constexpr double kCoastMemory_s = 1.0;  // Hidden somebody may have gone elsewhere in this time.
 constexpr double kRoom_m2 = 20.0;       // Where somebody who is away may be.
 constexpr double kMetLooks = 1.5;       // A stranger is met after so many independent looks.
@@ -26,6 +27,7 @@ constexpr double kMostLooks = 10.0;     // so many of the last ones make its mea
 constexpr double kMistaken = 0.01;      // Of the identities that seem sure, or that one is told,
 const double kLogMistaken = std::log(kMistaken);  // so many are wrong.
 constexpr double kAlone_m = 1.0;                  // Nobody nearer: then a look is theirs alone.
+constexpr std::size_t kMostLeft = 16;             // Ended tracks that are remembered.
 
 Evidence relative(const Evidence& log_weight) { return (log_weight - log_weight.maxCoeff()).exp(); }
 
@@ -121,12 +123,38 @@ double Identity::restsFor_s(int track_id, double stamp_s) const {
   return belief == nullptr ? 0.0 : stamp_s - belief->since_s;
 }
 
+/// A track begins: with somebody new, or with whoever has rested there on a track that has ended,
+/// for they stay as likely as they did for that share of the time until now.
 Identity::Belief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, double stamp_s) {
+  const Evidence prior = priorOf(place_m, stamp_s);
+  // The clutter that is known there is what has rested there.
+  const double newcomers_per_m2 =
+      params_.clutter.density_per_m2 + prior.tail<kHypotheses - kStranger>().exp().sum();
+  double most_per_m2 = newcomers_per_m2;
+  auto same = left_.end();
+  for (auto left = left_.begin(); left != left_.end(); ++left) {
+    const double stood_s = left->seen_s - left->since_s;
+    const double stays = stood_s > 0.0 ? stood_s / (stamp_s - left->since_s) : 0.0;
+    const double off = (place_m - left->place_m).squaredNorm() / (kRestSigma_m * kRestSigma_m);
+    const double per_m2 = stays * std::exp(-0.5 * off) / (kTwoPi * kRestSigma_m * kRestSigma_m);
+    if (per_m2 <= most_per_m2) continue;
+    most_per_m2 = per_m2;
+    same = left;
+  }
   Belief& belief = beliefs_.emplace_back();
+  if (same != left_.end()) {
+    belief = std::move(*same);
+    left_.erase(same);
+    mixIn(belief, prior, prior, newcomers_per_m2 / (newcomers_per_m2 + most_per_m2));
+    belief.is_alive = true;
+    belief.present = 1.0;
+  } else {
+    belief.place_m = place_m;
+    belief.born_s = belief.since_s = stamp_s;
+    belief.log_place = prior;
+  }
   belief.track_id = track_id;
-  belief.place_m = place_m;
-  belief.born_s = belief.since_s = belief.seen_s = stamp_s;
-  belief.log_place = priorOf(place_m, stamp_s);
+  belief.seen_s = stamp_s;
   return belief;
 }
 
@@ -189,11 +217,15 @@ void Identity::takeLook(Belief& belief, const Observation& seen, const Evidence&
 void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& tracks,
                     const TrackerReport& report, const std::vector<Observation>& observations,
                     const Viewpoint& viewpoint) {
-  if (dt_s < 0.0) last_.assign(kHypotheses, std::nullopt);  // Of another clock.
   endBeliefs(tracks);
+  if (dt_s < 0.0) {  // Of another clock.
+    last_.assign(kHypotheses, std::nullopt);
+    left_.clear();
+  }
   for (const Track& track : tracks) {
     Belief* belief = find(track.id);
     if (belief == nullptr) belief = &begin(track.id, track.motion.position_m(), stamp_s);
+    belief->log_free = freeFor(*belief);
     if (track.observation != Track::kUnseen) continue;
     const Sight sight =
         viewpoint.sight_of ? viewpoint.sight_of(track.motion.position_m()) : Sight::kUnknown;
@@ -238,7 +270,6 @@ void Identity::mixIn(Belief& belief, const Evidence& other, const Evidence& othe
   }
   const Evidence both = mix(belief.logPast(), other, other_share);
   belief.log_place = mix(belief.log_place, other_place, other_share);
-  belief.log_free *= 1.0 - other_share;
   const Evidence views = both - belief.log_place - belief.log_free;
   belief.log_views = views.isFinite().select(views, 0.0);
 }
@@ -343,28 +374,31 @@ void Identity::endBeliefs(const std::vector<Track>& tracks) {
     belief.is_alive = std::any_of(tracks.begin(), tracks.end(),
                                   [&](const Track& track) { return track.id == belief.track_id; });
   }
-  for (std::size_t i = 0; i < beliefs_.size(); ++i) {
-    if (!beliefs_[i].is_alive) end(i);
+  for (Belief& belief : beliefs_) {
+    if (!belief.is_alive) leave(belief);
   }
   beliefs_.erase(std::remove_if(beliefs_.begin(), beliefs_.end(),
                                 [](const Belief& belief) { return !belief.is_alive; }),
                  beliefs_.end());
 }
 
-/// A track ends. What its person could not be besides, they are not now.
-void Identity::end(std::size_t ended) {
-  const Belief& left = beliefs_[ended];
-  for (std::size_t j = 0; j < beliefs_.size(); ++j) {
-    Belief& other = beliefs_[j];
-    if (!other.is_alive || other.born_s > left.seen_s) continue;
-    const Evidence weight = other.logWeight();
-    for (int h = kTarget; h < kHypotheses; ++h) {
-      if (!(together_[ended][h] > 0.0 && together_[j][h] > 0.0)) continue;
-      const double alone = weight[h] - weight[kStranger];
-      const double together = std::log(together_[j][h] / together_[j][kStranger]);
-      other.log_free[h] = std::min(other.log_free[h], std::max(together - alone, kLogMistaken));
-    }
+/// A track ends. Who was in view together with its person is another, as likely as they are who.
+void Identity::leave(Belief& belief) {
+  const Evidence weight = relative(belief.logWeight());
+  belief.log_others = (1.0 - weight / weight.sum()).log();
+  belief.log_others.head<kTarget>() = 0.0;
+  if (left_.size() == kMostLeft) left_.erase(left_.begin());
+  left_.push_back(std::move(belief));
+  left_.back().is_alive = false;
+}
+
+/// By who was somebody else in view at the same time, and has left.
+Evidence Identity::freeFor(const Belief& belief) const {
+  Evidence log_free = Evidence::Zero();
+  for (const Belief& left : left_) {
+    if (belief.born_s <= left.seen_s) log_free += left.log_others;
   }
+  return log_free.max(kLogMistaken);
 }
 
 void Identity::remember(const std::vector<Track>& tracks,
@@ -425,9 +459,11 @@ void Identity::meet(Belief& belief) {
   }
   const int h = gallery_.meet(mean, belief.looks, replaced);
   if (h == kStranger) return;
-  for (Belief& other : beliefs_) {
-    other.log_place[h] = other.log_place[kStranger] + kLogMistaken;
-    other.log_views[h] = other.view.mean[h] = 0.0;
+  for (std::vector<Belief>* beliefs : {&beliefs_, &left_}) {
+    for (Belief& other : *beliefs) {
+      other.log_place[h] = other.log_place[kStranger] + kLogMistaken;
+      other.log_views[h] = other.view.mean[h] = other.log_others[h] = 0.0;
+    }
   }
   belief.log_place[h] = belief.log_place[kStranger];
   belief.log_place[kStranger] += kLogMistaken;
@@ -442,6 +478,7 @@ void Identity::makeTarget(int track_id, const Eigen::Vector2d& place_m, double s
   belief->log_place[kTarget] = 0.0;
   belief->log_views.setZero();
   belief->log_free.setZero();
+  left_.clear();
   belief->view = {};
   belief->looks = 0.0;
   last_[kTarget] = Absence{place_m, stamp_s};

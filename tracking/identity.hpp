@@ -108,6 +108,8 @@ class Identity {
     Eigen::ArrayXXf sum;   ///< the same body.
     double present = 1.0;  ///< Probability that whoever it is still is there.
     bool is_alive = true;
+    /// Once the track has ended: of each person being another than this.
+    Evidence log_others = Evidence::Zero();
 
     Evidence logLooks() const { return log_views + view.evidence(); }
     Evidence logPast() const { return log_place + log_free + log_views; }
@@ -128,7 +130,8 @@ class Identity {
   void weighTogether();
   void weigh(bool is_left, std::vector<Evidence>& marginals);
   void endBeliefs(const std::vector<Track>& tracks);
-  void end(std::size_t ended);
+  void leave(Belief& belief);
+  Evidence freeFor(const Belief& belief) const;
   void remember(const std::vector<Track>& tracks, const std::vector<Observation>& observations,
                 double stamp_s);
   void meet(Belief& belief);
@@ -137,6 +140,7 @@ class Identity {
   Gallery gallery_;
   ClutterMap clutter_;
   std::vector<Belief> beliefs_;
+  std::vector<Belief> left_;                  // of tracks that have ended, the last one last
   std::vector<Evidence> looks_;               // of the step's observations
   Evidence away_ = Evidence::Ones();          // of each person, that they are none of the tracks
   std::vector<std::optional<Absence>> last_;  // where each was seen last

@@ -178,6 +178,32 @@ TEST(Identity, OfThreeBodiesAtMostOneIsEachPerson) {
   EXPECT_GT(home.probability(21, kFirstOther), 0.6);
 }
 
+// Bug: whoever flickered had another chance to look like the target on each new track.
+TEST(Identity, WhoRestedSomewhereIsTheSameOnTheirNextTrack) {
+  Home home;
+  home.see({{1, {3, 0}, &kBlue}}, 100);
+  home.see({}, 2.0);
+  Home elsewhere = home;
+  home.see({{2, {3.05, 0}, nullptr}});
+  elsewhere.see({{2, {5, 0}, nullptr}});
+  EXPECT_LT(home.target(2), 0.05);
+  EXPECT_GT(elsewhere.target(2), 0.2);
+}
+
+// Bug: as any track ended, those that were left counted each other twice.
+TEST(Identity, ATrackThatEndsLeavesWhatWasBelievedOfTheOthers) {
+  Home home;
+  home.see({{1, {0, 0}, &kRed}, {2, {3, 0}, &kRed}, {3, {0, 3}, &kPink}});
+  const Home before = home;
+  home.see({{1, {0, 0}, &kRed}, {2, {3, 0}, &kRed}}, 1e-9);
+  for (const int id : {1, 2}) {
+    EXPECT_GT(before.target(id), 0.3);
+    for (int h = 0; h < kHypotheses; ++h) {
+      EXPECT_NEAR(home.probability(id, h), before.probability(id, h), 1e-6) << id << " " << h;
+    }
+  }
+}
+
 TEST(Identity, MoreEvidenceForOneLowersTheOther) {
   Home alone, pair;
   alone.see({{1, {1, 0}, &kPink}});
@@ -321,17 +347,19 @@ TEST(Identity, TellsTheTrackerWhatALookSaysOfATrack) {
   EXPECT_LT(home.identity.logLikelihood(1, 1), -0.5);
 }
 
-TEST(Identity, WhoIsHiddenIsClaimedForAWhile) {
-  Home home;
-  home.see({{1, {1, 0}, &kRed}});
-  home.identity.makeTarget(1, {1, 0}, home.stamp_s);
-  const double before = home.target(1);
-  home.sight = Sight::kHidden;
-  home.see({{1, {1, 0}, nullptr, false}}, 0.5);
-  EXPECT_NEAR(home.target(1), before * std::exp(-0.5), 1e-9);
-  EXPECT_NEAR(home.identity.away(), 1.0 - home.target(1), 1e-9);
-  home.see({{1, {1, 0}, &kRed}});
-  EXPECT_GT(home.target(1), 0.9) << "there again";
+TEST(Identity, WhoIsHiddenOrTouchesAThingIsClaimedForAWhile) {
+  for (const Sight sight : {Sight::kHidden, Sight::kThing}) {
+    Home home;
+    home.see({{1, {1, 0}, &kRed}});
+    home.identity.makeTarget(1, {1, 0}, home.stamp_s);
+    const double before = home.target(1);
+    home.sight = sight;
+    home.see({{1, {1, 0}, nullptr, false}}, 0.5);
+    EXPECT_NEAR(home.target(1), before * std::exp(-0.5), 1e-9);
+    EXPECT_NEAR(home.identity.away(), 1.0 - home.target(1), 1e-9);
+    home.see({{1, {1, 0}, &kRed}});
+    EXPECT_GT(home.target(1), 0.9) << "there again";
+  }
 }
 
 TEST(Identity, WhoLeavesThePictureOrAFreePlaceIsAway) {
@@ -396,6 +424,27 @@ TEST(Identity, WhoIsAwayIsExpectedNearWhereTheyWereSeen) {
   EXPECT_GT(near.target(5), 0.8);
   EXPECT_LT(far.target(5), 0.01);
   EXPECT_GT(later.target(5), 0.5);
+}
+
+// Bug: somebody who had sat for minutes and was missed for a moment seemed a thing.
+TEST(Identity, WhoStoodIsExpectedWhereTheyStood) {
+  for (const bool stood : {true, false}) {
+    Home home;
+    home.see({{1, {0, 0}, &kRed}});
+    home.identity.makeTarget(1, {0, 0}, home.stamp_s);
+    if (stood) {
+      home.see({{1, {3, 0}, &kRed}}, 150);
+    } else {
+      home.walk({1, {0, 0}, &kRed}, 3.0);
+    }
+    home.see({}, 5.0);
+    home.see({{2, {3, 0}, nullptr}});
+    if (stood) {
+      EXPECT_GT(home.target(2), 0.8);
+    } else {
+      EXPECT_LT(home.target(2), 0.4);
+    }
+  }
 }
 
 TEST(Identity, ForgetsWhereTheTargetWasAsTimeGoesBy) {
