@@ -143,6 +143,11 @@ Identity::Belief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, 
   }
   Belief& belief = beliefs_.emplace_back();
   if (same != left_.end()) {
+    for (Belief& other : beliefs_) {  // They are together again.
+      if (other.born_s <= same->seen_s) {
+        other.log_free = (other.log_free - same->log_others).min(0.0);
+      }
+    }
     belief = std::move(*same);
     left_.erase(same);
     mixIn(belief, prior, prior, newcomers_per_m2 / (newcomers_per_m2 + most_per_m2));
@@ -225,7 +230,6 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
   for (const Track& track : tracks) {
     Belief* belief = find(track.id);
     if (belief == nullptr) belief = &begin(track.id, track.motion.position_m(), stamp_s);
-    belief->log_free = freeFor(*belief);
     if (track.observation != Track::kUnseen) continue;
     const Sight sight =
         viewpoint.sight_of ? viewpoint.sight_of(track.motion.position_m()) : Sight::kUnknown;
@@ -270,6 +274,7 @@ void Identity::mixIn(Belief& belief, const Evidence& other, const Evidence& othe
   }
   const Evidence both = mix(belief.logPast(), other, other_share);
   belief.log_place = mix(belief.log_place, other_place, other_share);
+  belief.log_free *= 1.0 - other_share;
   const Evidence views = both - belief.log_place - belief.log_free;
   belief.log_views = views.isFinite().select(views, 0.0);
 }
@@ -387,18 +392,15 @@ void Identity::leave(Belief& belief) {
   const Evidence weight = relative(belief.logWeight());
   belief.log_others = (1.0 - weight / weight.sum()).log();
   belief.log_others.head<kTarget>() = 0.0;
+  for (Belief& other : beliefs_) {
+    if (!other.is_alive || other.born_s > belief.seen_s) continue;
+    other.log_free = (other.log_free + belief.log_others).max(kLogMistaken);
+  }
   if (left_.size() == kMostLeft) left_.erase(left_.begin());
   left_.push_back(std::move(belief));
   left_.back().is_alive = false;
-}
-
-/// By who was somebody else in view at the same time, and has left.
-Evidence Identity::freeFor(const Belief& belief) const {
-  Evidence log_free = Evidence::Zero();
-  for (const Belief& left : left_) {
-    if (belief.born_s <= left.seen_s) log_free += left.log_others;
-  }
-  return log_free.max(kLogMistaken);
+  left_.back().looks = 0.0;  // A portrait takes 60 KB.
+  left_.back().sum.resize(0, 0);
 }
 
 void Identity::remember(const std::vector<Track>& tracks,

@@ -131,7 +131,6 @@ class Identity {
   void weigh(bool is_left, std::vector<Evidence>& marginals);
   void endBeliefs(const std::vector<Track>& tracks);
   void leave(Belief& belief);
-  Evidence freeFor(const Belief& belief) const;
   void remember(const std::vector<Track>& tracks, const std::vector<Observation>& observations,
                 double stamp_s);
   void meet(Belief& belief);
