@@ -130,23 +130,23 @@ Identity::Belief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, 
   // The clutter that is known there is what has rested there.
   const double newcomers_per_m2 =
       params_.clutter.density_per_m2 + prior.tail<kHypotheses - kStranger>().exp().sum();
+  constexpr double rest_m2 = kRestSigma_m * kRestSigma_m;
   double most_per_m2 = newcomers_per_m2;
   auto same = left_.end();
   for (auto left = left_.begin(); left != left_.end(); ++left) {
     const double stood_s = left->seen_s - left->since_s;
     const double stays = stood_s > 0.0 ? stood_s / (stamp_s - left->since_s) : 0.0;
-    const double off = (place_m - left->place_m).squaredNorm() / (kRestSigma_m * kRestSigma_m);
-    const double per_m2 = stays * std::exp(-0.5 * off) / (kTwoPi * kRestSigma_m * kRestSigma_m);
+    const double off2 = (place_m - left->place_m).squaredNorm() / rest_m2;
+    const double per_m2 = stays * std::exp(-0.5 * off2) / (kTwoPi * rest_m2);
     if (per_m2 <= most_per_m2) continue;
     most_per_m2 = per_m2;
     same = left;
   }
   Belief& belief = beliefs_.emplace_back();
   if (same != left_.end()) {
+    const Evidence log_others = logOthers(*same);
     for (Belief& other : beliefs_) {  // They are together again.
-      if (other.born_s <= same->seen_s) {
-        other.log_free = (other.log_free - same->log_others).min(0.0);
-      }
+      if (other.born_s <= same->seen_s) other.log_free = (other.log_free - log_others).min(0.0);
     }
     belief = std::move(*same);
     left_.erase(same);
@@ -387,14 +387,20 @@ void Identity::endBeliefs(const std::vector<Track>& tracks) {
                  beliefs_.end());
 }
 
+/// Of each person being another than whoever this is; 0 of what is no person.
+Evidence Identity::logOthers(const Belief& belief) {
+  const Evidence weight = relative(belief.logWeight());
+  Evidence log_others = (1.0 - weight / weight.sum()).log();
+  log_others.head<kTarget>() = 0.0;
+  return log_others;
+}
+
 /// A track ends. Who was in view together with its person is another, as likely as they are who.
 void Identity::leave(Belief& belief) {
-  const Evidence weight = relative(belief.logWeight());
-  belief.log_others = (1.0 - weight / weight.sum()).log();
-  belief.log_others.head<kTarget>() = 0.0;
+  const Evidence log_others = logOthers(belief);
   for (Belief& other : beliefs_) {
     if (!other.is_alive || other.born_s > belief.seen_s) continue;
-    other.log_free = (other.log_free + belief.log_others).max(kLogMistaken);
+    other.log_free = (other.log_free + log_others).max(kLogMistaken);
   }
   if (left_.size() == kMostLeft) left_.erase(left_.begin());
   left_.push_back(std::move(belief));
@@ -464,7 +470,7 @@ void Identity::meet(Belief& belief) {
   for (std::vector<Belief>* beliefs : {&beliefs_, &left_}) {
     for (Belief& other : *beliefs) {
       other.log_place[h] = other.log_place[kStranger] + kLogMistaken;
-      other.log_views[h] = other.view.mean[h] = other.log_others[h] = 0.0;
+      other.log_views[h] = other.view.mean[h] = 0.0;
     }
   }
   belief.log_place[h] = belief.log_place[kStranger];

@@ -108,8 +108,6 @@ class Identity {
     Eigen::ArrayXXf sum;   ///< the same body.
     double present = 1.0;  ///< Probability that whoever it is still is there.
     bool is_alive = true;
-    /// Once the track has ended: of each person being another than this.
-    Evidence log_others = Evidence::Zero();
 
     Evidence logLooks() const { return log_views + view.evidence(); }
     Evidence logPast() const { return log_place + log_free + log_views; }
@@ -130,6 +128,7 @@ class Identity {
   void weighTogether();
   void weigh(bool is_left, std::vector<Evidence>& marginals);
   void endBeliefs(const std::vector<Track>& tracks);
+  static Evidence logOthers(const Belief& belief);
   void leave(Belief& belief);
   void remember(const std::vector<Track>& tracks, const std::vector<Observation>& observations,
                 double stamp_s);

@@ -181,6 +181,7 @@ TEST(Identity, OfThreeBodiesAtMostOneIsEachPerson) {
 // Bug: whoever flickered had another chance to look like the target on each new track.
 TEST(Identity, WhoRestedSomewhereIsTheSameOnTheirNextTrack) {
   Home home;
+  home.walk({1, {0, 0}, &kBlue}, 3.0);
   home.see({{1, {3, 0}, &kBlue}}, 100);
   home.see({}, 2.0);
   Home elsewhere = home;
