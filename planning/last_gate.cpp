@@ -107,15 +107,15 @@ double LastGate::strays(const Near& thing, double after_s) const {
   return thing.around_m + (thing.gait_mps + 0.5 * params_.walkers_mps2 * after_s) * after_s;
 }
 
-// Whether a thing surely comes no nearer while the robot drives a piece of its way: it is behind
-// the robot, wherever in the piece that is and however it is turned.
-bool LastGate::recedes(const WayPiece& piece, double along_m, double aside_m) {
+// Whether a thing surely comes no nearer while the robot drives a piece of its way: it, and what it
+// is a part of, is behind the robot, wherever in the piece that is and however it is turned.
+bool LastGate::recedes(const WayPiece& piece, double along_m, double aside_m, double around_m) {
   if (!piece.advances && !piece.backs && !piece.swings) return true;
   if (piece.swings || piece.turned_rad > 1.0) return false;
   const double cosine = 1.0 - 0.5 * piece.turned_rad * piece.turned_rad;  // or more
-  const double aside = (std::abs(aside_m) + piece.aside_m) * piece.turned_rad;
-  return (!piece.backs && (piece.first_m - along_m) * cosine >= aside) ||
-         (!piece.advances && (along_m - piece.last_m) * cosine >= aside);
+  const double aside = (std::abs(aside_m) + around_m + piece.aside_m) * piece.turned_rad;
+  return (!piece.backs && (piece.first_m - along_m - around_m) * cosine >= aside) ||
+         (!piece.advances && (along_m - around_m - piece.last_m) * cosine >= aside);
 }
 
 // What it touches, it never drives towards; all else stays as far off as is allowed, or recedes.
@@ -137,7 +137,7 @@ bool LastGate::isFree(const std::vector<WayPiece>& pieces) const {
       const double away_m = std::sqrt(off_m * off_m + aside_m * aside_m) - piece.aside_m - strays_m;
       if (!touches && away_m >= allow_m_ - kRounding_m) {
         safe_m = nearer_m + away_m - allow_m_;
-      } else if (!recedes(piece, along_m, aside_m)) {
+      } else if (!recedes(piece, along_m, aside_m, thing.around_m)) {
         return false;
       }
     }

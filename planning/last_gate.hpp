@@ -113,7 +113,7 @@ class LastGate {
 
   void approach(const FloorLine& body, double reach_m, double then_s);
   double strays(const Near& thing, double after_s) const;
-  static bool recedes(const WayPiece& piece, double along_m, double aside_m);
+  static bool recedes(const WayPiece& piece, double along_m, double aside_m, double around_m);
   bool isFree(const std::vector<WayPiece>& pieces) const;
   bool isRimSeen(const FloorLine& start, const Eigen::Vector2d& middle,
                  const Eigen::Vector2d& front, double body_m, double stood_m, double since_s);

@@ -15,6 +15,9 @@ using Eigen::Vector2d;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kStands_s = 30.0;  // Who came is taken for somebody who stands for so long.
+constexpr std::size_t kLooks = 20;  // So many are kept of the time that all is known,
+constexpr std::size_t kSpares = 4;  // and each so many'th is asked who came.
+constexpr double kSlip = 0.05;      // Of its way and its turn the odometry may miss so much.
 constexpr double kNotYet = -std::numeric_limits<double>::infinity();
 constexpr double kCell_m = 0.05;        // Of the camera's points,
 constexpr int kCells = 48;              // so many on each side of a square about the robot.
@@ -39,6 +42,8 @@ RecentSight::RecentSight(const RecentSightParams& params, double range_m, double
       keeps_m_(keeps_m),
       sigma_m_(kSurface_m / kSurfaceSigmas),
       surface_m_(kSurface_m),
+      looks_(1 + static_cast<std::size_t>(static_cast<double>(kLooks) *
+                                          std::max(1.0, kStands_s / params.remembers_s))),
       cells_(kCells * kCells),
       points_s_(kNotYet) {
   for (const double value :
@@ -87,15 +92,18 @@ bool RecentSight::sawFree(const Look& look, const Vector2d& place, double short_
 
 // Of the ring of looks, the one that saw the last place is asked first.
 bool RecentSight::isSeen(const Vector2d& place, double short_m, double since_s) {
-  const auto sawIt = [&](const Look& look) {
-    return look.stamp_s >= since_s && sawFree(look, place, short_m);
-  };
-  if (sawIt(looks_[saw_])) return true;
-  for (std::size_t i = 0; i < looks_.size(); ++i) {
-    saw_ = (newest_ + looks_.size() - i) % looks_.size();
-    if (sawIt(looks_[saw_])) return true;
+  if (looks_[saw_].stamp_s >= since_s && sawFree(looks_[saw_], place, short_m)) return true;
+  for (std::size_t i = 0; i < looks_.size() && lookBefore(i).stamp_s >= since_s; ++i) {
+    if (!sawFree(lookBefore(i), place, short_m)) continue;
+    saw_ = static_cast<std::size_t>(&lookBefore(i) - looks_.data());
+    return true;
   }
   return false;
+}
+
+// The look that was `count` before the last.
+const RecentSight::Look& RecentSight::lookBefore(std::size_t count) const {
+  return looks_[(newest_ + looks_.size() - count) % looks_.size()];
 }
 
 // The beam that ends nearest to a place, which is in the look's own axes; none within reach: the
@@ -124,23 +132,39 @@ std::size_t RecentSight::nearestBeam(const Look& look, const Vector2d& at, doubl
   return nearest;
 }
 
-// How what is seen at a place has come there. Where the look before saw nothing, something came,
-// from the nearest that it saw, or too fast to tell (not a number); else it stands.
-Vector2d RecentSight::velocityOf(const Vector2d& place, const Vector2d& scanner, const Look& before,
-                                 double dt_s) const {
-  const Vector2d at = before.turn * (place - before.scanner);
-  // Seen from elsewhere, an error of the range is one aside: so an edge is no news beside itself.
-  const Vector2d way = (place - scanner).normalized();
+// Whether a look saw nothing where another sees something. Seen from elsewhere, an error of the
+// range is one aside: so an edge is no news beside itself.
+bool RecentSight::wasFree(const Vector2d& place, const Look& now, const Look& before) const {
+  const Vector2d way = (place - now.scanner).normalized();
   const Vector2d was = place - before.scanner;
-  const double aside_rad =
-      surface_m_ * std::abs(way.x() * was.y() - way.y() * was.x()) / was.squaredNorm();
-  bool was_free = dt_s <= kOldestLook_s && aside_rad < 1.0;  // Not where it is not a number.
-  const double beams = std::ceil(aside_rad / std::abs(before.scan.step_rad));
-  const double first = std::floor(beamTo(before, at));
-  for (double k = -beams; k <= beams + 1.0 && was_free; ++k) {
-    was_free = endsBeyond(before, first + k, at.norm() + surface_m_);
+  const double away_m = was.norm(), turned_rad = now.turned_rad - before.turned_rad;
+  const double slips_m = kSlip * (now.driven_m - before.driven_m + away_m * turned_rad);
+  const double aside_m =
+      surface_m_ * std::abs(way.x() * was.y() - way.y() * was.x()) / away_m + slips_m;
+  if (!(aside_m < away_m)) return false;  // Not where it is not a number.
+  const double beams = std::ceil(aside_m / away_m / std::abs(before.scan.step_rad));
+  const double first = std::floor(beamTo(before, before.turn * was));
+  for (double k = -beams; k <= beams + 1.0; ++k) {
+    if (!endsBeyond(before, first + k, away_m + surface_m_ + slips_m)) return false;
   }
-  if (!was_free) return Vector2d::Zero();
+  return true;
+}
+
+// When a look last saw nothing where the last sees something.
+double RecentSight::lastFree(const Vector2d& place) const {
+  const Look& now = looks_[newest_];
+  for (std::size_t i = 1; i < looks_.size(); i += kSpares) {
+    const Look& look = lookBefore(i);
+    if (now.stamp_s - look.stamp_s > kStands_s) break;
+    if (wasFree(place, now, look)) return look.stamp_s;
+  }
+  return kNotYet;
+}
+
+// How what is seen at a place has come there since a look: from the nearest that it saw, or too
+// fast to tell (not a number).
+Vector2d RecentSight::velocityOf(const Vector2d& place, const Look& before, double dt_s) {
+  const Vector2d at = before.turn * (place - before.scanner);
   const std::size_t from = nearestBeam(before, at, kWalks_mps * dt_s);
   if (from == before.scan.ranges_m.size()) return Vector2d::Constant(kUnknown);
   const double angle = before.scan.angle(from);
@@ -149,18 +173,12 @@ Vector2d RecentSight::velocityOf(const Vector2d& place, const Vector2d& scanner,
   return before.turn.transpose() * came / dt_s;
 }
 
-// When what is seen at a place last came from elsewhere, if the last scan saw it too.
-double RecentSight::lastMoved(const Vector2d& place) const {
-  const std::size_t was = nearestBeam(last_, last_.turn * (place - last_.scanner), kSame_m);
-  return was < moved_s_.size() ? moved_s_[was] : kNotYet;
-}
-
 // Most of what a standing robot sees stands, too. A thing that moved is beyond errors, or too few.
-void RecentSight::measureErrors(const Look& look) {
+void RecentSight::measureErrors(const Look& look, const Look& last) {
   const std::vector<float>& now_m = look.scan.ranges_m;
-  const std::vector<float>& last_m = last_.scan.ranges_m;
-  if (now_m.size() != last_m.size() || (look.scanner - last_.scanner).norm() > kStands ||
-      (look.turn - last_.turn).norm() > kStands) {
+  const std::vector<float>& last_m = last.scan.ranges_m;
+  if (now_m.size() != last_m.size() || look.driven_m - last.driven_m > kStands ||
+      look.turned_rad - last.turned_rad > kStands) {
     return;
   }
   steps_m_.clear();
@@ -179,18 +197,25 @@ void RecentSight::measureErrors(const Look& look) {
 
 void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double stamp_s) {
   if (!(stamp_s > looks_[newest_].stamp_s) || scan.step_rad == 0.0) return;
-  // As many looks as there is room for, evenly over the time that they are known.
-  const double apart_s = params_.remembers_s / static_cast<double>(looks_.size() - 1);
-  const Look& before = looks_[(newest_ + looks_.size() - 1) % looks_.size()];
-  if (looks_[newest_].stamp_s - before.stamp_s >= apart_s) newest_ = (newest_ + 1) % looks_.size();
-  Look& look = looks_[newest_];
   const FloorPose scanner = base * params_.T_base_scanner;
-  look.scanner = scanner.position;
-  look.turn = Eigen::Rotation2Dd(-scanner.yaw_rad).toRotationMatrix();
-  look.stamp_s = stamp_s;
-  look.scan.first_rad = scan.first_rad;
-  look.scan.step_rad = scan.step_rad;
-  look.scan.ranges_m.assign(scan.ranges_m.begin(), scan.ranges_m.end());
+  next_.scanner = scanner.position;
+  next_.turn = Eigen::Rotation2Dd(-scanner.yaw_rad).toRotationMatrix();
+  next_.stamp_s = stamp_s;
+  next_.scan.first_rad = scan.first_rad;
+  next_.scan.step_rad = scan.step_rad;
+  if (next_.scan.ranges_m.capacity() < scan.ranges_m.size()) {
+    for (Look& each : looks_) each.scan.ranges_m.reserve(scan.ranges_m.size());
+  }
+  next_.scan.ranges_m.assign(scan.ranges_m.begin(), scan.ranges_m.end());
+  const Look& last = looks_[newest_];
+  next_.driven_m = last.driven_m + (next_.scanner - last.scanner).norm();
+  const Eigen::Matrix2d turned = next_.turn * last.turn.transpose();
+  next_.turned_rad = last.turned_rad + std::abs(std::atan2(turned(1, 0), turned(0, 0)));
+  measureErrors(next_, last);
+  const double apart_s = params_.remembers_s / static_cast<double>(kLooks - 1);
+  if (last.stamp_s - lookBefore(1).stamp_s >= apart_s) newest_ = (newest_ + 1) % looks_.size();
+  std::swap(looks_[newest_], next_);
+  const Look& look = looks_[newest_];
   const double keeps_m2 = keeps_m_ * keeps_m_;
   things_.erase(
       std::remove_if(things_.begin(), things_.end(),
@@ -201,25 +226,21 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
                        return (is_old && !is_kept) || (thing.by_laser && sees(look, thing.place));
                      }),
       things_.end());
-  measureErrors(look);
-  const Look& earlier = looks_[(newest_ + looks_.size() - 1) % looks_.size()];
-  moves_.assign(scan.ranges_m.size(), kNotYet);
+  const Look& before = lookBefore(1);
+  const double dt_s = stamp_s - before.stamp_s;
   roaming_.clear();
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range_m = static_cast<double>(scan.ranges_m[i]);
     if (!(range_m > 0.0 && range_m < range_m_)) continue;
     const double angle = scan.angle(i);
     const Vector2d place = scanner * Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
-    const Vector2d velocity =
-        velocityOf(place, scanner.position, earlier, stamp_s - earlier.stamp_s);
-    moves_[i] = velocity.isZero() ? lastMoved(place) : stamp_s;
-    const bool roams = stamp_s - moves_[i] <= params_.remembers_s;
+    const double free_s = lastFree(place);
+    const bool moves = free_s == before.stamp_s && dt_s <= kOldestLook_s;
+    const Vector2d velocity = moves ? velocityOf(place, before, dt_s) : Vector2d::Zero();
+    const bool roams = stamp_s - free_s <= params_.remembers_s;
     if (roams) roaming_.push_back({place, velocity});
-    const bool is_somebody = stamp_s - moves_[i] <= kStands_s;
-    keep({place, 0.0, stamp_s, true, true, roams, is_somebody, velocity, 0.0});
+    keep({place, 0.0, stamp_s, true, true, roams, free_s > kNotYet, velocity, 0.0});
   }
-  moved_s_.swap(moves_);
-  last_ = look;
   for (SeenThing& thing : things_) {
     if (!thing.roams || thing.seen_s != stamp_s) continue;
     Vector2d sum = Vector2d::Zero();

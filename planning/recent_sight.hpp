@@ -11,7 +11,6 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -41,7 +40,7 @@ struct SeenThing {
   bool by_laser;
   bool is_sure;              ///< By the laser, or in two pictures one after the other.
   bool roams;                ///< It came from elsewhere in the last `remembers_s`,
-  bool is_somebody;          ///< or earlier, but so lately that somebody may still stand there.
+  bool is_somebody;          ///< or in the last half minute: somebody may stand there.
   Eigen::Vector2d velocity;  ///< Of what roams, the mean of all that is within a body's width.
   double gait_mps;  ///< Its owner's velocity is so far from that, any way; 0 for who stands.
 };
@@ -53,7 +52,7 @@ struct SeenThing {
 /// What a scan sees five standard deviations of the laser's ranges, and no less than 5 cm, before
 /// where another saw nothing has come there: it may be somebody who walks. These errors are
 /// measured while the robot stands, by what most of the beams tell; until then they are taken for 1
-/// cm.
+/// cm. To them comes 5% of the way between the two scans, and of the turn, for the odometry.
 class RecentSight {
  public:
   static constexpr std::size_t kMostThings = 4096;
@@ -99,6 +98,7 @@ class RecentSight {
     Eigen::Vector2d scanner = Eigen::Vector2d::Zero();
     Eigen::Matrix2d turn = Eigen::Matrix2d::Identity();  // from the odometry's axes to its own
     double stamp_s = 0.0;
+    double driven_m = 0.0, turned_rad = 0.0;  // since the first
     LaserScan scan;
   };
   struct Roaming {
@@ -116,11 +116,12 @@ class RecentSight {
   static bool sawFree(const Look& look, const Eigen::Vector2d& place, double short_m);
   bool isInPicture(const SeenThing& thing, const FloorPose& T_base_world) const;
   static std::size_t nearestBeam(const Look& look, const Eigen::Vector2d& at, double reach_m);
-  Eigen::Vector2d velocityOf(const Eigen::Vector2d& place, const Eigen::Vector2d& scanner,
-                             const Look& before, double dt_s) const;
-  double lastMoved(const Eigen::Vector2d& place) const;
+  const Look& lookBefore(std::size_t count) const;
+  bool wasFree(const Eigen::Vector2d& place, const Look& now, const Look& before) const;
+  double lastFree(const Eigen::Vector2d& place) const;
+  static Eigen::Vector2d velocityOf(const Eigen::Vector2d& place, const Look& before, double dt_s);
   void keep(const SeenThing& thing);
-  void measureErrors(const Look& look);
+  void measureErrors(const Look& look, const Look& last);
 
   RecentSightParams params_;
   double range_m_, keeps_m_;
@@ -129,12 +130,11 @@ class RecentSight {
   double measured_ = 0.0;        // so many scans of a robot that stood
   std::vector<double> steps_m_;  // of the beams, from the last scan to this
   std::vector<SeenThing> things_;
-  std::array<Look, 20> looks_;  // a ring; looks_[newest_] is the last
+  std::vector<Look> looks_;  // a ring; looks_[newest_] is the last,
   std::size_t newest_ = 0;
-  Look last_;                            // the last scan, which may have replaced the one before,
-  std::vector<double> moved_s_, moves_;  // and when what its beams, and the next's, met last moved
-  std::vector<Roaming> roaming_;         // in the last scan
-  std::size_t saw_ = 0;                  // the look that saw the last place that was asked for
+  Look next_;                     // and this the one to come
+  std::vector<Roaming> roaming_;  // in the last scan
+  std::size_t saw_ = 0;           // the look that saw the last place that was asked for
   std::vector<Cell> cells_;
   double points_s_;
 };

@@ -207,6 +207,41 @@ TEST(LastGate, KeepsOffTheBodyAboveLegs) {
   EXPECT_EQ(passedBesideSomebody(0.45, 31.0), 0.3) << "that has stood for so long is a thing";
 }
 
+/// What the gate lets through straight on after it saw a leg, which came there, as it says, while
+/// the robot had turned about and could not see it.
+double passedBesideALeg(const Eigen::Vector2d& leg, bool came) {
+  LastGateParams params = usual();
+  params.sight.T_base_scanner.position = {0.0, 0.0};
+  LastGate gate(params);
+  for (int i = 0; i < 60; ++i) {
+    const FloorPose base{Eigen::Vector2d::Zero(), i >= 30 && i < 50 ? kPi : 0.0};
+    LaserScan scan;
+    scan.first_rad = -2.0;
+    scan.step_rad = 4.0 / 400.0;
+    scan.ranges_m.assign(401, 9.0F);
+    for (std::size_t k = 0; k < 401 && (i >= 40 || !came); ++k) {
+      const double angle = scan.angle(k) + base.yaw_rad;
+      const Eigen::Vector2d way(std::cos(angle), std::sin(angle));
+      const bool hits = leg.dot(way) > 0.0 && (leg - leg.dot(way) * way).norm() < 0.05;
+      if (hits) scan.ranges_m[k] = static_cast<float>(leg.norm());
+    }
+    gate.addScan(scan, base, 0.1 * i);
+  }
+  return gate.pass({0.3, 0.0}, {}, 0.0, 5.9).velocity.forward_mps;
+}
+
+// Bug: the robot set off along somebody who had come up to it unseen.
+TEST(LastGate, KeepsOffWhoCameWhileItLookedElsewhere) {
+  EXPECT_EQ(passedBesideALeg({0.45, 0.1}, true), 0.0);
+  EXPECT_EQ(passedBesideALeg({0.45, 0.1}, false), 0.3) << "a chair's";
+}
+
+TEST(LastGate, LeavesSomebodyOnlyWhenAllOfThemIsBehind) {
+  EXPECT_EQ(passedBesideALeg({0.0, 0.36}, true), 0.0) << "their body may be ahead of the leg";
+  EXPECT_EQ(passedBesideALeg({0.0, 0.36}, false), 0.3);
+  EXPECT_EQ(passedBesideSomebody(-0.4, 5.0), 0.3);
+}
+
 TEST(LastGate, StandsBeforeALegThatCameTooFastToTell) {
   EXPECT_EQ(passedBesideSomebody(0.75, 1.0, 0.0, 2.5), 0.3) << "that stands since";
   EXPECT_LT(passedBesideSomebody(0.75, 0.0, 0.0, 2.5), 0.3);
