@@ -84,7 +84,7 @@ void LastGate::addPoints(const std::vector<Eigen::Vector3f>& points, const Floor
 }
 
 // What can be touched, and how near it may come.
-void LastGate::approach(const FloorLine& body, double reach_m, double then_s) {
+void LastGate::approach(const FloorLine& body, double reach_m) {
   near_.clear();
   const double body_m = params_.limits.radius_m;
   double nearest_m = body_m + params_.margin_m;
@@ -96,7 +96,7 @@ void LastGate::approach(const FloorLine& body, double reach_m, double then_s) {
     const double away_m = std::sqrt(away2);
     if (away_m >= body_m) nearest_m = std::min(nearest_m, away_m);
     near_.push_back({thing.place, away_m, roams ? thing.velocity : Vector2d::Zero(), roams,
-                     around_m, thing.gait_mps, then_s - thing.seen_s});
+                     around_m, thing.gait_mps, then_s_ - thing.seen_s});
   }
   allow_m_ = nearest_m;
 }
@@ -176,9 +176,9 @@ double LastGate::rimStep() const {
 // What the body newly covers while it goes one way is what the front half of its rim sweeps. That
 // is looked at in rows across the way; each end is taken further by the margin, or the robot could
 // creep on where nothing is seen.
-bool LastGate::isSeenAhead(const std::vector<WayPiece>& pieces, const FloorLine& start,
-                           double now_s) {
-  const bool is_blind = now_s - sight_.newest_s() > params_.sight.remembers_s;
+bool LastGate::isSeenAhead(const std::vector<WayPiece>& pieces) {
+  const FloorLine start = axisOf(params_.limits, from_);
+  const bool is_blind = now_s_ - sight_.newest_s() > params_.sight.remembers_s;
   const auto swings = [](const WayPiece& piece) { return piece.swings; };
   if (is_blind && std::any_of(pieces.begin(), pieces.end(), swings)) return false;
   const double apart_m = rimStep();
@@ -188,7 +188,7 @@ bool LastGate::isSeenAhead(const std::vector<WayPiece>& pieces, const FloorLine&
     // Forwards it never creeps on blindly: the scanner looks there.
     const double stood_m =
         params_.limits.radius_m + (sign > 0.0 ? std::max(kGrazed_m, beside_m) : kGrazed_m);
-    const double since_s = now_s - (sign > 0.0 ? params_.sight.remembers_s : kInView_s);
+    const double since_s = now_s_ - (sign > 0.0 ? params_.sight.remembers_s : kInView_s);
     double looked_m = kNever;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       const WayPiece& piece = pieces[i];
@@ -206,47 +206,43 @@ bool LastGate::isSeenAhead(const std::vector<WayPiece>& pieces, const FloorLine&
   return true;
 }
 
-GateReason LastGate::judge(const VelocityCommand& velocity, const FloorPose& from, double then_s,
-                           double now_s) {
-  const std::vector<WayPiece>& pieces = ways_.layOut(velocity, from, then_s, now_s);
+GateReason LastGate::judge(const VelocityCommand& velocity) {
+  const std::vector<WayPiece>& pieces = ways_.layOut(velocity, from_, then_s_, now_s_);
   if (!isFree(pieces)) return GateReason::kThing;
-  return isSeenAhead(pieces, axisOf(params_.limits, from), now_s) ? GateReason::kFree
-                                                                  : GateReason::kUnseen;
+  return isSeenAhead(pieces) ? GateReason::kFree : GateReason::kUnseen;
 }
 
-// What it must know to judge velocities up to one; false if the motion is not known.
-bool LastGate::prepare(const VelocityCommand& wanted, const DriveState& now, double age_s,
-                       double now_s) {
-  if (!isNumber(wanted) || !isNumber(now.speed) || !now.pose.position.allFinite() ||
-      !std::isfinite(now.pose.yaw_rad) || !std::isfinite(now_s) ||
-      !(age_s >= 0.0 && age_s <= kOldest_s)) {
-    return false;
-  }
-  const double then_s = now_s - age_s;
-  ways_.believe(now.speed, then_s);
-  const double top_mps = std::max(std::abs(wanted.forward_mps), ways_.fastest_mps(then_s));
+void LastGate::locate(const DriveState& now, double age_s, double now_s) {
+  is_located_ = isNumber(now.speed) && now.pose.position.allFinite() &&
+                std::isfinite(now.pose.yaw_rad) && std::isfinite(now_s) && age_s >= 0.0 &&
+                age_s <= kOldest_s;
+  if (!is_located_) return;
+  from_ = now.pose;
+  now_s_ = now_s;
+  then_s_ = now_s - age_s;
+  ways_.believe(now.speed, then_s_);
+  const double top_mps = std::max(
+      {params_.limits.max_speed_mps, params_.limits.max_reverse_mps, ways_.fastest_mps(then_s_)});
   const double until_brakes_s = age_s + params_.limits.period_s + params_.wheels_latency_s;
-  approach(axisOf(params_.limits, now.pose),
+  approach(axisOf(params_.limits, from_),
            params_.limits.radius_m + params_.margin_m + 2.0 * axisReach(params_.limits) +
-               stoppingDistance(params_.limits, top_mps, until_brakes_s),
-           then_s);
-  return true;
+               stoppingDistance(params_.limits, top_mps, until_brakes_s));
 }
 
-bool LastGate::lets(const VelocityCommand& wanted, const DriveState& now, double age_s,
-                    double now_s) {
-  return prepare(wanted, now, age_s, now_s) &&
-         judge(scaled(wanted, 1.0 / kShares), now.pose, now_s - age_s, now_s) == GateReason::kFree;
+bool LastGate::lets(const VelocityCommand& wanted) {
+  return is_located_ && isNumber(wanted) &&
+         judge(scaled(wanted, 1.0 / kShares)) == GateReason::kFree;
 }
 
 GatedVelocity LastGate::pass(const VelocityCommand& wanted, const DriveState& now, double age_s,
                              double now_s) {
   GatedVelocity gated;
-  if (!prepare(wanted, now, age_s, now_s)) {
+  locate(now, age_s, now_s);
+  if (!is_located_ || !isNumber(wanted)) {
     gated.reason = GateReason::kBadMotion;
   } else {
     const auto passes = [&](const VelocityCommand& velocity) {
-      const GateReason reason = judge(velocity, now.pose, now_s - age_s, now_s);
+      const GateReason reason = judge(velocity);
       if (reason == GateReason::kFree) gated.velocity = velocity;
       if (gated.reason == GateReason::kFree) gated.reason = reason;  // why not all of it
       return reason == GateReason::kFree;

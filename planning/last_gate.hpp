@@ -91,12 +91,15 @@ class LastGate {
   /// that asks for it plans nothing that the gate holds back. [m]
   double clearance(const Eigen::Vector2d& place) const { return sight_.clearance(place); }
 
-  /// Whether it would let a part of a velocity through on its arc; as pass(), but nothing is sent.
-  bool lets(const VelocityCommand& wanted, const DriveState& now, double age_s, double now_s);
-
+  /// Takes in how the robot moves, and what is near it by then.
   /// @param now    Where the base was by the last odometry, and its speed.
   /// @param age_s  How old that is.
   /// @param now_s  The time at which the velocity is sent, on the clock of the stamps.
+  void locate(const DriveState& now, double age_s, double now_s);
+  /// Whether it would let a part of a velocity through on its arc, by what was located last.
+  bool lets(const VelocityCommand& wanted);
+
+  /// As it is located so, and then sent.
   GatedVelocity pass(const VelocityCommand& wanted, const DriveState& now, double age_s,
                      double now_s);
 
@@ -111,21 +114,23 @@ class LastGate {
     double age_s;     // of the place
   };
 
-  void approach(const FloorLine& body, double reach_m, double then_s);
+  void approach(const FloorLine& body, double reach_m);
   double strays(const Near& thing, double after_s) const;
   static bool recedes(const WayPiece& piece, double along_m, double aside_m, double around_m);
   bool isFree(const std::vector<WayPiece>& pieces) const;
   bool isRimSeen(const FloorLine& start, const Eigen::Vector2d& middle,
                  const Eigen::Vector2d& front, double body_m, double stood_m, double since_s);
   double rimStep() const;
-  bool isSeenAhead(const std::vector<WayPiece>& pieces, const FloorLine& start, double now_s);
-  bool prepare(const VelocityCommand& wanted, const DriveState& now, double age_s, double now_s);
-  GateReason judge(const VelocityCommand& velocity, const FloorPose& from, double then_s,
-                   double now_s);
+  bool isSeenAhead(const std::vector<WayPiece>& pieces);
+  GateReason judge(const VelocityCommand& velocity);
 
   LastGateParams params_;
   RecentSight sight_;
   PossibleWays ways_;
+  FloorPose from_;       // of the last odometry,
+  double then_s_ = 0.0;  // its time,
+  double now_s_ = 0.0;   // and now
+  bool is_located_ = false;
   std::vector<Near> near_;  // what can be touched
   double allow_m_ = 0.0;    // how near what it does not touch may come
 };

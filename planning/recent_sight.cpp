@@ -42,6 +42,7 @@ RecentSight::RecentSight(const RecentSightParams& params, double range_m, double
       keeps_m_(keeps_m),
       sigma_m_(kSurface_m / kSurfaceSigmas),
       surface_m_(kSurface_m),
+      places_(kMostThings, 2),
       looks_(1 + static_cast<std::size_t>(static_cast<double>(kLooks) *
                                           std::max(1.0, kStands_s / params.remembers_s))),
       cells_(kCells * kCells),
@@ -254,6 +255,7 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
     thing.velocity = count > 0 ? Vector2d(sum / count) : Vector2d::Zero();
     thing.gait_mps = count == 0 ? kWalks_mps : thing.velocity.isZero() ? 0.0 : kGait_mps;
   }
+  layOut();
 }
 
 // Whether a picture shows the place at the thing's height: what is low leaves it early.
@@ -300,6 +302,7 @@ void RecentSight::addPoints(const std::vector<Eigen::Vector3f>& points, const Fl
     keep({placeOf(cell), static_cast<double>(cell.highest_m), stamp_s, false, cell.is_sure, false,
           false, Vector2d::Zero(), 0.0});
   }
+  layOut();
 }
 
 // Where there is no room for more, the oldest goes.
@@ -310,12 +313,18 @@ void RecentSight::keep(const SeenThing& thing) {
   things_.push_back(thing);
 }
 
-double RecentSight::clearance(const Vector2d& place) const {
-  double least2 = std::numeric_limits<double>::infinity();
-  for (const SeenThing& thing : things_) {
-    least2 = std::min(least2, (thing.place - place).squaredNorm());
+// What clearance() reads, in a row.
+void RecentSight::layOut() {
+  for (std::size_t i = 0; i < things_.size(); ++i) {
+    places_.row(static_cast<Eigen::Index>(i)) = things_[i].place.transpose();
   }
-  return std::sqrt(least2);
+}
+
+double RecentSight::clearance(const Vector2d& place) const {
+  if (things_.empty()) return std::numeric_limits<double>::infinity();
+  const auto places = places_.topRows(static_cast<Eigen::Index>(things_.size()));
+  return std::sqrt(
+      ((places.col(0) - place.x()).square() + (places.col(1) - place.y()).square()).minCoeff());
 }
 
 double RecentSight::besideView(double body_m, double front_m) const {

@@ -121,6 +121,7 @@ class RecentSight {
   double lastFree(const Eigen::Vector2d& place) const;
   static Eigen::Vector2d velocityOf(const Eigen::Vector2d& place, const Look& before, double dt_s);
   void keep(const SeenThing& thing);
+  void layOut();
   void measureErrors(const Look& look, const Look& last);
 
   RecentSightParams params_;
@@ -130,6 +131,7 @@ class RecentSight {
   double measured_ = 0.0;        // so many scans of a robot that stood
   std::vector<double> steps_m_;  // of the beams, from the last scan to this
   std::vector<SeenThing> things_;
+  Eigen::ArrayX2d places_;   // theirs, in the first rows
   std::vector<Look> looks_;  // a ring; looks_[newest_] is the last,
   std::size_t newest_ = 0;
   Look next_;                     // and this the one to come

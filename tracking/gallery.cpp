@@ -17,9 +17,26 @@ constexpr float kUnseenShare = 0.1F;
 constexpr double kMostWeight = 30.0;  // Independent looks; an older one fades as new ones come.
 constexpr double kFirstWeight = 3.0;  // What is known beforehand counts for so many.
 constexpr double kHeights_m = 1.0;    // What is seen to end over so many metres may be a head.
-constexpr double kRoot2Pi = 2.5066282746310002;
+constexpr double kShortest_m = 1.2, kStep_m = 0.02;    // Of Tallness.
+constexpr double kUsual_m = 1.7, kUsualSigma_m = 0.1;  // Statures of people.
+// The target's stature through the camera that follows, and its room, differs from phase 1's.
+constexpr double kStatureSigma_m = 0.05;
+constexpr double kAlike = 0.2;  // Many statures of one person say no more than 1 / this of them.
 // Makes a misfit's slope of 1 the one between gamma distributions with these means.
 constexpr double kMisfitShape = 1.0 / (1.0 / kMisfit - 1.0 / kOthersMisfit);
+
+/// A normal distribution at the steps of Tallness.
+Tallness densityOf(double mean_m, double sigma_m) {
+  const Tallness statures_m =
+      Tallness::LinSpaced(kShortest_m, kShortest_m + kStep_m * (Tallness::SizeAtCompileTime - 1));
+  constexpr double kRoot2Pi = 2.5066282746310002;
+  return (-0.5 * ((statures_m - mean_m) / sigma_m).square()).exp() / (kRoot2Pi * sigma_m);
+}
+
+double logMean(const Tallness& log_value, const Tallness& share) {
+  const double most = log_value.maxCoeff();
+  return most + std::log((share * (log_value - most).exp()).sum());
+}
 
 }  // namespace
 
@@ -28,6 +45,7 @@ Gallery::Gallery(TargetLooks looks, const GalleryParams& params)
   if (!(params.misleading_share >= 1e-6 && params.misleading_share < 1.0)) {
     throw std::invalid_argument("GalleryParams: misleading_share is out of its range");
   }
+  anybody_statures_ = kStep_m * densityOf(kUsual_m, kUsualSigma_m);
   if (looks_.target.size() == 0) return;
   const Eigen::Index bins = looks_.target.rows();
   if (looks_.room.size() != bins || looks_.anybody.size() != bins) {
@@ -63,6 +81,11 @@ void Gallery::refresh(Person& person) const {
   // Whoever usually fits worse than people do is judged as people are.
   person.rate_gain = (1.0 / person.misfit - 1.0 / kMisfit).max(0.0);
   person.log_rate_gain = (kMisfit / person.misfit).log().max(0.0);
+  person.statures = anybody_statures_ * person.log_tallness.exp();
+  if (&person == &people_[kTarget] && looks_.stature_m) {
+    person.statures = densityOf(*looks_.stature_m, kStatureSigma_m) * person.log_tallness.exp();
+  }
+  person.statures /= person.statures.sum();
   person.log_shares =
       ((person.mean.colwise() + kUnseenShare * anybody_) / (1.0F + kUnseenShare)).log();
   person.knows.resize(static_cast<std::size_t>(parts));
@@ -121,11 +144,26 @@ double Gallery::likeness(const Person& person) {
   return best;
 }
 
-/// Of a look at a stature per metre; a lintel over them, or a hand, may be taken for their head.
-double Gallery::densityOf(double stature_m, double mean_m, double sigma_m) const {
-  const double off = (stature_m - mean_m) / sigma_m;
-  return (1.0 - params_.misleading_share) * std::exp(-0.5 * off * off) / (kRoot2Pi * sigma_m) +
-         params_.misleading_share / kHeights_m;
+Tallness Gallery::logTallness(const Observation& seen) const {
+  if (!looks_.stature_m || !seen.stature_m) return Tallness::Zero();
+  // A lintel over them, or a hand, may be taken for their head.
+  const double mislead = params_.misleading_share;
+  const double sigma_m = looks_.stature_sigma_m;
+  return ((1.0 - mislead) * densityOf(*seen.stature_m, sigma_m) + mislead / kHeights_m).log();
+}
+
+Evidence Gallery::logLikelihood(const Tallness& log_tallness) const {
+  Evidence evidence = Evidence::Zero();
+  if (log_tallness.isZero()) return evidence;
+  const double anybody = logIfAnybody(log_tallness);
+  for (int h = kTarget; h < kHypotheses; ++h) {
+    if (isKnown(h)) evidence[h] = logMean(log_tallness, people_[index(h)].statures) - anybody;
+  }
+  return evidence;
+}
+
+double Gallery::logIfAnybody(const Tallness& log_tallness) const {
+  return logMean(log_tallness, anybody_statures_);
 }
 
 Evidence Gallery::logLikelihood(const Observation& seen) {
@@ -150,12 +188,6 @@ Evidence Gallery::logLikelihood(const Observation& seen) {
     // Fewer looks are like somebody by chance than are unlike themselves.
     evidence[h] =
         std::log((1.0 - mislead) * ratio + mislead) - std::log1p(mislead * mislead * ratio);
-  }
-  if (looks_.stature_m && seen.stature_m) {
-    // Among people, statures are spread by about 0.1 m.
-    const double sigma = looks_.stature_sigma_m;
-    evidence[kTarget] += std::log(densityOf(*seen.stature_m, *looks_.stature_m, sigma) /
-                                  densityOf(*seen.stature_m, 1.7, std::hypot(0.1, sigma)));
   }
   return evidence;
 }
@@ -186,6 +218,7 @@ void Gallery::addLookAt(int hypothesis, const Observation& seen, double weight) 
     rests_on = std::min(rests_on + weight, kMostWeight);
     person.misfit[part] += weight / rests_on * (best_misfit_[part] - person.misfit[part]);
   }
+  person.log_tallness += weight * (logTallness(seen) - kAlike * person.log_tallness);
   average(hypothesis == kTarget ? lately_ : person, *seen.look, weight);
   if (hypothesis == kTarget) mixLately();
   refresh(person);
@@ -213,7 +246,8 @@ bool Gallery::isFull() const {
                      [](const Person& person) { return person.weight > 0.0; });
 }
 
-int Gallery::meet(const Eigen::ArrayXXf& mean_look, double weight, int replaced) {
+int Gallery::meet(const Eigen::ArrayXXf& mean_look, double weight, int replaced,
+                  const Tallness& log_tallness) {
   int hypothesis = replaced;
   for (int h = kFirstOther; hypothesis == kStranger && h < kHypotheses; ++h) {
     if (!isKnown(h)) hypothesis = h;
@@ -222,6 +256,7 @@ int Gallery::meet(const Eigen::ArrayXXf& mean_look, double weight, int replaced)
   Person& person = people_[index(hypothesis)];
   person = {};
   person.mean = mean_look;
+  person.log_tallness = log_tallness;
   person.weight = weight;
   refresh(person);
   return hypothesis;

@@ -26,7 +26,7 @@ struct TargetLooks {
   Eigen::ArrayXf anybody;   ///< How anybody's are, before they are known.
   std::vector<Tint> tints;  ///< In which people may be seen again, besides the room's own.
   std::optional<double> stature_m;
-  double stature_sigma_m = 0.05;  ///< Of a single look's stature.
+  double stature_sigma_m = 0.05;  ///< Of a single look's stature, without what all share.
 };
 
 /// Who or what a body may be.
@@ -41,6 +41,9 @@ inline constexpr int kHypotheses = kFirstOther + kMostOthers;
 
 /// A value a hypothesis.
 using Evidence = Eigen::Array<double, kHypotheses, 1>;
+
+/// Logarithm of the likelihood of looks at one body by its stature, in steps of 2 cm from 1.2 m.
+using Tallness = Eigen::Array<double, 51, 1>;
 
 /// A look's log odds is the sum over its parts of (likeness + kLikenessOffset), where
 /// likeness = kRarityShare * KL(look || anybody) - KL(look || person), in the light that fits best.
@@ -69,25 +72,35 @@ class Gallery {
   /// @throws std::invalid_argument  if a parameter is out of its range, or sizes do not fit.
   explicit Gallery(TargetLooks looks = {}, const GalleryParams& params = {});
 
-  /// Logarithm of the likelihood of a look by each hypothesis, over a stranger's; -infinity where
-  /// there is nobody. What is not seen says nothing: without a look all are 0.
+  /// Logarithm of the likelihood of a look's colours by each hypothesis, over a stranger's;
+  /// -infinity where there is nobody. What is not seen says nothing: without a look all are 0.
   Evidence logLikelihood(const Observation& seen);
+
+  /// What a look says of stature; 0 where it says nothing.
+  Tallness logTallness(const Observation& seen) const;
+  /// Logarithm of the likelihood of what was seen of a body's stature by each hypothesis, over a
+  /// stranger's; and of a stranger's.
+  Evidence logLikelihood(const Tallness& log_tallness) const;
+  double logIfAnybody(const Tallness& log_tallness) const;
 
   /// Another sure look at somebody. Of the target, what phase 1 learned keeps half of the say.
   void addLookAt(int hypothesis, const Observation& seen, double weight);
 
   /// Puts somebody new into the gallery, in the place of `replaced` or a free one (kStranger).
   /// @return  Their hypothesis.
-  int meet(const Eigen::ArrayXXf& mean_look, double weight, int replaced = kStranger);
+  int meet(const Eigen::ArrayXXf& mean_look, double weight, int replaced = kStranger,
+           const Tallness& log_tallness = Tallness::Zero());
   bool isKnown(int hypothesis) const { return people_[index(hypothesis)].weight > 0.0; }
   bool isFull() const;
 
  private:
   struct Person {
-    Eigen::ArrayXXf mean;        // of their looks
-    Eigen::ArrayXXf log_shares;  // of a bin, with a little of anybody's
-    std::vector<bool> knows;     // which parts
-    double weight = 0.0;         // independent looks that it rests on; 0: nobody
+    Eigen::ArrayXXf mean;                      // of their looks
+    Eigen::ArrayXXf log_shares;                // of a bin, with a little of anybody's
+    std::vector<bool> knows;                   // which parts
+    double weight = 0.0;                       // independent looks that it rests on; 0: nobody
+    Tallness log_tallness = Tallness::Zero();  // by looks,
+    Tallness statures = Tallness::Zero();      // and what is known by it
     // Their usual misfits, part by part, what these rest on, and how much steeper than kMisfit's a
     // gamma distribution with such a mean falls, if it does.
     Eigen::ArrayXd misfit, misfit_weight, rate_gain, log_rate_gain;
@@ -97,7 +110,6 @@ class Gallery {
   static void average(Person& person, const Eigen::ArrayXXf& look, double weight);
   void takeApart(const Eigen::ArrayXXf& look);
   double likeness(const Person& person);
-  double densityOf(double stature_m, double mean_m, double sigma_m) const;
   void mixLately();
 
   TargetLooks looks_;
@@ -105,6 +117,7 @@ class Gallery {
   Eigen::ArrayXf anybody_, log_anybody_;
   Person lately_;               // the target since phase 1
   std::vector<Person> people_;  // by hypothesis
+  Tallness anybody_statures_ = Tallness::Zero();
   // The look at hand: bins that are not empty, part by part.
   struct Share {
     int bin;

@@ -79,9 +79,11 @@ double Identity::targetProbability(int track_id) const {
 
 void Identity::look(const std::vector<Observation>& observations) {
   looks_.resize(observations.size());
+  statures_.resize(observations.size());
   for (std::size_t i = 0; i < observations.size(); ++i) {
     looks_[i] = gallery_.logLikelihood(observations[i]) + observations[i].log_person;
     looks_[i][kThing] -= observations[i].log_person;
+    statures_[i] = gallery_.logTallness(observations[i]);
   }
 }
 
@@ -89,8 +91,12 @@ double Identity::logLikelihood(int track_id, int observation) const {
   const Belief* belief = find(track_id);
   if (belief == nullptr) return 0.0;
   const Evidence& look = looks_[static_cast<std::size_t>(observation)];
+  const Tallness& stature = statures_[static_cast<std::size_t>(observation)];
+  const Tallness before = belief->logTallness();
+  const double same = gallery_.logIfAnybody(before + stature) - gallery_.logIfAnybody(before) -
+                      gallery_.logIfAnybody(stature);
   const double empty = std::max(1.0 - belief->probability.sum(), 0.0);  // somebody else's, then
-  return std::log((belief->probability * look.exp()).sum() + empty + 1e-9);
+  return std::log((belief->probability * look.exp()).sum() * std::exp(same) + empty + 1e-9);
 }
 
 /// What is believed of somebody who appears at a place, before a look at them.
@@ -150,7 +156,8 @@ Identity::Belief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, 
     }
     belief = std::move(*same);
     left_.erase(same);
-    mixIn(belief, prior, prior, newcomers_per_m2 / (newcomers_per_m2 + most_per_m2));
+    mixIn(belief, prior, prior, Tallness::Zero(),
+          newcomers_per_m2 / (newcomers_per_m2 + most_per_m2));
     belief.is_alive = true;
     belief.present = 1.0;
   } else {
@@ -182,7 +189,7 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
     const double same = (1.0 - missed) * track.density_per_m2;
     const double other = missed * (clutter + params_.newcomer_density_per_m2);
     const Evidence prior = priorOf(seen.position_m, stamp_s);
-    mixIn(belief, prior, prior, other / (same + other));
+    mixIn(belief, prior, prior, Tallness::Zero(), other / (same + other));
   }
   // However long it lasts, nothing is surer than that: who sat for an hour may get up.
   belief.log_place -= belief.log_place.maxCoeff();
@@ -196,7 +203,7 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
   }
 }
 
-void Identity::takeLook(Belief& belief, const Observation& seen, const Evidence& look,
+void Identity::takeLook(Belief& belief, const Observation& seen, std::size_t look,
                         const Eigen::Vector2d& eye_m, double stamp_s) {
   View& view = belief.view;
   const Eigen::Vector2d ray_m = seen.position_m - eye_m;
@@ -207,14 +214,20 @@ void Identity::takeLook(Belief& belief, const Observation& seen, const Evidence&
       is_first ? 1.0 : newsOf(stamp_s - view.since_s, way_m > restRadiusOf(seen) ? way_m : 0.0);
   if (is_first || news > kOtherView) {
     belief.log_views += view.evidence();
-    belief.log_views *= std::exp(-params_.look_correlation * news);
+    belief.log_tallness = belief.logTallness();
+    const double keep = std::exp(-params_.look_correlation * news);
+    belief.log_views *= keep;
+    belief.log_tallness *= keep;
     belief.looks += news;
     view = View{seen.position_m, ray_m, stamp_s, news};
   }
   view.count = std::min(view.count + 1.0, kMostLooks);
   for (int h = 0; h < kHypotheses; ++h) {
-    if (std::isfinite(look[h])) view.mean[h] += (look[h] - view.mean[h]) / view.count;
+    const double log = looks_[look][h];
+    if (std::isfinite(log)) view.mean[h] += (log - view.mean[h]) / view.count;
   }
+  view.tallness += (statures_[look] - view.tallness) / view.count;
+  belief.log_stature = gallery_.logLikelihood(belief.logTallness());
   if (belief.sum.size() == 0) belief.sum.setZero(seen.look->rows(), seen.look->cols());
   belief.sum += *seen.look;
 }
@@ -243,7 +256,7 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
     const auto i = static_cast<std::size_t>(track.observation);
     takePlace(belief, track, observations[i], stamp_s);
     if (observations[i].look != nullptr) {
-      takeLook(belief, observations[i], looks_[i], viewpoint.position_m, stamp_s);
+      takeLook(belief, observations[i], i, viewpoint.position_m, stamp_s);
     }
   }
   weighTogether();
@@ -267,7 +280,7 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
 /// With a probability it is another body than before, of which `other` is believed. Past looks then
 /// say whatever the place does not, so that as they fade the place is left.
 void Identity::mixIn(Belief& belief, const Evidence& other, const Evidence& other_place,
-                     double other_share) {
+                     const Tallness& other_tallness, double other_share) {
   if (other_share > kMistaken) {  // A portrait is of one body.
     belief.looks = 0.0;
     belief.sum.setZero();
@@ -275,6 +288,12 @@ void Identity::mixIn(Belief& belief, const Evidence& other, const Evidence& othe
   const Evidence both = mix(belief.logPast(), other, other_share);
   belief.log_place = mix(belief.log_place, other_place, other_share);
   belief.log_free *= 1.0 - other_share;
+  const double own_norm = gallery_.logIfAnybody(belief.log_tallness);
+  const double other_norm = gallery_.logIfAnybody(other_tallness);
+  belief.log_tallness = ((1.0 - other_share) * (belief.log_tallness - own_norm).exp() +
+                         other_share * (other_tallness - other_norm).exp())
+                            .log();
+  belief.log_stature = gallery_.logLikelihood(belief.logTallness());
   const Evidence views = both - belief.log_place - belief.log_free;
   belief.log_views = views.isFinite().select(views, 0.0);
 }
@@ -286,8 +305,9 @@ void Identity::mixSwaps(const std::vector<Swap>& swaps) {
     Belief* b = find(swap.track_b);
     if (a == nullptr || b == nullptr) continue;
     const Evidence past_a = a->logPast(), place_a = a->log_place;
-    mixIn(*a, b->logPast(), b->log_place, swap.probability);
-    mixIn(*b, past_a, place_a, swap.probability);
+    const Tallness tallness_a = a->log_tallness;
+    mixIn(*a, b->logPast(), b->log_place, b->log_tallness, swap.probability);
+    mixIn(*b, past_a, place_a, tallness_a, swap.probability);
     for (View* view : {&a->view, &b->view}) view->count *= 1.0 - swap.probability;
   }
 }
@@ -465,12 +485,12 @@ void Identity::meet(Belief& belief) {
     const float total = mean.col(part).sum();
     if (total > 0.0F) mean.col(part) /= total;
   }
-  const int h = gallery_.meet(mean, belief.looks, replaced);
+  const int h = gallery_.meet(mean, belief.looks, replaced, belief.logTallness());
   if (h == kStranger) return;
   for (std::vector<Belief>* beliefs : {&beliefs_, &left_}) {
     for (Belief& other : *beliefs) {
       other.log_place[h] = other.log_place[kStranger] + kLogMistaken;
-      other.log_views[h] = other.view.mean[h] = 0.0;
+      other.log_views[h] = other.view.mean[h] = other.log_stature[h] = 0.0;
     }
   }
   belief.log_place[h] = belief.log_place[kStranger];
@@ -486,6 +506,8 @@ void Identity::makeTarget(int track_id, const Eigen::Vector2d& place_m, double s
   belief->log_place[kTarget] = 0.0;
   belief->log_views.setZero();
   belief->log_free.setZero();
+  belief->log_tallness.setZero();
+  belief->log_stature.setZero();
   left_.clear();
   belief->view = {};
   belief->looks = 0.0;

@@ -77,7 +77,7 @@ class Identity {
   double restsFor_s(int track_id, double stamp_s) const;
   /// Probability that the target is none of the tracks.
   double away() const { return away_[kTarget]; }
-  /// What the looks of the last step said, observation by observation.
+  /// What the looks of the last step said, observation by observation, without statures.
   const std::vector<Evidence>& looks() const { return looks_; }
 
  private:
@@ -88,6 +88,7 @@ class Identity {
     double since_s = 0.0;
     double weight = 0.0;  ///< As far as it is another view than the one before.
     Evidence mean = Evidence::Zero();
+    Tallness tallness = Tallness::Zero();  ///< The mean, too.
     double count = 0.0;
     Evidence evidence() const { return weight * mean; }
   };
@@ -104,14 +105,18 @@ class Identity {
     double born_s = 0.0;                                ///< Seen first,
     double seen_s = 0.0;                                ///< and last.
     View view;
-    double looks = 0.0;    ///< Independent ones, and the sum of all, since it was surely
-    Eigen::ArrayXXf sum;   ///< the same body.
+    double looks = 0.0;   ///< Independent ones, and the sum of all, since it was surely
+    Eigen::ArrayXXf sum;  ///< the same body.
+    /// Of all views but the present one, and what all views say of it: a stature is one fact.
+    Tallness log_tallness = Tallness::Zero();
+    Evidence log_stature = Evidence::Zero();
     double present = 1.0;  ///< Probability that whoever it is still is there.
     bool is_alive = true;
 
-    Evidence logLooks() const { return log_views + view.evidence(); }
+    Tallness logTallness() const { return log_tallness + view.weight * view.tallness; }
+    Evidence logLooks() const { return log_views + view.evidence() + log_stature; }
     Evidence logPast() const { return log_place + log_free + log_views; }
-    Evidence logWeight() const { return logPast() + view.evidence(); }
+    Evidence logWeight() const { return log_place + log_free + logLooks(); }
   };
 
   Belief* find(int track_id);
@@ -120,10 +125,10 @@ class Identity {
   double newsOf(double elapsed_s, double way_m) const;
   Evidence priorOf(const Eigen::Vector2d& place_m, double stamp_s) const;
   void takePlace(Belief& belief, const Track& track, const Observation& seen, double stamp_s);
-  void takeLook(Belief& belief, const Observation& seen, const Evidence& look,
+  void takeLook(Belief& belief, const Observation& seen, std::size_t look,
                 const Eigen::Vector2d& eye_m, double stamp_s);
-  static void mixIn(Belief& belief, const Evidence& other, const Evidence& other_place,
-                    double other_share);
+  void mixIn(Belief& belief, const Evidence& other, const Evidence& other_place,
+             const Tallness& other_tallness, double other_share);
   void mixSwaps(const std::vector<Swap>& swaps);
   void weighTogether();
   void weigh(bool is_left, std::vector<Evidence>& marginals);
@@ -139,7 +144,8 @@ class Identity {
   ClutterMap clutter_;
   std::vector<Belief> beliefs_;
   std::vector<Belief> left_;                  // of tracks that have ended, the last one last
-  std::vector<Evidence> looks_;               // of the step's observations
+  std::vector<Evidence> looks_;               // of the step's observations,
+  std::vector<Tallness> statures_;            // and of these
   Evidence away_ = Evidence::Ones();          // of each person, that they are none of the tracks
   std::vector<std::optional<Absence>> last_;  // where each was seen last
   struct Weights {

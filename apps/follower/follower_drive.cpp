@@ -305,10 +305,8 @@ VelocityCommand Follower::localCommand(const std::optional<Vector2d>& face) {
   const auto room = [&](const Vector2d& p) {
     return std::min(room_.clearance(p), last_gate_.clearance(to_motion * p) + spare_m);
   };
-  const DriveState motion{motion_.pose(), speed_};
-  const auto permits = [&](const VelocityCommand& velocity) {
-    return last_gate_.lets(velocity, motion, steady_s_ - motion_.stamp_s(), steady_s_);
-  };
+  last_gate_.locate({motion_.pose(), speed_}, steady_s_ - motion_.stamp_s(), steady_s_);
+  const auto permits = [&](const VelocityCommand& velocity) { return last_gate_.lets(velocity); };
   const LocalPlan now =
       local_planner_.step(step_.robot.pose, speed_, plan_.path, room, people_, face, permits);
   has_arrived_ = now.status == DriveStatus::kArrived || now.blocked_s > params_.give_up_s;

@@ -171,28 +171,56 @@ TEST(Gallery, NoLookSaysMoreThanTheMisleadingShareLeaves) {
   }
 }
 
+/// Of many looks at somebody of this stature.
+Tallness tallnessOf(const Gallery& gallery, double stature_m, double looks = 1.0) {
+  Observation seen;
+  seen.stature_m = stature_m;
+  return looks * gallery.logTallness(seen);
+}
+
 TEST(Gallery, StatureIsEvidenceAmongPeople) {
   TargetLooks looks = looksOf(clothes(0, 1));
   looks.stature_m = 1.9;
-  Gallery gallery(looks), without(looksOf(clothes(0, 1)));
-  const Eigen::ArrayXXf look = clothes(0, 1);
-  Observation tall = seen(0, 0, &look);
-  tall.stature_m = 1.85;
-  // A look misleads with 0.05, and may then end anywhere over a metre; N(1.85; 1.9, 0.05) and
-  // N(1.85; 1.7, hypot(0.1, 0.05)) by hand.
-  const auto odds = [](double of_target, double of_anybody) {
-    return std::log((0.95 * of_target + 0.05) / (0.95 * of_anybody + 0.05));
+  const Gallery gallery(looks), without(looksOf(clothes(0, 1)));
+  // A look misleads with 0.05, and may then end anywhere over a metre; else it is N(1.85; stature,
+  // 0.05), with statures of N(1.9, 0.05), and of N(1.7, 0.1), by hand.
+  const auto normal = [](double off, double variance) {
+    return std::exp(-0.5 * off * off / variance) / std::sqrt(2.0 * std::acos(-1.0) * variance);
   };
-  const double root = std::sqrt(2.0 * std::acos(-1.0));
-  const double close = std::exp(-0.5) / (0.05 * root);
-  const double usual = std::exp(-0.5 * 0.15 * 0.15 / 0.0125) / (std::sqrt(0.0125) * root);
-  EXPECT_NEAR(gallery.logLikelihood(tall)[kTarget],
-              target(2.0 * partLogOdds(1.0)) + odds(close, usual), 1e-5);
-  EXPECT_NEAR(without.logLikelihood(tall)[kTarget], target(2.0 * partLogOdds(1.0)), 1e-5);
-  tall.stature_m = 1.6;
-  EXPECT_LT(gallery.logLikelihood(tall)[kTarget], without.logLikelihood(tall)[kTarget] - 1.0);
-  tall.stature_m = 2.05;  // Under a lintel.
-  EXPECT_GT(gallery.logLikelihood(tall)[kTarget], without.logLikelihood(tall)[kTarget] - 1.0);
+  EXPECT_NEAR(gallery.logLikelihood(tallnessOf(gallery, 1.85))[kTarget],
+              std::log((0.95 * normal(0.05, 0.005) + 0.05) / (0.95 * normal(0.15, 0.0125) + 0.05)),
+              1e-3);
+  EXPECT_TRUE(without.logLikelihood(tallnessOf(without, 1.85)).isZero());
+  EXPECT_LT(gallery.logLikelihood(tallnessOf(gallery, 1.6))[kTarget], -1.0);
+  EXPECT_GT(gallery.logLikelihood(tallnessOf(gallery, 2.1))[kTarget], -1.0) << "under a lintel";
+}
+
+// Bug: each look at somebody as tall as the target counted anew, and they were surely the target.
+TEST(Gallery, ManyLooksAtAStatureSayNoMoreThanWhatItIs) {
+  TargetLooks looks = looksOf(clothes(0, 1));
+  looks.stature_m = 1.8;
+  const Gallery gallery(looks);
+  const auto says = [&](double stature_m, double count) {
+    return gallery.logLikelihood(tallnessOf(gallery, stature_m, count))[kTarget];
+  };
+  // Densities at 1.8 m of statures of the target, and of anybody.
+  EXPECT_NEAR(says(1.8, 100.0), std::log(0.1 / 0.05) + 0.5, 0.01);
+  EXPECT_LT(says(1.6, 100.0), says(1.6, 1.0) - 3.0) << "but that it is another is sure in the end";
+}
+
+TEST(Gallery, LearnsStaturesOfTheTargetAndOfOthers) {
+  TargetLooks looks = looksOf(clothes(0, 1));
+  looks.stature_m = 1.7;
+  Gallery gallery(looks);
+  const int other = gallery.meet(clothes(2, 3), 1.0, kStranger, tallnessOf(gallery, 1.6, 3.0));
+  const Tallness tall = tallnessOf(gallery, 1.8);
+  EXPECT_LT(gallery.logLikelihood(tall)[other], -1.0);
+  const double before = gallery.logLikelihood(tall)[kTarget];
+  const Eigen::ArrayXXf look = clothes(0, 1);
+  Observation sure = seen(0, 0, &look);
+  sure.stature_m = 1.8;  // Through another camera.
+  for (int i = 0; i < 100; ++i) gallery.addLookAt(kTarget, sure, 1.0);
+  EXPECT_GT(gallery.logLikelihood(tall)[kTarget], before + 1.0);
 }
 
 TEST(Gallery, WhatWasLearnedAtFirstKeepsHalfOfTheSay) {
