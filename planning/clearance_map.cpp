@@ -227,17 +227,23 @@ double ClearanceMap::clearance(const Eigen::Vector2d& point) const {
   if (!isInside(point)) return 0.0;
   const Eigen::Vector2d p = (point - origin_m_) / cell_size_m_;
   double best = squared(std::min({reach_, p.x(), p.y(), width_ - p.x(), height_ - p.y()}));
-  const int reach = static_cast<int>(std::ceil(reach_));
-  const int px = static_cast<int>(p.x()), py = static_cast<int>(p.y());
-  for (int y = std::max(0, py - reach); y <= std::min(height_ - 1, py + reach); ++y) {
+  const auto isNearerIn = [&](int y) {  // whether anything can be, in this row
     const double dy = p.y() - std::clamp(p.y(), double(y), y + 1.0);
-    const int x1 = std::min(width_ - 1, px + reach);
-    for (int x = std::max(0, px - reach); x <= x1; ++x) {
+    if (dy * dy >= best) return false;
+    const double half = std::sqrt(best - dy * dy);
+    const int x1 = std::min(width_ - 1, static_cast<int>(p.x() + half));
+    for (int x = std::max(0, static_cast<int>(p.x() - half)); x <= x1; ++x) {
       x = next_blocked_[index(y * width_ + x)];
       if (x > x1) break;
       const double dx = p.x() - std::clamp(p.x(), double(x), x + 1.0);
       best = std::min(best, dx * dx + dy * dy);
     }
+    return true;
+  };
+  const int row = static_cast<int>(p.y());
+  for (int y = row; y < height_ && isNearerIn(y); ++y) {
+  }
+  for (int y = row - 1; y >= 0 && isNearerIn(y); --y) {
   }
   return std::sqrt(best) * cell_size_m_;
 }
