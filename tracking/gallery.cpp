@@ -21,7 +21,6 @@ constexpr double kShortest_m = 1.2, kStep_m = 0.02;    // Of Tallness.
 constexpr double kUsual_m = 1.7, kUsualSigma_m = 0.1;  // Statures of people.
 // The target's stature through the camera that follows, and its room, differs from phase 1's.
 constexpr double kStatureSigma_m = 0.05;
-constexpr double kAlike = 0.2;  // Many statures of one person say no more than 1 / this of them.
 // Makes a misfit's slope of 1 the one between gamma distributions with these means.
 constexpr double kMisfitShape = 1.0 / (1.0 / kMisfit - 1.0 / kOthersMisfit);
 
@@ -42,8 +41,9 @@ double logMean(const Tallness& log_value, const Tallness& share) {
 
 Gallery::Gallery(TargetLooks looks, const GalleryParams& params)
     : looks_(std::move(looks)), params_(params), people_(kHypotheses) {
-  if (!(params.misleading_share >= 1e-6 && params.misleading_share < 1.0)) {
-    throw std::invalid_argument("GalleryParams: misleading_share is out of its range");
+  if (!(params.misleading_share >= 1e-6 && params.misleading_share < 1.0 &&
+        params.look_correlation >= 0.0 && params.look_correlation <= 1.0)) {
+    throw std::invalid_argument("GalleryParams: a parameter is out of its range");
   }
   anybody_statures_ = kStep_m * densityOf(kUsual_m, kUsualSigma_m);
   if (looks_.target.size() == 0) return;
@@ -218,7 +218,8 @@ void Gallery::addLookAt(int hypothesis, const Observation& seen, double weight) 
     rests_on = std::min(rests_on + weight, kMostWeight);
     person.misfit[part] += weight / rests_on * (best_misfit_[part] - person.misfit[part]);
   }
-  person.log_tallness += weight * (logTallness(seen) - kAlike * person.log_tallness);
+  person.log_tallness +=
+      weight * (logTallness(seen) - params_.look_correlation * person.log_tallness);
   average(hypothesis == kTarget ? lately_ : person, *seen.look, weight);
   if (hypothesis == kTarget) mixLately();
   refresh(person);

@@ -64,6 +64,8 @@ struct GalleryParams {
   /// what one look at colours, and one at stature, can say against anybody; its square bounds what
   /// one at colours can say for them.
   double misleading_share = 0.05;
+  /// Looks at one person are alike: many together are worth no more than 1 / this of them.
+  double look_correlation = 0.2;
 };
 
 /// The target, and the others who were met. Knows looks only: where anybody is, is Identity's.

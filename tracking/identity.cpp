@@ -51,8 +51,8 @@ Identity::Identity(TargetLooks looks, const IdentityParams& params)
       gallery_(std::move(looks), params.gallery),
       clutter_(params.clutter),
       last_(kHypotheses) {
-  if (!(params.still_look_s > 0.0 && params.look_way_m > 0.0 && params.look_correlation >= 0.0 &&
-        params.stands_s > 0.0 && params.newcomer_density_per_m2 > 0.0 && params.walk_mps > 0.0)) {
+  if (!(params.still_look_s > 0.0 && params.look_way_m > 0.0 && params.stands_s > 0.0 &&
+        params.newcomer_density_per_m2 > 0.0 && params.walk_mps > 0.0)) {
     throw std::invalid_argument("IdentityParams: a parameter is not positive");
   }
 }
@@ -215,7 +215,7 @@ void Identity::takeLook(Belief& belief, const Observation& seen, std::size_t loo
   if (is_first || news > kOtherView) {
     belief.log_views += view.evidence();
     belief.log_tallness = belief.logTallness();
-    const double keep = std::exp(-params_.look_correlation * news);
+    const double keep = std::exp(-params_.gallery.look_correlation * news);
     belief.log_views *= keep;
     belief.log_tallness *= keep;
     belief.looks += news;

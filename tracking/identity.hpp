@@ -29,8 +29,6 @@ struct IdentityParams {
   /// Somebody who has stood for a time is expected to stand for that time and this longer; things
   /// stay.
   double stands_s = 10.0;
-  /// Looks of one track are alike: many together are worth no more than 1 / this of them.
-  double look_correlation = 0.2;
   /// Strangers who come into view per square metre and look; things are counted elsewhere
   /// (ClutterMapParams). The target, and each of the others, come as often while they are away.
   double newcomer_density_per_m2 = 0.05;

@@ -12,6 +12,8 @@
 namespace heel {
 namespace {
 
+constexpr double kKeep = 2.0 / 3.0;  // Of take_above: else the target would flicker about it.
+
 void require(bool holds, const char* what) {
   if (!holds) {
     throw std::invalid_argument(std::string("TargetParams: ") + what);
@@ -78,8 +80,6 @@ TargetTracker::TargetTracker(const TargetParams& params, const TrackerParams& tr
   require(std::isfinite(params.start_distance_m) && params.start_distance_m >= 0.0,
           "start_distance_m must not be negative");
   require(params.take_above > 0.0 && params.take_above < 1.0, "take_above must be in (0, 1)");
-  require(params.keep_above > 0.0 && params.keep_above <= params.take_above,
-          "keep_above must be in (0, take_above]");
 }
 
 void TargetTracker::startAt(const Eigen::Vector2d& position_m) {
@@ -165,8 +165,8 @@ void TargetTracker::choose() {
   const Track* best = likeliest();
   if (best == nullptr) return;
   const bool is_former = best->id == former;
-  if (identity_.targetProbability(best->id) < (is_former ? params_.keep_above : params_.take_above))
-    return;
+  const double least = (is_former ? kKeep : 1.0) * params_.take_above;
+  if (identity_.targetProbability(best->id) < least) return;
   tracker_.confirmTrack(best->id);
   estimate_.track_id = best->id;
   if (!is_former) estimate_.reason = TargetReason::kRecognized;

@@ -97,8 +97,7 @@ std::vector<Setting> settingsOf(RobotConfig& c) {
              "You follow children, or people who sit: lower it.",
              kPositive),
       FOLLOW(perception.target.take_above,
-             "Wrong people are followed: raise it. The right one is then found later. "
-             "`keep_above` stays below it.",
+             "Wrong people are followed: raise it. The right one is then found later.",
              kShare),
       FOLLOW(goal.standoff_m,
              "The robot comes too close, or stays too far away. `near_m` and `far_m` go with "

@@ -284,13 +284,14 @@ TEST(Identity, LooksFromOneViewCountAsTheirMean) {
   EXPECT_NEAR(log_odds(), view, 1e-6);
   home.see({{1, {1.4, 0.3}, &kPink}});  // From 0.5 m further another view begins.
   const double news = 1.0 - std::exp(-0.6 / params.still_look_s - 0.5 / params.look_way_m);
-  EXPECT_NEAR(log_odds(), view * std::exp(-params.look_correlation * news) + news * pink, 1e-6);
+  EXPECT_NEAR(log_odds(), view * std::exp(-params.gallery.look_correlation * news) + news * pink,
+              1e-6);
 }
 
 TEST(Identity, ManyLikeViewsCountNoMoreThanTheirCorrelationLeaves) {
   for (const double correlation : {0.1, 0.5}) {
     IdentityParams params;
-    params.look_correlation = correlation;
+    params.gallery.look_correlation = correlation;
     Home home(params);
     home.density_per_m2 = 1e12;
     home.see({{1, {1, 0}, &kPink}});
@@ -656,7 +657,8 @@ TEST(Identity, RejectsBadParameters) {
   EXPECT_NO_THROW(with([](IdentityParams&) {}));
   EXPECT_THROW(with([](IdentityParams& p) { p.still_look_s = 0.0; }), std::invalid_argument);
   EXPECT_THROW(with([](IdentityParams& p) { p.look_way_m = std::nan(""); }), std::invalid_argument);
-  EXPECT_THROW(with([](IdentityParams& p) { p.look_correlation = -0.1; }), std::invalid_argument);
+  EXPECT_THROW(with([](IdentityParams& p) { p.gallery.look_correlation = -0.1; }),
+               std::invalid_argument);
   EXPECT_THROW(with([](IdentityParams& p) { p.newcomer_density_per_m2 = 0.0; }),
                std::invalid_argument);
   EXPECT_THROW(with([](IdentityParams& p) { p.walk_mps = 0.0; }), std::invalid_argument);

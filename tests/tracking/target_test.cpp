@@ -145,7 +145,7 @@ TEST(TargetTracker, IsNotSureOfSomebodyOfWhomNothingIsSeen) {
   EXPECT_EQ(estimate.candidates, 1);
 }
 
-TEST(TargetTracker, TakesAboveOneProbabilityAndKeepsAboveAnother) {
+TEST(TargetTracker, TakesAboveAProbabilityAndKeepsAboveTwoThirdsOfIt) {
   Scene probe;
   const double confidence = probe.see({seen(2, 0)}).confidence;
   ASSERT_GT(confidence, 0.5);
@@ -157,7 +157,7 @@ TEST(TargetTracker, TakesAboveOneProbabilityAndKeepsAboveAnother) {
   }
   for (const bool kept : {false, true}) {
     TargetParams params;
-    params.keep_above = kept ? 0.2 : 0.4;
+    params.take_above = kept ? 0.5 : 0.6;
     Scene run(params);
     run.target().startAt({2, 0});
     run.sight(Sight::kHidden);
@@ -531,8 +531,7 @@ TEST(TargetTracker, RejectsBadInput) {
   EXPECT_NO_THROW(with([](TargetParams&) {}));
   EXPECT_THROW(with([](TargetParams& p) { p.start_distance_m = -0.1; }), std::invalid_argument);
   EXPECT_THROW(with([](TargetParams& p) { p.take_above = 1.0; }), std::invalid_argument);
-  EXPECT_THROW(with([](TargetParams& p) { p.keep_above = 0.0; }), std::invalid_argument);
-  EXPECT_THROW(with([](TargetParams& p) { p.keep_above = 0.7; }), std::invalid_argument);
+  EXPECT_THROW(with([](TargetParams& p) { p.take_above = 0.0; }), std::invalid_argument);
   EXPECT_THROW(with([](TargetParams& p) { p.identity.walk_mps = 0.0; }), std::invalid_argument);
   TargetTracker target;
   EXPECT_THROW(target.startAt({std::nan(""), 0.0}), std::invalid_argument);
