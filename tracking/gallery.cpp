@@ -218,8 +218,10 @@ void Gallery::addLookAt(int hypothesis, const Observation& seen, double weight) 
     rests_on = std::min(rests_on + weight, kMostWeight);
     person.misfit[part] += weight / rests_on * (best_misfit_[part] - person.misfit[part]);
   }
-  person.log_tallness +=
-      weight * (logTallness(seen) - params_.look_correlation * person.log_tallness);
+  if (seen.stature_m) {
+    person.log_tallness +=
+        weight * (logTallness(seen) - params_.look_correlation * person.log_tallness);
+  }
   average(hypothesis == kTarget ? lately_ : person, *seen.look, weight);
   if (hypothesis == kTarget) mixLately();
   refresh(person);

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct Body {
   Eigen::Vector2d place_m;
   const Eigen::ArrayXXf* look = nullptr;
   bool is_seen = true;
+  std::optional<double> stature_m = {};
 };
 
 /// Shows bodies to an Identity.
@@ -52,6 +54,7 @@ class Home {
       track.observation = static_cast<int>(observations.size());
       observations.push_back(test::seen(body.place_m.x(), body.place_m.y(), body.look));
       observations.back().log_person = log_person;
+      observations.back().stature_m = body.stature_m;
       report.uses.push_back({ObservationFate::kUpdated, GateVerdict::kAccepted, body.id});
     }
     stamp_s += dt_s;
@@ -499,6 +502,25 @@ TEST(Identity, TwoWhoMeetMayHaveSwappedAndAreToldApartAgainByLooks) {
   EXPECT_GT(home.target(1), 0.95);
   swapped.walk({1, {2, 1}, &kBlue}, 2.0, {{2, {2, -1}, &kRed}});
   EXPECT_GT(swapped.target(2), 0.8);
+}
+
+TEST(Identity, TwoInTheSameClothesAreToldApartByTheirStatures) {
+  TargetLooks looks = looksOf(kRed);
+  looks.stature_m = 1.8;
+  Home home({}, looks);
+  const auto bodies = [](double first_m, double second_m) {
+    return std::vector<Body>{{1, {0, 0}, &kRed, true, first_m}, {2, {4, 0}, &kRed, true, second_m}};
+  };
+  home.see(bodies(1.8, 1.6), 5);
+  EXPECT_GT(home.target(1), 0.9);
+  // Of the next observations, a track's own is as tall as it was.
+  EXPECT_GT(home.identity.logLikelihood(1, 0), home.identity.logLikelihood(1, 1) + 1.0);
+  EXPECT_GT(home.identity.logLikelihood(2, 1), home.identity.logLikelihood(2, 0) + 1.0);
+  home.swaps = {{1, 2, 0.5}};
+  home.see({{1, {2, 0}}, {2, {2.1, 0}}});
+  home.swaps.clear();
+  home.walk({1, {2, 1}, &kRed, true, 1.6}, 3.0, {{2, {2, -1}, &kRed, true, 1.8}});
+  EXPECT_GT(home.target(2), home.target(1));
 }
 
 TEST(Identity, LooksThatSayNothingLeaveOpenWhetherTwoHaveSwapped) {
