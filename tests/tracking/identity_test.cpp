@@ -512,7 +512,7 @@ TEST(Identity, TwoInTheSameClothesAreToldApartByTheirStatures) {
     return std::vector<Body>{{1, {0, 0}, &kRed, true, first_m}, {2, {4, 0}, &kRed, true, second_m}};
   };
   home.see(bodies(1.8, 1.6), 5);
-  EXPECT_GT(home.target(1), 0.9);
+  EXPECT_GT(home.target(1), 0.8);
   // Of the next observations, a track's own is as tall as it was.
   EXPECT_GT(home.identity.logLikelihood(1, 0), home.identity.logLikelihood(1, 1) + 1.0);
   EXPECT_GT(home.identity.logLikelihood(2, 1), home.identity.logLikelihood(2, 0) + 1.0);
