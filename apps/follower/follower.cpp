@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/follower/follower.hpp>
+#include <heel/apps/follower/standing_people.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -229,11 +230,8 @@ void Follower::notePeople() {
       person.velocity = track.motion.velocity_mps();
     }
   }
-  standing_.clear();
-  for (const MovingPerson& person : people_) {
-    if (person.velocity.norm() > params_.stands_mps) continue;
-    standing_.push_back({person.position, person.radius_m + params_.beside_people_m});
-  }
+  noteStanding({params_.stands_mps, params_.beside_people_m, params_.target_radius_m}, people_,
+               perception_->tracks(), layer_, standing_);
 }
 
 bool Follower::isMapped(const Vector2d& place) const {

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Around who stands a path leads another way, also while nobody looks at them.
+#pragma once
+
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/mapping/obstacle_layer.hpp>
+#include <heel/planning/surroundings.hpp>
+#include <heel/tracking/track.hpp>
+
+#include <vector>
+
+namespace heel {
+
+struct StandingPeopleParams {
+  double slower_than_mps = 0.0;  ///< Who is no faster stands.
+  double beside_m = 0.0;         ///< Room that is left beside their body.
+  double near_m = 0.0;           ///< Tracks so near to where somebody stood are of them.
+};
+
+/// Renews the discs of who stands. Who stood, and is neither seen nor among the people any more, is
+/// kept while the layer has something within half a body of their place: else a way around them
+/// would lead through them as soon as the camera turns to it.
+/// @param people  Who is known of now; in the frame of the discs, the layer and the tracks.
+void noteStanding(const StandingPeopleParams& params, const std::vector<MovingPerson>& people,
+                  const std::vector<Track>& tracks, const ObstacleLayer& layer,
+                  std::vector<FloorDisc>& standing);
+
+}  // namespace heel
