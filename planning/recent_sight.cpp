@@ -14,10 +14,11 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kStands_s = 30.0;  // Who came is taken for somebody who stands for so long.
-constexpr std::size_t kLooks = 20;  // So many are kept of the time that all is known,
-constexpr std::size_t kSpares = 4;  // and each so many'th is asked who came.
-constexpr double kSlip = 0.05;      // Of its way and its turn the odometry may miss so much.
+constexpr double kStands_s = 30.0;       // Who came is taken for somebody who stands for so long.
+constexpr std::size_t kLooks = 20;       // So many are kept of the time that all is known,
+constexpr std::size_t kMostLooks = 160;  // of all: for half a minute, if 4 s are remembered;
+constexpr std::size_t kSpares = 4;       // and each so many'th is asked who came.
+constexpr double kSlip = 0.05;           // Of its way and its turn the odometry may miss so much.
 constexpr double kNotYet = -std::numeric_limits<double>::infinity();
 constexpr double kCell_m = 0.05;        // Of the camera's points,
 constexpr int kCells = 48;              // so many on each side of a square about the robot.
@@ -43,8 +44,7 @@ RecentSight::RecentSight(const RecentSightParams& params, double range_m, double
       sigma_m_(kSurface_m / kSurfaceSigmas),
       surface_m_(kSurface_m),
       places_(kMostThings, 2),
-      looks_(1 + static_cast<std::size_t>(static_cast<double>(kLooks) *
-                                          std::max(1.0, kStands_s / params.remembers_s))),
+      looks_(kMostLooks),
       cells_(kCells * kCells),
       points_s_(kNotYet) {
   for (const double value :

@@ -40,7 +40,7 @@ struct SeenThing {
   bool by_laser;
   bool is_sure;              ///< By the laser, or in two pictures one after the other.
   bool roams;                ///< It came from elsewhere in the last `remembers_s`,
-  bool is_somebody;          ///< or in the last half minute: somebody may stand there.
+  bool is_somebody;          ///< or in the last half minute (at most 8 times that).
   Eigen::Vector2d velocity;  ///< Of what roams, the mean of all that is within a body's width.
   double gait_mps;  ///< Its owner's velocity is so far from that, any way; 0 for who stands.
 };

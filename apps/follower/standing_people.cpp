@@ -14,7 +14,7 @@ void noteStanding(const StandingPeopleParams& params, const std::vector<MovingPe
     const auto isNear = [&](const Eigen::Vector2d& place) {
       return (place - stood.center).norm() < params.near_m;
     };
-    return layer.distance(stood.center) > MovingPerson{}.radius_m ||
+    return layer.distance(stood.center) > stood.radius_m - params.beside_m ||
            std::any_of(people.begin(), people.end(),
                        [&](const MovingPerson& person) { return isNear(person.position); }) ||
            std::any_of(tracks.begin(), tracks.end(), [&](const Track& track) {

@@ -230,6 +230,15 @@ double passedBesideALeg(const Eigen::Vector2d& leg, bool came) {
   return gate.pass({0.3, 0.0}, {}, 0.0, 5.9).velocity.forward_mps;
 }
 
+// Bug: the memory was as large as half a minute over the time that is remembered.
+TEST(RecentSight, MayRememberNothing) {
+  RecentSightParams params;
+  params.remembers_s = 0.0;
+  RecentSight sight(params, 3.0);
+  sight.addScan(wallAhead(0.8), {}, 0.1);
+  EXPECT_FALSE(sight.things().empty());
+}
+
 // Bug: the robot set off along somebody who had come up to it unseen.
 TEST(LastGate, KeepsOffWhoCameWhileItLookedElsewhere) {
   EXPECT_EQ(passedBesideALeg({0.45, 0.1}, true), 0.0);
