@@ -72,9 +72,9 @@ LocalPlanner::LocalPlanner(const LocalPlannerParams& params) : params_(params) {
     throw std::invalid_argument("a horizon must be 5 to 1000 control periods long");
   }
   for (const double value :
-       {params.margin_m, params.people_margin_m, params.slow_gap_m, params.slow_people_gap_m,
-        params.least_speed_mps, params.give_way_gap_m, params.give_way_s, params.look_away_s,
-        params.arrive_m, params.depart_m - params.arrive_m,
+       {params.margin_m, params.people_margin_m, params.slow_gap_m, params.walks_mps,
+        params.reacts_s, params.least_speed_mps, params.give_way_gap_m, params.give_way_s,
+        params.look_away_s, params.arrive_m, params.depart_m - params.arrive_m,
         static_cast<double>(params.latency_periods)}) {
     if (!(value >= 0.0)) throw std::invalid_argument("a local planner's parameter is negative");
   }
@@ -301,30 +301,37 @@ VelocityCommand LocalPlanner::slowed(const DriveScene& scene, const VelocityComm
       params_.slow_gap_m > 0.0 ? std::clamp(gap_m / params_.slow_gap_m, 0.0, 1.0) : 1.0;
   double allowed = params_.least_speed_mps + share * (most - params_.least_speed_mps);
   const double way = command.forward_mps < 0.0 ? -1.0 : 1.0;
-  for (const MovingPerson& person : *scene.people) {
-    allowed = std::min(allowed, allowedTowards(scene, person, way));
+  for (const auto* people : {scene.people, &hidden_}) {
+    for (const MovingPerson& person : *people) {
+      allowed = std::min(allowed, allowedTowards(scene, person, way));
+    }
   }
+  allowed = std::max(allowed, params_.least_speed_mps);
   const double speed = std::abs(command.forward_mps);
   if (speed <= allowed) return command;
   return {allowed / speed * command.forward_mps,
           allowed / speed * command.turn_radps};  // Same arc.
 }
 
-/// The speed forwards or backwards at which the robot may come towards somebody.
+// They may come straight at the robot, which drives on for reacts_s, brakes, and stands when they
+// are there: room = comes (reacts + v / brakes) + towards (v reacts + v^2 / (2 brakes)).
 double LocalPlanner::allowedTowards(const DriveScene& scene, const MovingPerson& person,
                                     double way) const {
   const DriveLimits& limits = params_.limits;
-  const Vector2d to = person.position - scene.now.pose.position;
-  const double yaw = scene.now.pose.yaw_rad;
-  const double towards = way * to.dot(Vector2d(std::cos(yaw), std::sin(yaw))) / to.norm();
+  const FloorPose& pose = scene.now.pose;
+  const Vector2d to = person.position - axisOf(limits, pose).nearest(person.position);
+  const double away_m = to.norm();
+  const double towards = way * to.dot(Vector2d(std::cos(pose.yaw_rad), std::sin(pose.yaw_rad)));
   if (!(towards > 0.0)) return kInfinite;
-  const double braked_s = (1.0 + params_.latency_periods) * limits.period_s +
-                          std::abs(scene.now.speed.forward_mps) / limits.max_acceleration_mps2;
-  const double room_m = roomToWay(person, limits, scene.now.pose, braked_s);
-  const double full_m = params_.slow_people_gap_m - params_.people_margin_m;
-  const double free_m = room_m - params_.people_margin_m;
-  const double free = full_m > 0.0 ? std::clamp(free_m / full_m, 0.0, 1.0) : 1.0;
-  return free < 1.0 ? free * limits.max_speed_mps / towards : kInfinite;
+  const double leaves_mps = person.velocity.dot(to) / away_m;
+  const double comes_mps =
+      std::max(-leaves_mps, std::max(params_.walks_mps - std::max(leaves_mps, 0.0), 0.0));
+  const double share = towards / away_m, brakes_mps2 = limits.max_acceleration_mps2;
+  const double room_m = away_m - limits.radius_m - person.radius_m;
+  const double b = comes_mps + share * brakes_mps2 * params_.reacts_s;
+  const double spare_m = room_m - comes_mps * params_.reacts_s;
+  if (!(spare_m > 0.0)) return 0.0;
+  return 2.0 * brakes_mps2 * spare_m / (b + std::sqrt(b * b + 2.0 * share * brakes_mps2 * spare_m));
 }
 
 void LocalPlanner::explain(const DriveScene& scene, LocalPlan& plan, bool threatened) {

@@ -25,10 +25,11 @@ struct LocalPlannerParams {
   /// Room that is left to people when the robot has braked, wherever on their way they are then.
   double people_margin_m = 0.1;
   double slow_gap_m = 0.08;       ///< With less room to things than this the robot slows down.
-  double least_speed_mps = 0.08;  ///< Speed where things leave no room to slow down for.
-  /// With less room to somebody than this, where they and the robot can be when it has braked, it
-  /// comes towards them more slowly, and at people_margin_m not at all.
-  double slow_people_gap_m = 0.3;
+  double least_speed_mps = 0.08;  ///< It slows down no further than to this.
+  /// Who stands may walk at the robot as fast as this at any moment: it comes towards people only
+  /// as fast as lets it stand when they reach it, or at `least_speed_mps`. A walk about the house.
+  double walks_mps = 0.7;
+  double reacts_s = 0.2;  ///< From somebody's step until the robot begins to brake.
   /// A robot that has stood so long to keep a person in view may turn away from them.
   double look_away_s = 0.5;
   double give_way_gap_m = 0.2;  ///< The robot backs off when a person will come nearer than this.
@@ -101,7 +102,11 @@ class LocalPlanner {
                  const std::optional<Eigen::Vector2d>& face = std::nullopt,
                  Permission permits = kAnyCommand);
 
-  /// Forgets what went before.
+  /// Who may come out of where nobody sees, from now on: it comes towards them no faster than
+  /// towards those who stand, and minds them no further.
+  void expect(const std::vector<MovingPerson>& hidden) { hidden_ = hidden; }
+
+  /// Forgets what went before, but for who is expected.
   void reset();
 
   const LocalPlannerParams& params() const { return params_; }
@@ -134,6 +139,7 @@ class LocalPlanner {
   double waited_s_ = 0.0;  // since it last drove, with a way to go
   double backs_s_ = 0.0;   // so long a long body still backs off
   double gap_m_ = 0.0;
+  std::vector<MovingPerson> hidden_;
   PathAhead path_;
   Trajectories futures_;
   std::vector<double> gaps_m_;         // Of the future at hand, per step.

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <heel/apps/experiment/random_wardrobe.hpp>
 #include <heel/apps/experiment/rough_world.hpp>
+#include <heel/apps/simulation/floor_plan.hpp>
 #include <heel/apps/simulation/random.hpp>
 
 #include <algorithm>
@@ -15,19 +17,115 @@
 namespace heel {
 namespace {
 
+using Eigen::Vector2d;
+
 struct RoughSwitch {
   const char* name;
   bool RoughWorld::*flag;
 };
-constexpr std::array<RoughSwitch, 6> kRoughSwitches = {{{"people", &RoughWorld::people},
-                                                        {"latency", &RoughWorld::latency},
-                                                        {"map", &RoughWorld::map},
-                                                        {"laser", &RoughWorld::laser},
-                                                        {"light", &RoughWorld::light},
-                                                        {"odometry", &RoughWorld::odometry}}};
+constexpr std::array<RoughSwitch, 10> kRoughSwitches = {{{"people", &RoughWorld::people},
+                                                         {"hurry", &RoughWorld::hurry},
+                                                         {"company", &RoughWorld::company},
+                                                         {"skirts", &RoughWorld::skirts},
+                                                         {"drawers", &RoughWorld::drawers},
+                                                         {"latency", &RoughWorld::latency},
+                                                         {"map", &RoughWorld::map},
+                                                         {"laser", &RoughWorld::laser},
+                                                         {"light", &RoughWorld::light},
+                                                         {"odometry", &RoughWorld::odometry}}};
 constexpr double kLaserView_rad = 220.0 / 180.0 * M_PI;
 constexpr double kMapOff_m = 0.1;
 constexpr double kBias = 0.03;
+constexpr double kBesideOneAnother_m = 0.55;
+constexpr double kRoomToWalk_m = 0.3;
+
+void hurry(ScenePerson& person, double faster, RandomStream& random) {
+  std::vector<PathStep> path;
+  Vector2d at = person.start;
+  for (PathStep step : person.path) {
+    if (step.kind == PathStep::Kind::kWalk) {
+      step.speed_mps *= faster;
+      if (random.uniform() < 0.15) {  // of steps of up to 1.1 m
+        PathStep half = step, stop;
+        half.to = 0.5 * (at + step.to);
+        stop.wait_s = random.uniform(0.5, 2.0);
+        path.insert(path.end(), {half, stop});
+      }
+      at = step.to;
+    }
+    path.push_back(step);
+  }
+  person.path = std::move(path);
+}
+
+// Beside them on the left where there is room, else in their steps.
+ScenePerson besideThem(const ScenePerson& person, const FloorPlan& plan, ScenePerson other) {
+  other.name = person.name + "'s company";
+  other.path = person.path;
+  other.repeat = person.repeat;
+  Vector2d at = person.start;
+  const auto beside = [&](const Vector2d& to) -> Vector2d {
+    const Vector2d way = (to - at).normalized();
+    const Vector2d place = to + kBesideOneAnother_m * Vector2d(-way.y(), way.x());
+    at = to;
+    return plan.clearance(place) > kRoomToWalk_m ? place : to;
+  };
+  other.start = beside(at + Vector2d::UnitX() * 1e-3);
+  if ((other.start - person.start).norm() < 0.5 * kBesideOneAnother_m) {
+    at = person.start;
+    other.start = beside(at - Vector2d::UnitX() * 1e-3);
+  }
+  at = person.start;
+  for (PathStep& step : other.path) {
+    if (step.kind == PathStep::Kind::kWalk) step.to = beside(step.to);
+  }
+  return other;
+}
+
+void addCompany(Scene& scene, std::uint64_t seed) {
+  RandomStream random(hashOf(seed, 75));
+  const FloorPlan plan(scene);
+  const Wardrobe wardrobe = randomWardrobe(hashOf(seed, 76));
+  const std::size_t others = scene.people.size();
+  for (std::size_t i = 1; i < others; ++i) {
+    const bool is_alone = random.uniform() < 0.5, is_child = random.uniform() < 0.5;
+    const double child_m = random.uniform(1.0, 1.3);
+    if (is_alone) continue;
+    ScenePerson other = wardrobe.people[i % wardrobe.people.size()];
+    if (is_child) other.height_m = child_m;
+    scene.people.push_back(besideThem(scene.people[i], plan, std::move(other)));
+  }
+}
+
+// In front of the piece, where nobody's way leads.
+void openDrawers(Scene& scene, std::uint64_t seed) {
+  RandomStream random(hashOf(seed, 77));
+  const FloorPlan plan(scene);
+  const std::vector<Furniture> pieces = scene.furniture;
+  for (const Furniture& piece : pieces) {
+    const bool has_drawers = piece.name == "cupboard" || piece.name == "desk";
+    const bool is_open = random.uniform() < 0.5;
+    const double low_m = random.uniform(0.4, 0.75), out_m = random.uniform(0.25, 0.4);
+    if (!has_drawers || !is_open) continue;
+    const FurniturePart& body = piece.parts.front();
+    const Eigen::Rotation2Dd turn(body.yaw_rad);
+    FurniturePart drawer = body;
+    drawer.size_m = {out_m, 0.45, 0.15};
+    const Vector2d ahead = turn * Vector2d(0.5 * (body.size_m.x() + out_m), 0.0);
+    drawer.base += Eigen::Vector3d(ahead.x(), ahead.y(), low_m - body.base.z());
+    const Vector2d before = drawer.base.head<2>() + turn * Vector2d(0.5 * out_m + 0.5, 0.0);
+    const auto is_passed = [&](const ScenePerson& person) {
+      return std::any_of(person.path.begin(), person.path.end(), [&](const PathStep& step) {
+        return step.kind == PathStep::Kind::kWalk && (step.to - drawer.base.head<2>()).norm() < 0.9;
+      });
+    };
+    if (plan.clearance(before) < 0.4 ||
+        std::any_of(scene.people.begin(), scene.people.end(), is_passed)) {
+      continue;
+    }
+    scene.furniture.push_back({"open drawer", false, {drawer}});
+  }
+}
 
 }  // namespace
 
@@ -60,7 +158,20 @@ RoughWorld roughWorldOf(const std::string& list) {
 
 Scene roughened(Scene scene, const RoughWorld& rough, std::uint64_t seed) {
   RandomStream random(hashOf(seed, 71));
-  for (ScenePerson& person : scene.people) person.sees_robot = person.sees_robot && !rough.people;
+  if (rough.hurry) {
+    RandomStream paces(hashOf(seed, 74));
+    for (ScenePerson& person : scene.people) {
+      const bool is_other = &person != &scene.people.front();
+      hurry(person, is_other ? paces.uniform(1.0, 1.6) : 1.0, paces);
+    }
+  }
+  if (rough.company) addCompany(scene, seed);
+  if (rough.drawers) openDrawers(scene, seed);
+  RandomStream skirts(hashOf(seed, 78));
+  for (ScenePerson& person : scene.people) {
+    person.sees_robot = person.sees_robot && !rough.people;
+    person.outfit.skirt = skirts.uniform() < 0.5 && rough.skirts;
+  }
   LaserParams& laser = scene.robot.laser;
   if (rough.laser && laser.view_rad > kLaserView_rad) {
     laser.beams =

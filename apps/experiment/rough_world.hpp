@@ -15,7 +15,13 @@ namespace heel {
 
 /// What is rough; how rough is drawn from the run's seed.
 struct RoughWorld {
-  bool people = false;   ///< People do not see the robot: see ScenePerson::sees_robot.
+  bool people = false;  ///< People do not see the robot: see ScenePerson::sees_robot.
+  /// Others walk up to 1.6 times as fast, and anybody stops for up to 2 s, about every 7 m.
+  bool hurry = false;
+  /// Half of the others walk with somebody beside them, who is a child or not.
+  bool company = false;
+  bool skirts = false;   ///< Half of all wear a long skirt, in which no laser sees legs.
+  bool drawers = false;  ///< Half of all cupboards have an open drawer that the map does not show.
   bool latency = false;  ///< Pictures, scans and the wheels are late, with jitter: see Latencies.
   bool map = false;    ///< In the robot's map furniture is up to 0.1 m off, and a piece is missing.
   bool laser = false;  ///< The laser sees 220 degrees ahead.

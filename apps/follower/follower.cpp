@@ -3,6 +3,7 @@
 
 #include <heel/apps/follower/follower.hpp>
 #include <heel/apps/follower/standing_people.hpp>
+#include <heel/planning/hiding_places.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -159,6 +160,11 @@ void Follower::localize(const RobotReadings& readings) {
   if (readings.scan != nullptr) {
     scan_s_ = std::max(scan_s_, steady_s_ - watch_.scanAge_s());
     last_gate_.addScan(*readings.scan, motion_.at(scan_s_), scan_s_);
+    const FloorPose from_motion = step_.robot.pose * motion_.pose().inverse();
+    findHidingPlaces(
+        *readings.scan, motion_.at(scan_s_) * robot_.T_base_scanner,
+        [&](const Vector2d& place) { return room_.clearance(from_motion * place); },
+        MovingPerson().radius_m, hiding_places_);
   }
   if (localization_) {
     findOnMap(readings.scan);

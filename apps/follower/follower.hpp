@@ -143,6 +143,8 @@ class Follower {
   GlobalPlanner planner_;
   LocalPlanner local_planner_;
   LastGate last_gate_;
+  std::vector<Eigen::Vector2d> hiding_places_;  // in the odometry's frame
+  std::vector<MovingPerson> hidden_;            // there, on the map
   GoalChooser goal_chooser_;
   std::optional<PersonSearch> search_;  // the same
   std::vector<DoorwayOnMap> doorways_;

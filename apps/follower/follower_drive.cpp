@@ -307,6 +307,10 @@ VelocityCommand Follower::localCommand(const std::optional<Vector2d>& face) {
   };
   last_gate_.locate({motion_.pose(), speed_}, steady_s_ - motion_.stamp_s(), steady_s_);
   const auto permits = [&](const VelocityCommand& velocity) { return last_gate_.lets(velocity); };
+  hidden_.clear();
+  const FloorPose from_motion = to_motion.inverse();
+  for (const Vector2d& place : hiding_places_) hidden_.push_back({from_motion * place});
+  local_planner_.expect(hidden_);
   const LocalPlan now =
       local_planner_.step(step_.robot.pose, speed_, plan_.path, room, people_, face, permits);
   has_arrived_ = now.status == DriveStatus::kArrived || now.blocked_s > params_.give_up_s;

@@ -61,6 +61,8 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   params.drive.limits = robot.drive;
   params.search.map.limits = robot.drive;
   params.search.map.limits.radius_m = turningRadius(robot.drive);  // It looks around there.
+  params.drive.reacts_s =
+      robot.scan_latency_s + robot.wheels_latency_s + 2.0 * robot.drive.period_s;
   LastGateParams& gate = params.last_gate;
   gate.limits = robot.drive;
   gate.sight.T_base_scanner = robot.T_base_scanner;

@@ -89,6 +89,12 @@ void addLeg(Sculptor& sculptor, const Isometry3f& pelvis, float side, const LegP
                BodyCover::kShoes, ankle);
 }
 
+// From the hips to the shins.
+void addSkirt(Sculptor& sculptor, const Isometry3f& pelvis) {
+  sculptor.add(pelvis, {0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, -kThigh - 0.25F * kShin}, 0.085F, 0.105F,
+               BodyCover::kTrousers, pelvis);
+}
+
 void addArm(Sculptor& sculptor, const Isometry3f& chest, float side, float swing,
             const Outfit& outfit) {
   const Isometry3f shoulder = sculptor.at(chest, 0.0F, side * 0.112F, 0.172F) * turnedY(-swing) *
@@ -158,6 +164,7 @@ void appendBody(const ScenePerson& person, int index, const BodyPose& pose,
                            turnedY(static_cast<float>(0.06 * swing));
   addLeg(sculptor, pelvis, 1.0F, left);
   addLeg(sculptor, pelvis, -1.0F, right);
+  if (person.outfit.skirt) addSkirt(sculptor, pelvis);
   addTorso(sculptor, pelvis, chest);
   const auto arm = static_cast<float>(0.75 * swing * std::sin(pose.gait_rad));
   addArm(sculptor, chest, 1.0F, sway - arm, person.outfit);

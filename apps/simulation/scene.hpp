@@ -103,6 +103,7 @@ struct Outfit {
   Garment trousers;
   bool long_sleeves = true;
   bool long_hair = false;
+  bool skirt = false;  ///< A long one of the trousers' cloth instead of them.
   Rgb shoes = Rgb(0.03F, 0.03F, 0.03F);
   Rgb hair = Rgb(0.05F, 0.03F, 0.02F);
   Rgb skin = Rgb(0.7F, 0.45F, 0.32F);

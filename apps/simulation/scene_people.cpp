@@ -48,6 +48,7 @@ Outfit readOutfit(YamlMap& map) {
   outfit.trousers = readGarment(map, "trousers", outfit.trousers);
   outfit.long_sleeves = map.choice("sleeves", {"short", "long"}, 1) == 1;
   outfit.long_hair = map.choice("hair_length", {"short", "long"}, 0) == 1;
+  outfit.skirt = map.flag("skirt", false);
   outfit.shoes = readColor(map, "shoes", outfit.shoes);
   outfit.hair = readColor(map, "hair", outfit.hair);
   outfit.skin = readColor(map, "skin", outfit.skin);

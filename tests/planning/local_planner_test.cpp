@@ -19,6 +19,7 @@ using test::DriveLoop;
 using test::LineWalker;
 
 using Path = std::vector<Vector2d>;
+using People = std::vector<MovingPerson>;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 DrawnFloor emptyRoom() {
@@ -52,6 +53,35 @@ TEST(LocalPlanner, DrivesStraightAtFullSpeedAndStopsAtTheGoal) {
   EXPECT_NEAR(loop.state().speed.forward_mps, 0.0, 1e-9);
   EXPECT_GT(loop.movingSpeed(), 0.26);
   EXPECT_EQ(loop.turnReversals(), 0);
+}
+
+/// How far it is from somebody when it stands, if they walk up to it as soon as it has decided.
+double roomWhenItStands(const LocalPlannerParams& params, double mps, double room_m) {
+  const double brakes_s = mps / params.limits.max_acceleration_mps2;
+  return room_m - mps * (params.reacts_s + 0.5 * brakes_s) -
+         params.walks_mps * (params.reacts_s + brakes_s);
+}
+
+TEST(LocalPlanner, StandsWhenWhoStandsOrHidesAheadCouldReachIt) {
+  const LocalPlannerParams params;
+  const Path ahead{{0, 0}, {3, 0}};
+  const auto open = [](const Vector2d&) { return 10.0; };
+  for (const bool hides : {false, true}) {
+    int slowed = 0;
+    for (double room_m = 0.4; room_m < 1.0; room_m += 0.05) {
+      MovingPerson person;
+      person.position.x() = params.limits.radius_m + person.radius_m + room_m;
+      LocalPlanner planner(params);
+      if (hides) planner.expect({person});
+      const LocalPlan plan = planner.step({}, {}, ahead, open, hides ? People{} : People{person});
+      const double mps = plan.command.forward_mps;
+      EXPECT_GE(roomWhenItStands(params, mps, room_m), -1e-9) << room_m;
+      if (mps < 0.99 * params.limits.max_speed_mps) ++slowed;
+      EXPECT_TRUE(mps > 0.0 || !hides) << "it goes there";
+    }
+    EXPECT_GT(slowed, 3);
+    EXPECT_LT(slowed, 12);
+  }
 }
 
 TEST(LocalPlanner, TurnsOnTheSpotToAPathBehindIt) {

@@ -23,8 +23,9 @@ TEST(RoughWorld, IsReadFromNames) {
                none.odometry);
   const RoughWorld some = roughWorldOf("map,people");
   EXPECT_TRUE(some.map && some.people);
-  EXPECT_FALSE(some.latency || some.laser || some.light || some.odometry);
+  EXPECT_FALSE(some.hurry || some.latency || some.laser || some.light || some.odometry);
   const RoughWorld all = roughWorldOf("all");
+  EXPECT_TRUE(all.hurry && all.company && all.skirts && all.drawers);
   EXPECT_TRUE(all.people && all.latency && all.map && all.laser && all.light && all.odometry);
 }
 
@@ -34,7 +35,9 @@ TEST(RoughWorld, NamesTheSwitchesThatThereAre) {
       roughWorldOf(list);
       ADD_FAILURE() << list;
     } catch (const std::invalid_argument& error) {
-      EXPECT_THAT(error.what(), HasSubstr("people, latency, map, laser, light, odometry, and all"));
+      EXPECT_THAT(error.what(),
+                  HasSubstr("people, hurry, company, skirts, drawers, latency, map, laser, light, "
+                            "odometry, and all"));
     }
   }
 }
@@ -68,6 +71,84 @@ TEST(RoughWorld, ChangesWhatIsNamedAndNoMore) {
   EXPECT_NE(roughened(scene, roughWorldOf("odometry"), 3).robot.odometry.turn_bias, 0.0);
   EXPECT_EQ(latenciesOf(roughWorldOf("map"), 3).camera_s, 0.0);
   EXPECT_GE(latenciesOf(roughWorldOf("latency"), 3).camera_s, 0.1);
+}
+
+/// The small home, where two more walk to and fro across the room.
+Scene busyHome() {
+  Scene scene = test::smallHome();
+  for (const char* name : {"bo", "cy"}) {
+    ScenePerson other;
+    other.name = name;
+    other.start = {3.0, 1.0};
+    other.repeat = true;
+    for (int i = 0; i < 100; ++i) {
+      PathStep step;
+      step.kind = PathStep::Kind::kWalk;
+      step.to = {i % 2 == 0 ? 4.0 : 3.0, 1.0};
+      other.path.push_back(step);
+    }
+    scene.people.push_back(other);
+  }
+  return scene;
+}
+
+TEST(RoughWorld, OthersHurryAndAnybodyStopsNowAndThen) {
+  const Scene scene = busyHome();
+  const Scene rough = roughened(scene, roughWorldOf("hurry"), 3);
+  ASSERT_EQ(rough.people.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double before_mps = scene.people[i].path.back().speed_mps;
+    double faster = 0.0;
+    int stops = 0;
+    for (const PathStep& step : rough.people[i].path) {
+      if (step.kind == PathStep::Kind::kWalk) faster = step.speed_mps / before_mps;
+      stops += step.kind == PathStep::Kind::kWait && step.wait_s >= 0.5 ? 1 : 0;
+      EXPECT_LE(step.kind == PathStep::Kind::kWait ? step.wait_s : 0.0, 2.0);
+    }
+    if (i == 0) continue;
+    EXPECT_GT(faster, 1.0);
+    EXPECT_LE(faster, 1.6);
+    EXPECT_GT(stops, 5);
+    EXPECT_LT(stops, 30);
+    EXPECT_EQ(rough.people[i].path.back().to, scene.people[i].path.back().to);
+  }
+}
+
+TEST(RoughWorld, CompanyWalksBesideOthers) {
+  int companions = 0, children = 0;
+  const Scene scene = busyHome();
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Scene rough = roughened(scene, roughWorldOf("company"), seed);
+    for (std::size_t i = 3; i < rough.people.size(); ++i, ++companions) {
+      const ScenePerson& one = rough.people[i];
+      children += one.height_m < 1.3 ? 1 : 0;
+      EXPECT_NE(one.name, "ida's company");
+      EXPECT_NEAR((one.start - scene.people[1].start).norm(), 0.55, 0.01);
+      ASSERT_EQ(one.path.size(), 100U);
+      for (const PathStep& step : one.path) {
+        EXPECT_NEAR(std::abs(step.to.y() - 1.0), 0.55, 0.01) << "beside the way, which is along X";
+      }
+    }
+  }
+  EXPECT_GT(companions, 10);
+  EXPECT_LT(companions, 30);
+  EXPECT_GT(children, 3);
+  EXPECT_LT(children, companions - 3);
+}
+
+TEST(RoughWorld, OpensDrawersThatNoMapShows) {
+  int drawers = 0;
+  const Scene scene = busyHome();
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Scene rough = roughened(scene, roughWorldOf("drawers"), seed);
+    for (std::size_t i = scene.furniture.size(); i < rough.furniture.size(); ++i, ++drawers) {
+      const FurniturePart& drawer = rough.furniture[i].parts.front();
+      EXPECT_FALSE(rough.furniture[i].in_map);
+      EXPECT_GT(drawer.base.z(), rough.robot.laser.at.z()) << "no laser sees it";
+      EXPECT_LT(drawer.base.z(), rough.robot.height_m);
+    }
+  }
+  EXPECT_GT(drawers, 5);
 }
 
 // All of it in a small home: the robot touches nothing by itself.

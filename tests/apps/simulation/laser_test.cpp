@@ -72,6 +72,26 @@ TEST(Laser, HasTheNoiseThatIsConfigured) {
   EXPECT_NEAR(std::sqrt(sum2 / count), 0.02, 0.001);
 }
 
+// Beams of 1 degree end on two legs with a gap between them, or on all of a skirt.
+TEST(Laser, SeesNoLegsInALongSkirt) {
+  for (const bool skirt : {false, true}) {
+    Scene scene = test::squareRoom();
+    scene.people.push_back(test::standingPerson("eva", 1.0, 0.0));
+    scene.people[0].outfit.skirt = skirt;
+    scene.people[0].start_yaw_rad = M_PI;
+    Simulator simulator(scene, {1, 0, false});
+    const LaserScan& scan = *simulator.step(0.0).laser;
+    int hits = 0, edges = 0;
+    for (std::size_t i = 1; i < scan.ranges_m.size(); ++i) {
+      const bool before = scan.ranges_m[i - 1] < 1.5F, now = scan.ranges_m[i] < 1.5F;
+      hits += now ? 1 : 0;
+      edges += before != now ? 1 : 0;
+    }
+    EXPECT_EQ(edges, skirt ? 2 : 4);
+    EXPECT_GT(hits, skirt ? 18 : 5);
+  }
+}
+
 TEST(Laser, SeesNothingBeyondItsRange) {
   Scene scene = test::squareRoom();
   scene.robot.laser.max_range_m = 2.0;
