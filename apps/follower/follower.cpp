@@ -214,14 +214,10 @@ void Follower::lookAround(const RobotReadings& readings) {
   room_.setLayer({}, &layer_.window());
 }
 
-// Who walks is left to the local planner; around who stands leads another way.
+// Who walks is left to the local planner; around who stands leads another way, but for the target:
+// the way leads to them.
 void Follower::notePeople() {
   people_.clear();
-  if (person_) {
-    people_.push_back(*person_);
-  } else if (unseen_s_ < params_.walks_on_s) {  // passes where no sensor looks
-    people_.push_back(expected());
-  }
   const Identity& identity = perception_->identity();
   for (const Track& track : perception_->tracks()) {
     if (track.status == TrackStatus::kTentative) continue;
@@ -238,6 +234,11 @@ void Follower::notePeople() {
   }
   noteStanding({params_.stands_mps, params_.beside_people_m, params_.target_radius_m}, people_,
                perception_->tracks(), layer_, standing_);
+  if (person_) {
+    people_.push_back(*person_);
+  } else if (unseen_s_ < params_.walks_on_s) {  // passes where no sensor looks
+    people_.push_back(expected());
+  }
 }
 
 bool Follower::isMapped(const Vector2d& place) const {
@@ -347,13 +348,15 @@ void Follower::checkFacts() {
   const FloorPose& pose = step_.robot.pose;
   const double away_m = step_.target ? (*step_.target - pose.position).norm() : 0.0;
   facts_[Fact::kTargetSeen] = step_.target.has_value();
-  facts_[Fact::kTargetLost] = !step_.target && unseen_s_ > params_.lost_after_s;
+  const bool is_ahead = std::abs(bearingOf(pose, expected().position)) < params_.ahead_rad;
+  // Who is out of view because the way to them leads round something is not lost yet.
+  const bool is_on_the_way = step_.path != nullptr && !has_arrived_;
+  facts_[Fact::kTargetLost] =
+      !step_.target && unseen_s_ > params_.lost_after_s && (is_ahead || !is_on_the_way);
   facts_[Fact::kNear] = step_.target && away_m < params_.near_m;
   facts_[Fact::kFar] = step_.target && away_m > params_.far_m;
   facts_[Fact::kArrived] = has_arrived_;
-  facts_[Fact::kLookedAround] =
-      turned_rad_ > kFullTurn_rad ||
-      (!suspect() && std::abs(bearingOf(pose, expected().position)) < params_.ahead_rad);
+  facts_[Fact::kLookedAround] = turned_rad_ > kFullTurn_rad || (!suspect() && is_ahead);
   facts_[Fact::kFullTurn] = turned_rad_ > kFullTurn_rad;
   facts_[Fact::kSearchOver] = search_ && search_->isOver();
   facts_[Fact::kBlind] = !watch_.blindness().empty() || step_.robot.lost;

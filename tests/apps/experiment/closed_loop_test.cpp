@@ -251,6 +251,25 @@ TEST(ClosedLoop, LetsThePersonOutOfADeadEnd) {
   EXPECT_LT(log.samples.back().person_true->x(), 2.5) << "and she came out";
 }
 
+// She stands beside a doorway, behind the wall: the way to her leads out of view of her. There is a
+// second doorway, and she is no reason to go round by it.
+TEST(ClosedLoop, GoesThroughTheDoorwayThatThePersonStandsBehind) {
+  Scene scene = test::smallHome();
+  Wall wall = scene.walls.front();
+  wall.from = {4.4, 0.0};
+  wall.to = {4.4, 4.0};
+  wall.doors = {{1.0, 0.9}, {3.0, 0.9}};
+  scene.walls.push_back(wall);
+  std::vector<PathStep>& path = scene.people.front().path;
+  path.back().to = {4.0, 1.0};
+  for (const Eigen::Vector2d& to : {Eigen::Vector2d(4.5, 1.0), Eigen::Vector2d(5.0, 1.6)}) {
+    path.push_back(path.back());
+    path.back().to = to;
+  }
+  const FollowLog log = follow(scene, {}, 1, 25.0);
+  EXPECT_EQ(log.outcome, "reached");
+}
+
 TEST(ClosedLoop, IsTheSameToTheLastBitForTheSameSeedAndNoOther) {
   const FollowLog one = follow(test::smallHome()), same = follow(test::smallHome());
   const FollowLog other = follow(test::smallHome(), {}, 2);
