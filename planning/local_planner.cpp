@@ -325,7 +325,7 @@ double LocalPlanner::allowedTowards(const DriveScene& scene, const MovingPerson&
   if (!(towards > 0.0)) return kInfinite;
   const double leaves_mps = person.velocity.dot(to) / away_m;
   const double comes_mps =
-      std::max(-leaves_mps, std::max(params_.walks_mps - std::max(leaves_mps, 0.0), 0.0));
+      std::max({-leaves_mps, params_.walks_mps - std::max(leaves_mps, 0.0), 0.0});
   const double share = towards / away_m, brakes_mps2 = limits.max_acceleration_mps2;
   const double room_m = away_m - limits.radius_m - person.radius_m;
   const double b = comes_mps + share * brakes_mps2 * params_.reacts_s;

@@ -58,26 +58,25 @@ void hurry(ScenePerson& person, double faster, RandomStream& random) {
   person.path = std::move(path);
 }
 
-// Beside them on the left where there is room, else in their steps.
+// Beside them where there is room, else in their steps.
 ScenePerson besideThem(const ScenePerson& person, const FloorPlan& plan, ScenePerson other) {
   other.name = person.name + "'s company";
   other.path = person.path;
   other.repeat = person.repeat;
-  Vector2d at = person.start;
-  const auto beside = [&](const Vector2d& to) -> Vector2d {
-    const Vector2d way = (to - at).normalized();
-    const Vector2d place = to + kBesideOneAnother_m * Vector2d(-way.y(), way.x());
-    at = to;
-    return plan.clearance(place) > kRoomToWalk_m ? place : to;
+  const auto besideOf = [&plan](const Vector2d& place, const Vector2d& way) -> Vector2d {
+    for (const double side_m : {kBesideOneAnother_m, -kBesideOneAnother_m}) {
+      const Vector2d beside = place + side_m * Vector2d(-way.y(), way.x());
+      if (plan.clearance(beside) > kRoomToWalk_m) return beside;
+    }
+    return place;
   };
-  other.start = beside(at + Vector2d::UnitX() * 1e-3);
-  if ((other.start - person.start).norm() < 0.5 * kBesideOneAnother_m) {
-    at = person.start;
-    other.start = beside(at - Vector2d::UnitX() * 1e-3);
-  }
-  at = person.start;
+  other.start = besideOf(person.start, Vector2d::UnitX());
+  Vector2d at = person.start;
   for (PathStep& step : other.path) {
-    if (step.kind == PathStep::Kind::kWalk) step.to = beside(step.to);
+    if (step.kind != PathStep::Kind::kWalk) continue;
+    const Vector2d to = step.to;
+    step.to = besideOf(to, (to - at).normalized());
+    at = to;
   }
   return other;
 }
@@ -170,7 +169,7 @@ Scene roughened(Scene scene, const RoughWorld& rough, std::uint64_t seed) {
   RandomStream skirts(hashOf(seed, 78));
   for (ScenePerson& person : scene.people) {
     person.sees_robot = person.sees_robot && !rough.people;
-    person.outfit.skirt = skirts.uniform() < 0.5 && rough.skirts;
+    if (rough.skirts) person.outfit.skirt = skirts.uniform() < 0.5;
   }
   LaserParams& laser = scene.robot.laser;
   if (rough.laser && laser.view_rad > kLaserView_rad) {

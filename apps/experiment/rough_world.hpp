@@ -21,7 +21,7 @@ struct RoughWorld {
   /// Half of the others walk with somebody beside them, who is a child or not.
   bool company = false;
   bool skirts = false;   ///< Half of all wear a long skirt, in which no laser sees legs.
-  bool drawers = false;  ///< Half of all cupboards have an open drawer that the map does not show.
+  bool drawers = false;  ///< Cupboards and desks have open drawers that the map does not show.
   bool latency = false;  ///< Pictures, scans and the wheels are late, with jitter: see Latencies.
   bool map = false;    ///< In the robot's map furniture is up to 0.1 m off, and a piece is missing.
   bool laser = false;  ///< The laser sees 220 degrees ahead.

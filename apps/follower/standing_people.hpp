@@ -23,7 +23,8 @@ struct StandingPeopleParams {
 /// Renews the discs of who stands. Who stood, and is neither seen nor among the people any more, is
 /// kept while the layer has something within half a body of their place: else a way around them
 /// would lead through them as soon as the camera turns to it.
-/// @param people  Who is known of now; in the frame of the discs, the layer and the tracks.
+/// @param people  Who is known of now, but for the target; in the frame of the discs, the layer and
+/// the tracks.
 void noteStanding(const StandingPeopleParams& params, const std::vector<MovingPerson>& people,
                   const std::vector<Track>& tracks, const ObstacleLayer& layer,
                   std::vector<FloorDisc>& standing);

@@ -152,7 +152,9 @@ TEST(Call, WithANumberThatCannotBeNamesIt) {
 
 TEST(Call, OfAnUnknownSwitchNamesTheSwitches) {
   EXPECT_TRUE(failsWith(heel({"follow", "home", "--out", "o", "--rough", "people,rain"}),
-                        {"'rain'", "people, latency, map, laser, light, odometry, and all"}));
+                        {"'rain'",
+                         "people, hurry, company, skirts, drawers, latency, map, laser, light, "
+                         "odometry, and all"}));
   EXPECT_TRUE(
       failsWith(heel({"experiment", "follow", "--out", "o", "--rough", "rain"}), {"'rain'"}));
 }
