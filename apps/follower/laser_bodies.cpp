@@ -12,7 +12,8 @@ namespace heel {
 namespace {
 
 constexpr double kTwoPi = 6.283185307179586;
-constexpr int kLeastBeams = 3;  // that go through a place, for it to be free
+constexpr double kSurfaceGap_m = 0.1;  // Between the legs of who stands there is more, as a rule.
+constexpr int kLeastBeams = 3;         // that go through a place, for it to be free
 
 }  // namespace
 
@@ -20,9 +21,10 @@ LaserBodies::LaserBodies(const LaserBodiesParams& params)
     : params_(params),
       T_scanner_world_(Eigen::Isometry2d::Identity()),
       age_s_(std::numeric_limits<double>::infinity()) {
-  requireNotNegative("LaserBodiesParams", {params.off_map_m, params.max_range_m, params.max_gap_m,
-                                           params.max_width_m, params.pair_m, params.sigma_m,
-                                           params.half_width_m, params.reach_m, params.max_age_s});
+  requireNotNegative("LaserBodiesParams",
+                     {params.off_map_m, params.max_range_m, params.max_gap_m, params.max_width_m,
+                      params.max_surface_m, params.pair_m, params.sigma_m, params.half_width_m,
+                      params.reach_m, params.max_age_s});
 }
 
 // Runs of neighbouring ends that the map does not show.
@@ -59,6 +61,7 @@ void LaserBodies::step(const LaserScan* scan, const FloorPose& T_world_scanner,
 
 void LaserBodies::endRun(std::size_t first, std::size_t end) {
   if (end < first + 2 || (ends_m_[end - 1] - ends_m_[first]).norm() > params_.max_width_m) return;
+  if (widestSurface(first, end) > params_.max_surface_m) return;
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (std::size_t i = first; i < end; ++i) {
     middle += ends_m_[i];
@@ -76,6 +79,16 @@ void LaserBodies::endRun(std::size_t first, std::size_t end) {
   body.position_m = middle;
   body.score = score;
   body.covariance_m2 = Eigen::Matrix2d::Identity() * (params_.sigma_m * params_.sigma_m);
+}
+
+double LaserBodies::widestSurface(std::size_t first, std::size_t end) const {
+  double widest_m = 0.0;
+  std::size_t begin = first;
+  for (std::size_t i = first + 1; i < end; ++i) {
+    if ((ends_m_[i] - ends_m_[i - 1]).norm() > kSurfaceGap_m) begin = i;
+    widest_m = std::max(widest_m, (ends_m_[i] - ends_m_[begin]).norm());
+  }
+  return widest_m;
 }
 
 Sight LaserBodies::sightOf(const Eigen::Vector2d& place_m) const {

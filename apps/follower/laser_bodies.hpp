@@ -24,8 +24,10 @@ struct LaserBodiesParams {
   double max_range_m = 5.0;
   /// Ends of neighbouring beams that are further apart are of two things.
   double max_gap_m = 0.3;
-  double max_width_m = 0.9;  ///< A thing that is wider than this is no person.
-  double pair_m = 0.5;       ///< Two legs nearer to each other than this are one person's.
+  double max_width_m = 0.9;  ///< A thing that is wider than this is no person,
+  /// nor is one with an unbroken surface that is wider: legs are two, and a long skirt is 0.5 m.
+  double max_surface_m = 0.55;
+  double pair_m = 0.5;  ///< Two legs nearer to each other than this are one person's.
   /// Standard deviation of a person's place by their legs: these stride, and a thing's middle
   /// shifts as the robot drives around it.
   double sigma_m = 0.05;
@@ -59,6 +61,7 @@ class LaserBodies {
 
  private:
   void endRun(std::size_t first, std::size_t end);
+  double widestSurface(std::size_t first, std::size_t end) const;
 
   LaserBodiesParams params_;
   LaserScan scan_;

@@ -111,6 +111,21 @@ TEST_F(LaserBodiesTest, AWideThingIsNobody) {
   EXPECT_EQ(bodies.sightOf({2.9, 3.0}), Sight::kUnknown) << "before the shelf";
 }
 
+// A fridge is no wider than legs in a stride, but it is one surface.
+TEST_F(LaserBodiesTest, AWideSurfaceIsNobodyWhereLegsInAStrideAreSomebody) {
+  const Vector2d at(3.0, 3.0);
+  discs.push_back({at, 0.35});
+  look();
+  EXPECT_TRUE(bodies.bodies().empty());
+  EXPECT_EQ(bodies.sightOf(at), Sight::kThing);
+  discs = {{at + Vector2d(0.0, 0.2), 0.08}, {at - Vector2d(0.0, 0.2), 0.08}};
+  look();
+  EXPECT_EQ(bodies.bodies().size(), 1U);
+  discs = {{at, 0.22}};  // a long skirt
+  look();
+  EXPECT_EQ(bodies.bodies().size(), 1U);
+}
+
 TEST_F(LaserBodiesTest, SaysNothingOfWhatItDoesNotSee) {
   EXPECT_FALSE(bodies.isFresh()) << "no scan yet";
   discs.push_back({{2.5, 3.0}, 0.4});  // a tub; somebody may stand behind it
