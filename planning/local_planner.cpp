@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -131,6 +132,13 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
   layOut(scene, threatened, backs);
   plan.options = futures_.size();
 
+  most_ahead_mps_ = most_back_mps_ = kInfinite;
+  for (const auto* some : {&people, &std::as_const(hidden_)}) {
+    for (const MovingPerson& person : *some) {
+      most_ahead_mps_ = std::min(most_ahead_mps_, allowedTowards(scene, person, 1.0));
+      most_back_mps_ = std::min(most_back_mps_, allowedTowards(scene, person, -1.0));
+    }
+  }
   double least = kInfinite;
   for (std::size_t i = 0; i < futures_.size(); ++i) {
     const Braking braking = brake(scene, futures_.commands[i], clearance);
@@ -141,7 +149,7 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
     const DriveScores costs = driveCosts(params_.limits, params_.terms, scene, option);
     const double cost = total(costs, weights);
     if (!(cost < least)) continue;
-    const VelocityCommand command = slowed(scene, futures_.commands[i], braking.gap_m);
+    const VelocityCommand command = slowed(futures_.commands[i], braking.gap_m);
     const bool stands = command.forward_mps == 0.0 && command.turn_radps == 0.0;
     if (!stands && !permits(command)) continue;
     least = cost;
@@ -294,18 +302,12 @@ std::size_t LocalPlanner::measure(const DriveScene& scene, std::size_t option,
   return clear;
 }
 
-VelocityCommand LocalPlanner::slowed(const DriveScene& scene, const VelocityCommand& command,
-                                     double gap_m) const {
+VelocityCommand LocalPlanner::slowed(const VelocityCommand& command, double gap_m) const {
   const double most = params_.limits.max_speed_mps;
   const double share =
       params_.slow_gap_m > 0.0 ? std::clamp(gap_m / params_.slow_gap_m, 0.0, 1.0) : 1.0;
   double allowed = params_.least_speed_mps + share * (most - params_.least_speed_mps);
-  const double way = command.forward_mps < 0.0 ? -1.0 : 1.0;
-  for (const auto* people : {scene.people, &hidden_}) {
-    for (const MovingPerson& person : *people) {
-      allowed = std::min(allowed, allowedTowards(scene, person, way));
-    }
-  }
+  allowed = std::min(allowed, command.forward_mps < 0.0 ? most_back_mps_ : most_ahead_mps_);
   allowed = std::max(allowed, params_.least_speed_mps);
   const double speed = std::abs(command.forward_mps);
   if (speed <= allowed) return command;
