@@ -29,6 +29,8 @@ bool isFinite(const MovingPerson& p) {
          p.radius_m >= 0.0;
 }
 
+bool drives(const VelocityCommand& c) { return std::abs(c.forward_mps) > kStands_mps; }
+
 /// The room around the body; none where nobody knows.
 double roomAt(const DriveLimits& limits, const FloorPose& pose, const Clearance& clearance) {
   const double room_m = roomAround(limits, pose, clearance);
@@ -132,13 +134,18 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
   layOut(scene, threatened, backs);
   plan.options = futures_.size();
 
-  most_ahead_mps_ = most_back_mps_ = kInfinite;
-  for (const auto* some : {&people, &std::as_const(hidden_)}) {
-    for (const MovingPerson& person : *some) {
-      most_ahead_mps_ = std::min(most_ahead_mps_, allowedTowards(scene, person, 1.0));
-      most_back_mps_ = std::min(most_back_mps_, allowedTowards(scene, person, -1.0));
+  const auto allow = [&](const std::vector<MovingPerson>& some, double least_mps) {
+    for (const MovingPerson& person : some) {
+      most_ahead_mps_ =
+          std::min(most_ahead_mps_, std::max(allowedTowards(scene, person, 1.0), least_mps));
+      most_back_mps_ =
+          std::min(most_back_mps_, std::max(allowedTowards(scene, person, -1.0), least_mps));
     }
-  }
+  };
+  most_ahead_mps_ = most_back_mps_ = kInfinite;
+  allow(people, 0.0);
+  allow(hidden_, params_.least_speed_mps);  // or it never passes a corner
+  const double drives_mps = std::max(std::abs(speed.forward_mps), kStands_mps);
   double least = kInfinite;
   for (std::size_t i = 0; i < futures_.size(); ++i) {
     const Braking braking = brake(scene, futures_.commands[i], clearance);
@@ -150,6 +157,7 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
     const double cost = total(costs, weights);
     if (!(cost < least)) continue;
     const VelocityCommand command = slowed(futures_.commands[i], braking.gap_m);
+    if (std::abs(futures_.commands[i].forward_mps) > drives_mps && !drives(command)) continue;
     const bool stands = command.forward_mps == 0.0 && command.turn_radps == 0.0;
     if (!stands && !permits(command)) continue;
     least = cost;
@@ -308,7 +316,6 @@ VelocityCommand LocalPlanner::slowed(const VelocityCommand& command, double gap_
       params_.slow_gap_m > 0.0 ? std::clamp(gap_m / params_.slow_gap_m, 0.0, 1.0) : 1.0;
   double allowed = params_.least_speed_mps + share * (most - params_.least_speed_mps);
   allowed = std::min(allowed, command.forward_mps < 0.0 ? most_back_mps_ : most_ahead_mps_);
-  allowed = std::max(allowed, params_.least_speed_mps);
   const double speed = std::abs(command.forward_mps);
   if (speed <= allowed) return command;
   return {allowed / speed * command.forward_mps,
@@ -332,19 +339,21 @@ double LocalPlanner::allowedTowards(const DriveScene& scene, const MovingPerson&
   const double room_m = away_m - limits.radius_m - person.radius_m;
   const double b = comes_mps + share * brakes_mps2 * params_.reacts_s;
   const double spare_m = room_m - comes_mps * params_.reacts_s;
-  if (!(spare_m > 0.0)) return 0.0;
-  return 2.0 * brakes_mps2 * spare_m / (b + std::sqrt(b * b + 2.0 * share * brakes_mps2 * spare_m));
+  const double creeps_mps = 0.5 * kStands_mps / share;  // It may pass beside them at any speed.
+  if (!(spare_m > 0.0)) return creeps_mps;
+  return std::max(creeps_mps, 2.0 * brakes_mps2 * spare_m /
+                                  (b + std::sqrt(b * b + 2.0 * share * brakes_mps2 * spare_m)));
 }
 
 void LocalPlanner::explain(const DriveScene& scene, LocalPlan& plan, bool threatened) {
   const VelocityCommand& c = plan.command;
   const bool has_way = !path_.empty();
-  const bool drives = std::abs(c.forward_mps) > kStands_mps;
+  const bool moves = drives(c);
   const bool turns = std::abs(c.turn_radps) > kStands_radps;
   if (c.forward_mps < 0.0) {
     plan.status = DriveStatus::kMoving;
     plan.reason = threatened ? DriveReason::kGivesWay : DriveReason::kBacksOff;
-  } else if (drives) {
+  } else if (moves) {
     plan.status = DriveStatus::kMoving;
     plan.reason = DriveReason::kOnTheWay;
   } else if (!has_way) {
@@ -363,7 +372,7 @@ void LocalPlanner::explain(const DriveScene& scene, LocalPlan& plan, bool threat
     plan.reason = soon < 2.0 * params_.terms.people_comfort_m ? DriveReason::kPersonInWay
                                                               : DriveReason::kObstacleInWay;
   }
-  const bool waits = has_way && !drives;
+  const bool waits = has_way && !moves;
   const double progress_cost = plan.costs[static_cast<std::size_t>(DriveTerm::kProgress)];
   const bool turning_to_way = plan.status == DriveStatus::kTurning && progress_cost < 0.9;
   blocked_s_ = waits && !turning_to_way ? blocked_s_ + params_.limits.period_s : 0.0;

@@ -111,7 +111,9 @@ FollowLog runClosedLoop(const Scene& scene, const PetriPlan& plan, const ClosedL
   }
   Follower follower(robot, std::move(map), plan,
                     FloorPose{scene.robot.start, scene.robot.start_yaw_rad}, params.follower);
-  FaultySensors sensors(params.faults, params.seed, latencies);
+  std::vector<Fault> faults = dropoutsOf(params.rough, params.limit_s, params.seed);
+  faults.insert(faults.end(), params.faults.begin(), params.faults.end());
+  FaultySensors sensors(std::move(faults), params.seed, latencies);
 
   FollowLog log;
   log.scene = scene.name;

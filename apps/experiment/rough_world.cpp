@@ -4,6 +4,7 @@
 #include <heel/apps/experiment/random_wardrobe.hpp>
 #include <heel/apps/experiment/rough_world.hpp>
 #include <heel/apps/simulation/floor_plan.hpp>
+#include <heel/apps/simulation/material.hpp>
 #include <heel/apps/simulation/random.hpp>
 
 #include <algorithm>
@@ -23,11 +24,15 @@ struct RoughSwitch {
   const char* name;
   bool RoughWorld::*flag;
 };
-constexpr std::array<RoughSwitch, 10> kRoughSwitches = {{{"people", &RoughWorld::people},
+constexpr std::array<RoughSwitch, 14> kRoughSwitches = {{{"people", &RoughWorld::people},
                                                          {"hurry", &RoughWorld::hurry},
                                                          {"company", &RoughWorld::company},
                                                          {"skirts", &RoughWorld::skirts},
                                                          {"drawers", &RoughWorld::drawers},
+                                                         {"doors", &RoughWorld::doors},
+                                                         {"black", &RoughWorld::black},
+                                                         {"glass", &RoughWorld::glass},
+                                                         {"dropouts", &RoughWorld::dropouts},
                                                          {"latency", &RoughWorld::latency},
                                                          {"map", &RoughWorld::map},
                                                          {"laser", &RoughWorld::laser},
@@ -38,6 +43,8 @@ constexpr double kMapOff_m = 0.1;
 constexpr double kBias = 0.03;
 constexpr double kBesideOneAnother_m = 0.55;
 constexpr double kRoomToWalk_m = 0.3;
+constexpr double kDoorThickness_m = 0.04;
+constexpr double kDropsOutEvery_s = 15.0;
 
 void hurry(ScenePerson& person, double faster, RandomStream& random) {
   std::vector<PathStep> path;
@@ -96,6 +103,19 @@ void addCompany(Scene& scene, std::uint64_t seed) {
   }
 }
 
+// Whether somebody's way comes so near to a place.
+bool isPassed(const Scene& scene, const Vector2d& place, double within_m) {
+  return std::any_of(scene.people.begin(), scene.people.end(), [&](const ScenePerson& person) {
+    Vector2d from = person.start;
+    return std::any_of(person.path.begin(), person.path.end(), [&](const PathStep& step) {
+      if (step.kind != PathStep::Kind::kWalk) return false;
+      const FloorLine way{from, step.to};
+      from = step.to;
+      return (way.nearest(place) - place).norm() < within_m;
+    });
+  });
+}
+
 // In front of the piece, where nobody's way leads.
 void openDrawers(Scene& scene, std::uint64_t seed) {
   RandomStream random(hashOf(seed, 77));
@@ -113,16 +133,54 @@ void openDrawers(Scene& scene, std::uint64_t seed) {
     const Vector2d ahead = turn * Vector2d(0.5 * (body.size_m.x() + out_m), 0.0);
     drawer.base += Eigen::Vector3d(ahead.x(), ahead.y(), low_m - body.base.z());
     const Vector2d before = drawer.base.head<2>() + turn * Vector2d(0.5 * out_m + 0.5, 0.0);
-    const auto is_passed = [&](const ScenePerson& person) {
-      return std::any_of(person.path.begin(), person.path.end(), [&](const PathStep& step) {
-        return step.kind == PathStep::Kind::kWalk && (step.to - drawer.base.head<2>()).norm() < 0.9;
-      });
-    };
-    if (plan.clearance(before) < 0.4 ||
-        std::any_of(scene.people.begin(), scene.people.end(), is_passed)) {
-      continue;
-    }
+    if (plan.clearance(before) < 0.4 || isPassed(scene, drawer.base.head<2>(), 0.9)) continue;
     scene.furniture.push_back({"open drawer", false, {drawer}});
+  }
+}
+
+void hangDoors(Scene& scene, std::uint64_t seed) {
+  RandomStream random(hashOf(seed, 79));
+  const FloorPlan plan(scene);
+  for (const Wall& wall : scene.walls) {
+    const Vector2d along = (wall.to - wall.from).normalized(), across(-along.y(), along.x());
+    for (const Doorway& doorway : wall.doors) {
+      const bool is_left = random.uniform() < 0.5, is_ahead = random.uniform() < 0.5;
+      const bool is_hung = random.uniform() < 0.7;
+      const double angle_rad = random.uniform(1.2, 2.2);  // from shut
+      if (!is_hung) continue;
+      const Vector2d middle = wall.from + along * doorway.at_m;
+      const bool is_shut = !isPassed(scene, middle, 0.5 * doorway.width_m);
+      const double side = is_left ? 1.0 : -1.0, face = is_ahead ? 1.0 : -1.0;
+      const Vector2d hinge =
+          middle + side * 0.5 * doorway.width_m * along +
+          (is_shut ? 0.0 : 0.5 * (wall.thickness_m + kDoorThickness_m)) * face * across;
+      const double open_rad = is_shut ? 0.0 : angle_rad;
+      const Vector2d leaf = -side * std::cos(open_rad) * along + face * std::sin(open_rad) * across;
+      FurniturePart door;
+      const Vector2d at = hinge + 0.5 * doorway.width_m * leaf;
+      door.base = {at.x(), at.y(), 0.01};
+      door.size_m = {doorway.width_m, kDoorThickness_m, doorway.height_m - 0.02};
+      door.yaw_rad = std::atan2(leaf.y(), leaf.x());
+      door.surface = {"wood", usualColor("wood")};
+      const auto is_free = [&](double share) {
+        const Vector2d place = hinge + share * doorway.width_m * leaf;
+        return plan.clearance(place) > 0.1 && !isPassed(scene, place, 0.35) &&
+               (place - scene.robot.start).norm() > 1.0;
+      };
+      if (is_shut || (is_free(0.3) && is_free(0.5) && is_free(0.75) && is_free(1.0))) {
+        scene.furniture.push_back({"door", false, {door}});
+      }
+    }
+  }
+}
+
+// Half of the pieces, by one draw for each.
+void cover(Scene& scene, const char* material, bool only_mapped, std::uint64_t seed) {
+  RandomStream random(seed);
+  for (Furniture& piece : scene.furniture) {
+    const bool is_covered = random.uniform() < 0.5;
+    if (!is_covered || (only_mapped && !piece.in_map)) continue;
+    for (FurniturePart& part : piece.parts) part.surface = {material, usualColor(material)};
   }
 }
 
@@ -166,6 +224,9 @@ Scene roughened(Scene scene, const RoughWorld& rough, std::uint64_t seed) {
   }
   if (rough.company) addCompany(scene, seed);
   if (rough.drawers) openDrawers(scene, seed);
+  if (rough.doors) hangDoors(scene, seed);
+  if (rough.black) cover(scene, "velvet", false, hashOf(seed, 80));
+  if (rough.glass) cover(scene, "frosted glass", true, hashOf(seed, 81));
   RandomStream skirts(hashOf(seed, 78));
   for (ScenePerson& person : scene.people) {
     person.sees_robot = person.sees_robot && !rough.people;
@@ -203,6 +264,20 @@ Scene asMapped(Scene scene, const RoughWorld& rough, std::uint64_t seed) {
     mapped[static_cast<std::size_t>(place)]->in_map = false;
   }
   return scene;
+}
+
+std::vector<Fault> dropoutsOf(const RoughWorld& rough, double limit_s, std::uint64_t seed) {
+  std::vector<Fault> faults;
+  if (!rough.dropouts) return faults;
+  for (const Fault::Kind kind : {Fault::Kind::kNoCamera, Fault::Kind::kNoLaser}) {
+    RandomStream random(hashOf(seed, 82, static_cast<std::uint64_t>(kind)));
+    for (double at_s = 0.0;;) {
+      at_s += random.uniform(0.0, 2.0 * kDropsOutEvery_s);
+      if (at_s > limit_s) break;
+      faults.push_back({kind, at_s, at_s + random.uniform(0.2, 2.0)});
+    }
+  }
+  return faults;
 }
 
 Latencies latenciesOf(const RoughWorld& rough, std::uint64_t seed) {

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace heel {
 
@@ -22,7 +23,13 @@ struct RoughWorld {
   bool company = false;
   bool skirts = false;   ///< Half of all wear a long skirt, in which no laser sees legs.
   bool drawers = false;  ///< Cupboards and desks have open drawers that the map does not show.
-  bool latency = false;  ///< Pictures, scans and the wheels are late, with jitter: see Latencies.
+  /// Doors that the map does not show: some stand open into a room, and where nobody's way leads
+  /// some are shut.
+  bool doors = false;
+  bool black = false;     ///< Half of the furniture is of velvet, which no laser sees.
+  bool glass = false;     ///< Of what the map shows half is of glass, which no laser sees.
+  bool dropouts = false;  ///< Pictures and scans are missing for 0.2 to 2 s, about every 15 s.
+  bool latency = false;   ///< Pictures, scans and the wheels are late, with jitter: see Latencies.
   bool map = false;    ///< In the robot's map furniture is up to 0.1 m off, and a piece is missing.
   bool laser = false;  ///< The laser sees 220 degrees ahead.
   bool light = false;  ///< The camera's light is drawn: see CameraParams::drawn_light.
@@ -41,6 +48,9 @@ Scene roughened(Scene scene, const RoughWorld& rough, std::uint64_t seed);
 
 /// The scene as the robot's map has it.
 Scene asMapped(Scene scene, const RoughWorld& rough, std::uint64_t seed);
+
+/// When the sensors drop out in this time.
+std::vector<Fault> dropoutsOf(const RoughWorld& rough, double limit_s, std::uint64_t seed);
 
 /// How late things are: pictures up to 0.1 to 0.25 s, scans 0.04 to 0.1 s, the wheels 0.04 to
 /// 0.1 s.

@@ -9,9 +9,29 @@
 #include <limits>
 
 namespace heel {
+namespace {
 
-void measureLaser(const RayWorld& world, const LaserParams& params, const FloorPose& robot,
-                  std::uint64_t noise, LaserScan& scan) {
+constexpr float kBehind_m = 1e-3F;  // A beam that goes on starts so far behind the surface.
+
+LaserEcho echoOf(const RayHit& hit, const Geometry& geometry) {
+  const auto index = static_cast<std::size_t>(hit.index);
+  switch (hit.kind) {
+    case RayHit::Kind::kNothing:
+      return LaserEcho::kSwallowed;
+    case RayHit::Kind::kFace:
+      return geometry.materials[geometry.faces[index].material].echo;
+    case RayHit::Kind::kPillar:
+      return geometry.materials[geometry.pillars[index].material].echo;
+    case RayHit::Kind::kBody:
+      break;
+  }
+  return LaserEcho::kReturned;
+}
+
+}  // namespace
+
+void measureLaser(const RayWorld& world, const Geometry& geometry, const LaserParams& params,
+                  const FloorPose& robot, std::uint64_t noise, LaserScan& scan) {
   const Eigen::Isometry3d T_world_base = basePose(robot);
   const Eigen::Vector3f origin = (T_world_base * params.at).cast<float>();
   scan.first_rad = -params.view_rad / 2.0;
@@ -29,9 +49,16 @@ void measureLaser(const RayWorld& world, const LaserParams& params, const FloorP
     }
     world.trace(origin, directions.data(), count, hits);
     for (int i = 0; i < count; ++i) {
-      const RayHit& hit = hits[static_cast<std::size_t>(i)];
-      const double range = hit.distance + params.noise_m * random.gaussian();
-      const bool seen = hit.kind != RayHit::Kind::kNothing && range <= params.max_range_m;
+      RayHit hit = hits[static_cast<std::size_t>(i)];
+      const Eigen::Vector3f& direction = directions[static_cast<std::size_t>(i)];
+      float passed_m = 0.0F;
+      while (echoOf(hit, geometry) == LaserEcho::kPassed) {
+        passed_m += hit.distance + kBehind_m;
+        hit = world.trace(origin + passed_m * direction, direction);
+      }
+      const double range = passed_m + hit.distance + params.noise_m * random.gaussian();
+      const bool seen =
+          echoOf(hit, geometry) == LaserEcho::kReturned && range <= params.max_range_m;
       scan.ranges_m[static_cast<std::size_t>(beam + i)] =
           seen ? static_cast<float>(std::max(range, 0.0)) : std::numeric_limits<float>::infinity();
     }

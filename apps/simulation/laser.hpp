@@ -13,9 +13,11 @@
 
 namespace heel {
 
-/// Measures into `scan`, whose memory is reused.
+/// Measures into `scan`, whose memory is reused. A beam goes on through what lets it pass, and has
+/// no echo of what swallows it (see LaserEcho).
+/// @param geometry  What `world` was made of.
 /// @param noise  Picks the noise: a number of its own for each scan.
-void measureLaser(const RayWorld& world, const LaserParams& params, const FloorPose& robot,
-                  std::uint64_t noise, LaserScan& scan);
+void measureLaser(const RayWorld& world, const Geometry& geometry, const LaserParams& params,
+                  const FloorPose& robot, std::uint64_t noise, LaserScan& scan);
 
 }  // namespace heel

@@ -171,6 +171,7 @@ struct Recipe {
   float tile_m, gloss, gloss_power, glow;
   Rgb usual;
   bool fit_width = false, fit_height = false;
+  LaserEcho echo = LaserEcho::kReturned;
 };
 
 const std::map<std::string, Recipe>& recipes() {
@@ -193,6 +194,28 @@ const std::map<std::string, Recipe>& recipes() {
       {"books", {books, 512, 0.85F, 0.0F, 1.0F, 0.0F, white, false, true}},
       {"picture", {picture, 256, 1.0F, 0.03F, 60.0F, 0.0F, white, true, true}},
       {"foliage", {foliage, 256, 0.5F, 0.03F, 20.0F, 0.0F, {0.1F, 0.2F, 0.05F}}},
+      {"velvet",
+       {fabric,
+        256,
+        0.4F,
+        0.0F,
+        1.0F,
+        0.0F,
+        {0.02F, 0.02F, 0.02F},
+        false,
+        false,
+        LaserEcho::kSwallowed}},
+      {"frosted glass",
+       {smooth,
+        16,
+        1.0F,
+        0.6F,
+        200.0F,
+        0.0F,
+        {0.6F, 0.68F, 0.66F},
+        false,
+        false,
+        LaserEcho::kPassed}},
       {"outdoors", {outdoors, 256, 1.0F, 0.0F, 1.0F, 0.9F, white, true, true}},
       {"lamp", {smooth, 16, 1.0F, 0.0F, 1.0F, 1.6F, white}}};
   return kRecipes;
@@ -217,7 +240,8 @@ int MaterialLibrary::indexOf(const std::string& name) {
   if (found == recipes().end()) throw std::invalid_argument("no material '" + name + "'");
   const Recipe& recipe = found->second;
   materials_.push_back({Texture(recipe.size, recipe.paint), recipe.tile_m, recipe.gloss,
-                        recipe.gloss_power, recipe.glow, recipe.fit_width, recipe.fit_height});
+                        recipe.gloss_power, recipe.glow, recipe.fit_width, recipe.fit_height,
+                        recipe.echo});
   return indices_[name] = static_cast<int>(materials_.size()) - 1;
 }
 

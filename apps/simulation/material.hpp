@@ -13,6 +13,9 @@
 
 namespace heel {
 
+/// What a laser's beam does at a surface: it comes back, it ends there, or it goes on.
+enum class LaserEcho { kReturned, kSwallowed, kPassed };
+
 /// A texture with its size in the world, and how the surface throws light back.
 struct Material {
   Texture texture;
@@ -22,6 +25,7 @@ struct Material {
   float glow = 0.0F;          ///< Radiance of its own per unit of colour (lamps, windows).
   bool fit_width = false;     ///< One tile covers the whole width of a face,
   bool fit_height = false;    ///< ... or its whole height (pictures, book shelves).
+  LaserEcho echo = LaserEcho::kReturned;
 };
 
 bool isMaterial(const std::string& name);

@@ -261,7 +261,7 @@ const Readings& Simulator::step(double dt_s, const VelocityCommand& command) {
   if (camera_due || laser_due) s.placeBodies();
   if (camera_due) s.render();
   if (laser_due) {
-    measureLaser(s.world, s.scene.robot.laser, s.robot.pose(),
+    measureLaser(s.world, s.geometry, s.scene.robot.laser, s.robot.pose(),
                  hashOf(s.options.seed, 4, s.laser_clock.count()), s.scan);
     s.readings.laser = &s.scan;
   }

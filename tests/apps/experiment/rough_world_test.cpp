@@ -26,6 +26,7 @@ TEST(RoughWorld, IsReadFromNames) {
   EXPECT_FALSE(some.hurry || some.latency || some.laser || some.light || some.odometry);
   const RoughWorld all = roughWorldOf("all");
   EXPECT_TRUE(all.hurry && all.company && all.skirts && all.drawers);
+  EXPECT_TRUE(all.doors && all.black && all.glass && all.dropouts);
   EXPECT_TRUE(all.people && all.latency && all.map && all.laser && all.light && all.odometry);
 }
 
@@ -35,9 +36,10 @@ TEST(RoughWorld, NamesTheSwitchesThatThereAre) {
       roughWorldOf(list);
       ADD_FAILURE() << list;
     } catch (const std::invalid_argument& error) {
-      EXPECT_THAT(error.what(),
-                  HasSubstr("people, hurry, company, skirts, drawers, latency, map, laser, light, "
-                            "odometry, and all"));
+      EXPECT_THAT(
+          error.what(),
+          HasSubstr("people, hurry, company, skirts, drawers, doors, black, glass, dropouts, "
+                    "latency, map, laser, light, odometry, and all"));
     }
   }
 }
@@ -149,6 +151,69 @@ TEST(RoughWorld, OpensDrawersThatNoMapShows) {
     }
   }
   EXPECT_GT(drawers, 5);
+}
+
+TEST(RoughWorld, HangsDoorsWhereTheyAreInNobodysWay) {
+  Scene scene = busyHome();
+  Wall wall;
+  wall.from = {4.5, 0.0};
+  wall.to = {4.5, 4.0};
+  wall.doors = {{1.0, 0.9, 2.05}, {2.5, 0.9, 2.05}};
+  scene.walls.push_back(wall);
+  ScenePerson goer;
+  goer.start = {3.0, 2.5};
+  PathStep step;
+  step.kind = PathStep::Kind::kWalk;
+  step.to = {6.0, 2.5};
+  goer.path = {step};
+  scene.people = {goer};
+  int open = 0, shut = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Scene rough = roughened(scene, roughWorldOf("doors"), seed);
+    for (std::size_t i = scene.furniture.size(); i < rough.furniture.size(); ++i) {
+      EXPECT_FALSE(rough.furniture[i].in_map);
+      const Eigen::Vector2d at = rough.furniture[i].parts.front().base.head<2>();
+      const bool is_shut = (at - Eigen::Vector2d(4.5, 1.0)).norm() < 1e-9;
+      (is_shut ? shut : open) += 1;
+      if (!is_shut) {
+        EXPECT_GT(std::abs(at.y() - 2.5), 0.35) << "in the way";
+        EXPECT_LT((at - Eigen::Vector2d(4.5, 2.5)).norm(), 0.9) << "at its doorway";
+      }
+    }
+  }
+  EXPECT_GT(shut, 5);
+  EXPECT_GT(open, 5);
+}
+
+TEST(RoughWorld, CoversHalfOfTheFurnitureWithWhatNoLaserSees) {
+  Scene scene = busyHome();
+  scene.furniture.front().in_map = false;
+  int velvet = 0, glass = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (const Furniture& piece : roughened(scene, roughWorldOf("black"), seed).furniture) {
+      velvet += piece.parts.front().surface.material == "velvet" ? 1 : 0;
+    }
+    for (const Furniture& piece : roughened(scene, roughWorldOf("glass"), seed).furniture) {
+      const bool is_glass = piece.parts.front().surface.material == "frosted glass";
+      EXPECT_FALSE(is_glass && !piece.in_map) << "nothing could see it";
+      glass += is_glass ? 1 : 0;
+    }
+  }
+  EXPECT_NEAR(velvet, 20, 10) << "of 40";
+  EXPECT_NEAR(glass, 10, 6) << "of 20";
+}
+
+TEST(RoughWorld, DropsOutNowAndThen) {
+  EXPECT_TRUE(dropoutsOf(roughWorldOf("latency"), 300.0, 3).empty());
+  int cameras = 0, lasers = 0;
+  for (const Fault& fault : dropoutsOf(roughWorldOf("dropouts"), 300.0, 3)) {
+    (fault.kind == Fault::Kind::kNoCamera ? cameras : lasers) += 1;
+    EXPECT_GE(fault.to_s - fault.from_s, 0.2);
+    EXPECT_LE(fault.to_s - fault.from_s, 2.0);
+    EXPECT_LE(fault.from_s, 300.0);
+  }
+  EXPECT_NEAR(cameras, 20, 8);
+  EXPECT_NEAR(lasers, 20, 8);
 }
 
 // All of it in a small home: the robot touches nothing by itself.

@@ -92,6 +92,24 @@ TEST(Laser, SeesNoLegsInALongSkirt) {
   }
 }
 
+TEST(Laser, GoesThroughGlassAndHasNoEchoOfVelvet) {
+  FurniturePart pane;
+  pane.base = {1.5, 0.0, 0.0};
+  pane.size_m = {0.05, 6.0, 2.0};
+  const auto ahead_m = [&](const char* material) {
+    Scene scene = test::squareRoom();
+    scene.robot.laser.at = {0.0, 0.0, 1.0};
+    scene.robot.laser.noise_m = 0.0;
+    pane.surface.material = material;
+    scene.furniture.push_back({"pane", true, {pane}});
+    Simulator simulator(scene, {1, 0, false});
+    return simulator.step(0.0).laser->ranges_m[90];
+  };
+  EXPECT_NEAR(ahead_m("wood"), 1.475F, 1e-3F);
+  EXPECT_NEAR(ahead_m("frosted glass"), 2.94F, 1e-3F) << "the wall behind it";
+  EXPECT_TRUE(std::isinf(ahead_m("velvet")));
+}
+
 TEST(Laser, SeesNothingBeyondItsRange) {
   Scene scene = test::squareRoom();
   scene.robot.laser.max_range_m = 2.0;
