@@ -44,9 +44,6 @@ ObstacleLayerParams checked(const ObstacleLayerParams& p) {
   require(notNegative(p.min_memory_s) && p.max_memory_s >= p.min_memory_s &&
               std::isfinite(p.max_memory_s) && notNegative(p.memory_gain),
           "memory must not be negative, with its limits in order");
-  require(notNegative(p.held_s) && notNegative(p.held_after_s) && notNegative(p.held_within_m) &&
-              p.held_within_m <= p.size_m,
-          "times and distance of what is held must not be negative, nor greater than the window");
   return p;
 }
 
@@ -82,26 +79,6 @@ bool ObstacleLayer::remembered(const Trace& trace) const {
   const double memory_s = std::clamp(params_.memory_gain * trace.lasted_s(), params_.min_memory_s,
                                      params_.max_memory_s);
   return clock_s_ - trace.seen_s <= memory_s;
-}
-
-/// Whether what the camera saw here stands on something that the laser still sees.
-bool ObstacleLayer::isHeld(const GridCell& world_cell) const {
-  const Trace& points = cells_[slot(world_cell)].points;
-  if (!points.known || points.lasted_s() < params_.held_after_s ||
-      clock_s_ - points.seen_s > params_.held_s) {
-    return false;
-  }
-  const double reach = params_.held_within_m / params_.cell_size_m;
-  const int most = static_cast<int>(reach);
-  for (int dy = -most; dy <= most; ++dy) {
-    for (int dx = -most; dx <= most; ++dx) {
-      const GridCell near{world_cell.x + dx, world_cell.y + dy};
-      if (dx * dx + dy * dy > reach * reach || !inWindow(near)) continue;
-      const Trace& laser = cells_[slot(near)].laser;
-      if (remembered(laser) && laser.lasted_s() >= params_.held_after_s) return true;
-    }
-  }
-  return false;
 }
 
 void ObstacleLayer::see(Trace& trace, bool again) const {
@@ -207,7 +184,8 @@ void ObstacleLayer::addScan(const LaserScan& scan, const FloorPose& T_base_laser
     const double range_m = scan.ranges_m[i];
     if (!(range_m >= params_.laser_min_range_m)) continue;  // NaN too
     // The last cell before the end may hold the same surface, seen with another error.
-    clearAlong(laser.position, direction(i), std::min(range_m - params_.cell_size_m, clear_m));
+    clearAlong(laser.position, direction(i), std::min(range_m - params_.cell_size_m, clear_m),
+               std::isfinite(range_m));
   }
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const double range_m = scan.ranges_m[i];
@@ -223,7 +201,7 @@ void ObstacleLayer::addScan(const LaserScan& scan, const FloorPose& T_base_laser
 }
 
 void ObstacleLayer::clearAlong(const Eigen::Vector2d& from, const Eigen::Vector2d& direction,
-                               double length_m) {
+                               double length_m, bool has_echo) {
   // Every cell that the beam crosses, in order (Amanatides and Woo, 1987).
   if (!(length_m > 0.0)) return;
   GridCell at = worldCell(from);
@@ -239,7 +217,7 @@ void ObstacleLayer::clearAlong(const Eigen::Vector2d& from, const Eigen::Vector2
   while (inWindow(at)) {
     Cell& cell = cells_[slot(at)];
     if (mayClear(cell.laser)) cell.laser.known = false;
-    if (cell.at_laser_height && mayClear(cell.points)) cell.points.known = false;
+    if (has_echo && cell.at_laser_height && mayClear(cell.points)) cell.points.known = false;
     if (std::min(next_x, next_y) >= length_m) return;
     if (next_x < next_y) {
       at.x += direction.x() > 0.0 ? 1 : -1;
@@ -267,7 +245,9 @@ void ObstacleLayer::addPoint(const Eigen::Vector3f& point) {
   if (cell.frame_points == 0) {
     touched_.push_back(index);
     cell.frame_at_laser_height = false;
+    cell.frame_height_m = point.z();
   }
+  cell.frame_height_m = std::max(cell.frame_height_m, point.z());
   if (cell.frame_points < params_.min_points) ++cell.frame_points;
   if (std::abs(height_m - params_.laser_height_m) <= params_.laser_thickness_m) {
     cell.frame_at_laser_height = true;
@@ -293,14 +273,29 @@ void ObstacleLayer::addPoints(const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
   }
 }
 
+void ObstacleLayer::clear(const std::function<bool(const Eigen::Vector3f&)>& sees_through) {
+  requireFrame();
+  const FloorPose T_base_world = T_world_base_.inverse();
+  for (int y = corner_.y; y < corner_.y + cells_per_edge_; ++y) {
+    for (int x = corner_.x; x < corner_.x + cells_per_edge_; ++x) {
+      Cell& cell = cells_[slot({x, y})];
+      if (!mayClear(cell.points)) continue;
+      const Eigen::Vector2d middle = params_.cell_size_m * Eigen::Vector2d(x + 0.5, y + 0.5);
+      const Eigen::Vector2f at = (T_base_world * middle).cast<float>();
+      if (sees_through({at.x(), at.y(), cell.height_m})) cell.points.known = false;
+    }
+  }
+}
+
 void ObstacleLayer::finish() {
   requireFrame();
   begun_ = false;
   for (const std::size_t i : touched_) {
     Cell& cell = cells_[i];
     if (cell.frame_points >= params_.min_points) {
-      const bool again = cell.held || remembered(cell.points);
+      const bool again = remembered(cell.points);
       see(cell.points, again);
+      cell.height_m = cell.frame_height_m;
       cell.at_laser_height = cell.frame_at_laser_height || (again && cell.at_laser_height);
     }
     cell.frame_points = 0;
@@ -317,9 +312,7 @@ void ObstacleLayer::finish() {
     for (int x = 0; x < n; ++x) {
       Cell& cell = row[first + x < n ? first + x : first + x - n];
       cell.laser.known = remembered(cell.laser);
-      const bool is_fresh = remembered(cell.points);
-      cell.held = !is_fresh && isHeld({corner_.x + x, corner_.y + y});
-      cell.points.known = is_fresh || cell.held;
+      cell.points.known = remembered(cell.points);
       const bool occupied = cell.laser.known || cell.points.known;
       window_.at(GridCell{x, y}) = occupied ? Occupancy::kOccupied : Occupancy::kFree;
       occupied_[window_.index({x, y})] = occupied ? 1 : 0;

@@ -53,16 +53,9 @@ struct ObstacleLayerParams {
   /// An obstacle is remembered for at most this time; less where many people walk about.
   double max_memory_s = 15.0;
   /// An obstacle is remembered for so many times as long as it was seen: somebody who walks by
-  /// leaves a short trail, and a table that the robot drove up to is known when it has left the
-  /// picture.
+  /// leaves a short trail, a false match a shorter one, and a table that the robot drove up to is
+  /// known when it has left the picture.
   double memory_gain = 5.0;
-
-  /// What the camera saw is remembered for so long beside something that the laser still sees: a
-  /// stool's seat over its leg; 0: never.
-  double held_s = 60.0;
-  /// held_s is for what camera and laser have both seen for at least this time.
-  double held_after_s = 1.0;
-  double held_within_m = 0.3;  ///< held_s is for what is this near to what the laser sees.
 };
 
 /// A rolling window of the floor in world axes around the robot, with what the laser and the
@@ -73,8 +66,9 @@ struct ObstacleLayerParams {
 /// moves.
 ///
 /// The two sources are kept apart. A planar laser passes under table tops and chair seats and over
-/// low boxes, so its free space clears what the laser itself saw, and of what the camera saw only
-/// cells that had points in the laser's plane; all else is only forgotten with age.
+/// low boxes, and has no echo of a black sofa. So its free space clears what the laser itself saw,
+/// and of what the camera saw only cells that had points in the laser's plane, before an echo. All
+/// else stays until the camera sees through it, or is forgotten with age.
 ///
 /// Time is what `begin` says, and only its increase counts: a clock that is set back ages nothing,
 /// and one that is set forward forgets. Poses may be in any frame that does not jump; odometry's
@@ -113,6 +107,10 @@ class ObstacleLayer {
   /// @throws std::invalid_argument  if an index is outside of the cloud.
   void addPoints(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, const pcl::Indices& indices);
 
+  /// Forgets what the camera saw where it now sees through it.
+  /// @param sees_through  Asked for points in the base frame, at the height of what was seen.
+  void clear(const std::function<bool(const Eigen::Vector3f&)>& sees_through);
+
   /// Forgets what is old and renews the results.
   void finish();
 
@@ -145,12 +143,12 @@ class ObstacleLayer {
     Trace points;
     bool at_laser_height = false;  // the points
     bool frame_at_laser_height = false;
-    bool held = false;  // the points; see held_s
+    float height_m = 0.0F;  // of the highest of them, as last seen
+    float frame_height_m = 0.0F;
     std::uint16_t frame_points = 0;
   };
 
   bool remembered(const Trace& trace) const;
-  bool isHeld(const GridCell& world_cell) const;
   void see(Trace& trace, bool again) const;
   bool mayClear(const Trace& trace) const;
   bool inWindow(const GridCell& world_cell) const;
@@ -160,7 +158,8 @@ class ObstacleLayer {
   void roll(const GridCell& corner);
   void forgetUnderRobot();
   void requireFrame() const;
-  void clearAlong(const Eigen::Vector2d& from, const Eigen::Vector2d& direction, double length_m);
+  void clearAlong(const Eigen::Vector2d& from, const Eigen::Vector2d& direction, double length_m,
+                  bool has_echo);
   void addPoint(const Eigen::Vector3f& point);
 
   ObstacleLayerParams params_;

@@ -339,7 +339,8 @@ double LocalPlanner::allowedTowards(const DriveScene& scene, const MovingPerson&
   const double room_m = away_m - limits.radius_m - person.radius_m;
   const double b = comes_mps + share * brakes_mps2 * params_.reacts_s;
   const double spare_m = room_m - comes_mps * params_.reacts_s;
-  const double creeps_mps = 0.5 * kStands_mps / share;  // It may pass beside them at any speed.
+  // It passes beside them slowly, and comes nearer no faster than who stands.
+  const double creeps_mps = std::min(params_.least_speed_mps, 0.5 * kStands_mps / share);
   if (!(spare_m > 0.0)) return creeps_mps;
   return std::max(creeps_mps, 2.0 * brakes_mps2 * spare_m /
                                   (b + std::sqrt(b * b + 2.0 * share * brakes_mps2 * spare_m)));

@@ -27,7 +27,8 @@ struct LocalPlannerParams {
   double slow_gap_m = 0.08;       ///< With less room to things than this the robot slows down.
   double least_speed_mps = 0.08;  ///< It slows down no further than to this.
   /// Who stands may walk at the robot as fast as this at any moment: it comes towards people only
-  /// as fast as lets it stand when they reach it, or at `least_speed_mps`. A walk about the house.
+  /// as fast as lets it stand when they reach it; beside them, and round corners, at
+  /// `least_speed_mps`. A walk about the house.
   double walks_mps = 0.7;
   double reacts_s = 0.2;  ///< From somebody's step until the robot begins to brake.
   /// A robot that has stood so long to keep a person in view may turn away from them.

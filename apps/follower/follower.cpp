@@ -26,7 +26,7 @@ OccupancyGrid openFloor(const Vector2d& middle) {
 
 /// Without a map what was seen is all that is known of the walls.
 FollowerParams withoutMap(FollowerParams params) {
-  params.obstacles.max_memory_s = params.obstacles.held_s;
+  params.obstacles.max_memory_s *= 2.0;
   return params;
 }
 
@@ -204,8 +204,14 @@ void Follower::lookAround(const RobotReadings& readings) {
   if (readings.frame != nullptr && obstacles_age_s_ > params_.obstacles_every_s - 1e-6) {
     const std::vector<Eigen::Vector3f>& points = obstacle_points_.of(*readings.frame);
     last_gate_.addPoints(points, motion_.at(frame_s_), frame_s_);
-    keepUnmapped(points, motion_.seenFromNow(frame_s_));
+    const FloorPose T_base_then = motion_.seenFromNow(frame_s_);
+    keepUnmapped(points, T_base_then);
     layer_.addPoints(unmapped_);
+    layer_.clear([&, T_then_base = T_base_then.inverse()](const Eigen::Vector3f& point) {
+      const Eigen::Vector2f then =
+          (T_then_base * Vector2d(point.head<2>().cast<double>())).cast<float>();
+      return obstacle_points_.seesThrough({then.x(), then.y(), point.z()});
+    });
     obstacles_age_s_ = 0.0;
   }
   layer_.finish();

@@ -14,6 +14,9 @@
 namespace heel {
 namespace {
 
+// Whatever is so far behind a point is not a part of the same thing: a chair is as deep.
+constexpr float kBehind_m = 0.5F;
+
 StereoCamera shrunk(const StereoCamera& camera, int width_px) {
   if (camera.left.width <= width_px) return camera;
   const double scale = static_cast<double>(width_px) / camera.left.width;
@@ -74,6 +77,23 @@ const std::vector<Eigen::Vector3f>& ObstaclePoints::of(const Frame& frame) {
   }
   collect();
   return points_;
+}
+
+bool ObstaclePoints::seesThrough(const Eigen::Vector3f& point) const {
+  const Eigen::Vector3f seen = T_base_camera_.inverse() * point;
+  if (!(seen.z() > static_cast<float>(params_.nearest_m))) return false;
+  const PinholeCamera& camera = camera_.left;
+  const auto u = static_cast<int>(
+      std::lround(camera.fx * static_cast<double>(seen.x() / seen.z()) + camera.cx));
+  const auto v = static_cast<int>(
+      std::lround(camera.fy * static_cast<double>(seen.y() / seen.z()) + camera.cy));
+  if (u < 1 || v < 1 || u + 1 >= depth_m_.cols || v + 1 >= depth_m_.rows) return false;
+  for (int y = v - 1; y <= v + 1; ++y) {
+    for (int x = u - 1; x <= u + 1; ++x) {  // Not where it is not a number.
+      if (!(depth_m_.at<float>(y, x) > seen.z() + kBehind_m)) return false;
+    }
+  }
+  return true;
 }
 
 void ObstaclePoints::findTexture() {

@@ -38,6 +38,10 @@ class ObstaclePoints {
   /// Points in the base frame; valid until the next call.
   const std::vector<Eigen::Vector3f>& of(const Frame& frame);
 
+  /// Whether the last frame shows what is behind a point in the base frame: all depths around it
+  /// are greater.
+  bool seesThrough(const Eigen::Vector3f& point) const;
+
  private:
   void findTexture();
   void collect();
