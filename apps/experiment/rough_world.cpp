@@ -24,12 +24,13 @@ struct RoughSwitch {
   const char* name;
   bool RoughWorld::*flag;
 };
-constexpr std::array<RoughSwitch, 14> kRoughSwitches = {{{"people", &RoughWorld::people},
+constexpr std::array<RoughSwitch, 15> kRoughSwitches = {{{"people", &RoughWorld::people},
                                                          {"hurry", &RoughWorld::hurry},
                                                          {"company", &RoughWorld::company},
                                                          {"skirts", &RoughWorld::skirts},
                                                          {"drawers", &RoughWorld::drawers},
                                                          {"doors", &RoughWorld::doors},
+                                                         {"steps", &RoughWorld::steps},
                                                          {"black", &RoughWorld::black},
                                                          {"glass", &RoughWorld::glass},
                                                          {"dropouts", &RoughWorld::dropouts},
@@ -174,6 +175,28 @@ void hangDoors(Scene& scene, std::uint64_t seed) {
   }
 }
 
+void stepDown(Scene& scene, std::uint64_t seed) {
+  RandomStream random(hashOf(seed, 83));
+  const FloorBounds flat = floorBounds(scene);
+  for (int attempt = 0, steps = 0; attempt < 60 && steps < 3; ++attempt) {
+    FloorArea area;
+    for (int axis = 0; axis < 2; ++axis) {
+      area.low[axis] = random.uniform(flat.low[axis], flat.high[axis]);
+      area.high[axis] = area.low[axis] + random.uniform(0.6, 1.2);
+    }
+    area.depth_m = random.uniform(0.15, 0.5);
+    area.surface = scene.floor;
+    const Vector2d middle = 0.5 * (area.low + area.high);
+    const double half_m = 0.5 * (area.high - area.low).norm();
+    if (FloorPlan(scene).clearance(middle) < half_m || isPassed(scene, middle, half_m + 0.45) ||
+        (scene.robot.start - middle).norm() < half_m + 2.5) {
+      continue;
+    }
+    scene.floor_areas.push_back(area);
+    ++steps;
+  }
+}
+
 // Half of the pieces, by one draw for each.
 void cover(Scene& scene, const char* material, bool only_mapped, std::uint64_t seed) {
   RandomStream random(seed);
@@ -225,6 +248,7 @@ Scene roughened(Scene scene, const RoughWorld& rough, std::uint64_t seed) {
   if (rough.company) addCompany(scene, seed);
   if (rough.drawers) openDrawers(scene, seed);
   if (rough.doors) hangDoors(scene, seed);
+  if (rough.steps) stepDown(scene, seed);
   if (rough.black) cover(scene, "velvet", false, hashOf(seed, 80));
   if (rough.glass) cover(scene, "frosted glass", true, hashOf(seed, 81));
   RandomStream skirts(hashOf(seed, 78));

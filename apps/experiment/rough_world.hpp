@@ -26,6 +26,7 @@ struct RoughWorld {
   /// Doors that the map does not show: some stand open into a room, and where nobody's way leads
   /// some are shut.
   bool doors = false;
+  bool steps = false;     ///< Up to three steps down of 0.15 to 0.5 m, where nobody's way leads.
   bool black = false;     ///< Half of the furniture is of velvet, which no laser sees.
   bool glass = false;     ///< Of what the map shows half is of glass, which no laser sees.
   bool dropouts = false;  ///< Pictures and scans are missing for 0.2 to 2 s, about every 15 s.

@@ -43,7 +43,7 @@ FollowerParams::FollowerParams() {
   obstacles.min_memory_s = 0.7;  // a false match of one frame must not close a doorway for long
   // Of what stands on the floor a level camera does not see the last 2 m, and the robot drives
   // these in 7 s, if nobody stops it.
-  obstacles.memory_gain = 10.0;
+  obstacles.memory_gain = 30.0;
   obstacles.max_memory_s = 30.0;
 }
 

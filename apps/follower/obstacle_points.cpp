@@ -16,6 +16,7 @@ namespace {
 
 // Whatever is so far behind a point is not a part of the same thing: a chair is as deep.
 constexpr float kBehind_m = 0.5F;
+constexpr double kDisparitySigma_px = 0.25;
 
 StereoCamera shrunk(const StereoCamera& camera, int width_px) {
   if (camera.left.width <= width_px) return camera;
@@ -111,6 +112,12 @@ void ObstaclePoints::collect() {
   const auto low = static_cast<float>(params_.min_height_m);
   const auto high = static_cast<float>(params_.max_height_m);
   const auto range = static_cast<float>(params_.max_range_m);
+  const auto least_deep = static_cast<float>(params_.min_depth_m);
+  // A disparity's error is one of d^2 / (f B) in the depth d, of which the height has eye / d.
+  const float error_per_m =
+      sensor_ == SensorKind::kStereo
+          ? static_cast<float>(4.0 * kDisparitySigma_px / (camera.fx * camera_.baseline_m))
+          : 0.0F;
   for (int v = 0; v < depth_m_.rows; ++v) {
     const float* depth = depth_m_.ptr<float>(v);
     for (int u = 0; u < depth_m_.cols; ++u) {
@@ -119,7 +126,12 @@ void ObstaclePoints::collect() {
       const Eigen::Vector3f seen(static_cast<float>((u - camera.cx) / camera.fx) * depth[u],
                                  static_cast<float>((v - camera.cy) / camera.fy) * depth[u],
                                  depth[u]);
-      const Eigen::Vector3f point = T_base_camera_ * seen;
+      Eigen::Vector3f point = T_base_camera_ * seen;
+      if (point.z() < -std::max(least_deep, depth[u] * eye.z() * error_per_m)) {
+        point = eye + eye.z() / (eye.z() - point.z()) * (point - eye);
+        points_.emplace_back(point.x(), point.y(), low);
+        continue;
+      }
       if (point.z() < low || point.z() > high) continue;
       if ((point - eye).head<2>().norm() > range) continue;
       points_.push_back(point);

@@ -23,6 +23,9 @@ struct ObstaclePointsParams {
   double max_range_m = 2.0;  ///< Points further away than this on the floor are too coarse.
   double min_height_m = 0.08;  ///< Lower points are noise of the floor.
   double max_height_m = 1.2;   ///< The robot passes under higher points.
+  /// What is seen so far below the floor, and by four standard deviations of the stereo's error, is
+  /// seen where there is no floor: a step down.
+  double min_depth_m = 0.1;
   /// A match is trusted only where the image changes by this much from one column to the next (of
   /// 256 levels): in blank surfaces it runs on from their rims. Rims are obstacle enough.
   int min_texture = 8;
@@ -35,7 +38,8 @@ class ObstaclePoints {
   /// @throws std::invalid_argument  if a parameter is out of its range.
   ObstaclePoints(const CameraSetup& setup, const ObstaclePointsParams& params = {});
 
-  /// Points in the base frame; valid until the next call.
+  /// Points in the base frame; valid until the next call. Of what is below the floor, where it is
+  /// seen through the floor.
   const std::vector<Eigen::Vector3f>& of(const Frame& frame);
 
   /// Whether the last frame shows what is behind a point in the base frame: all depths around it

@@ -50,6 +50,11 @@ FloorPlan::FloorPlan(const Scene& scene, bool only_mapped) {
                         {(piece.to_m - piece.from_m) / 2, wall.thickness_m / 2}});
     }
   }
+  for (const FloorArea& area : scene.floor_areas) {
+    if (only_mapped || area.depth_m < kBodyLow_m) continue;
+    boxes_.push_back(
+        {0.5 * (area.low + area.high), Eigen::Vector2d::UnitX(), 0.5 * (area.high - area.low)});
+  }
   for (const Furniture& piece : scene.furniture) {
     if (only_mapped && !piece.in_map) continue;
     for (const FurniturePart& part : piece.parts) {

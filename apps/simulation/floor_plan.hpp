@@ -19,10 +19,10 @@ struct FloorBox {
   Eigen::Vector2d half;  ///< Half of its sides.
 };
 
-/// Walls (without their doorways) and furniture up to a body's height, as flat shapes.
+/// Walls (without their doorways), furniture up to a body's height and steps down, as flat shapes.
 class FloorPlan {
  public:
-  /// @param only_mapped  Leaves out furniture that is not in the robot's map.
+  /// @param only_mapped  Leaves out what is not in the robot's map.
   explicit FloorPlan(const Scene& scene, bool only_mapped = false);
 
   /// Distance to the nearest obstacle [m]; negative inside one.

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace heel {
 namespace {
@@ -103,6 +104,56 @@ void addFurniture(const FurniturePart& part, Builder& build) {
 
 }  // namespace
 
+namespace {
+
+// What is left of rectangles without a part of them.
+std::vector<FloorArea> cutOut(const std::vector<FloorArea>& areas, const FloorArea& hole) {
+  std::vector<FloorArea> left;
+  for (const FloorArea& area : areas) {
+    const Vector2d low = area.low.cwiseMax(hole.low), high = area.high.cwiseMin(hole.high);
+    if (!((high - low).minCoeff() > 0.0)) {
+      left.push_back(area);
+      continue;
+    }
+    const auto keep = [&](double x0, double y0, double x1, double y1) {
+      FloorArea piece = area;
+      piece.low = {x0, y0};
+      piece.high = {x1, y1};
+      if ((piece.high - piece.low).minCoeff() > 0.0) left.push_back(piece);
+    };
+    keep(area.low.x(), area.low.y(), low.x(), area.high.y());
+    keep(high.x(), area.low.y(), area.high.x(), area.high.y());
+    keep(low.x(), area.low.y(), high.x(), low.y());
+    keep(low.x(), high.y(), high.x(), area.high.y());
+  }
+  return left;
+}
+
+void addFloor(const FloorArea& area, double height_m, const Scene& scene, Builder& build) {
+  std::vector<FloorArea> pieces{area};
+  for (const FloorArea& hole : scene.floor_areas) {
+    if (hole.depth_m > 0.0) pieces = cutOut(pieces, hole);
+  }
+  for (const FloorArea& piece : pieces) {
+    const Vector2d size = piece.high - piece.low;
+    build.face({piece.low.x(), piece.low.y(), height_m}, {size.x(), 0.0, 0.0}, {0.0, size.y(), 0.0},
+               piece.surface, piece.low.x() - area.low.x());
+  }
+}
+
+void addStepDown(const FloorArea& area, Builder& build) {
+  const Vector3d corner(area.low.x(), area.low.y(), -area.depth_m), up(0.0, 0.0, area.depth_m);
+  const Vector3d x(area.high.x() - area.low.x(), 0.0, 0.0),
+      y(0.0, area.high.y() - area.low.y(), 0.0);
+  build.face(corner, x, y, area.surface);
+  build.face(corner, y, up, area.surface);
+  build.face(corner + x + y, -y, up, area.surface);
+  build.face(corner + x, -x, up, area.surface);
+  build.face(corner + y, x, up, area.surface);
+}
+
+}  // namespace
+
 Geometry makeGeometry(const Scene& scene) {
   Geometry geometry;
   Builder build(geometry);
@@ -111,15 +162,22 @@ Geometry makeGeometry(const Scene& scene) {
   const Vector3d corner(flat.low.x() - margin, flat.low.y() - margin, 0.0);
   const Vector3d x(flat.high.x() - flat.low.x() + 2 * margin, 0.0, 0.0);
   const Vector3d y(0.0, flat.high.y() - flat.low.y() + 2 * margin, 0.0);
-  build.face(corner, x, y, scene.floor);
+  FloorArea all;
+  all.low = corner.head<2>();
+  all.high = (corner + x + y).head<2>();
+  all.surface = scene.floor;
+  addFloor(all, 0.0, scene, build);
   if (scene.ceiling_m > 0.0) {
     build.face(corner + y + Vector3d(0.0, 0.0, scene.ceiling_m), x, -y, scene.ceiling);
   }
   double height = 0.0;
   for (const FloorArea& area : scene.floor_areas) {
+    if (area.depth_m > 0.0) {
+      addStepDown(area, build);
+      continue;
+    }
     height += 0.002;  // Each lies on those before it.
-    build.face({area.low.x(), area.low.y(), height}, {area.high.x() - area.low.x(), 0.0, 0.0},
-               {0.0, area.high.y() - area.low.y(), 0.0}, area.surface);
+    addFloor(area, height, scene, build);
   }
   for (const Wall& wall : scene.walls) addWall(wall, build);
   for (const Furniture& piece : scene.furniture) {

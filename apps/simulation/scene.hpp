@@ -43,11 +43,12 @@ struct Wall {
   std::vector<Doorway> doors;  ///< Sorted along the wall, not overlapping.
 };
 
-/// A rectangle of floor with a look of its own (a rug, another room's floor).
+/// A rectangle of floor with a look of its own (a rug, another room's floor), or a step down.
 struct FloorArea {
   Eigen::Vector2d low = Eigen::Vector2d::Zero();
   Eigen::Vector2d high = Eigen::Vector2d::Zero();
   Surface surface;
+  double depth_m = 0.0;  ///< So far below the floor it is. No map shows it.
 };
 
 /// A box or an upright cylinder; `base` is the middle of its lower side.

@@ -191,6 +191,7 @@ Scene loadScene(const std::string& file) {
     area.high = entry.point2("high");
     if ((area.high - area.low).minCoeff() <= 0.0) entry.fail("high", "must be beyond 'low'");
     area.surface = readSurface(entry, scene.floor);
+    area.depth_m = entry.number("depth_m", 0.0, kNotNegative);
     entry.done();
     scene.floor_areas.push_back(area);
   }

@@ -26,7 +26,7 @@ TEST(RoughWorld, IsReadFromNames) {
   EXPECT_FALSE(some.hurry || some.latency || some.laser || some.light || some.odometry);
   const RoughWorld all = roughWorldOf("all");
   EXPECT_TRUE(all.hurry && all.company && all.skirts && all.drawers);
-  EXPECT_TRUE(all.doors && all.black && all.glass && all.dropouts);
+  EXPECT_TRUE(all.doors && all.steps && all.black && all.glass && all.dropouts);
   EXPECT_TRUE(all.people && all.latency && all.map && all.laser && all.light && all.odometry);
 }
 
@@ -38,8 +38,9 @@ TEST(RoughWorld, NamesTheSwitchesThatThereAre) {
     } catch (const std::invalid_argument& error) {
       EXPECT_THAT(
           error.what(),
-          HasSubstr("people, hurry, company, skirts, drawers, doors, black, glass, dropouts, "
-                    "latency, map, laser, light, odometry, and all"));
+          HasSubstr(
+              "people, hurry, company, skirts, drawers, doors, steps, black, glass, dropouts, "
+              "latency, map, laser, light, odometry, and all"));
     }
   }
 }
@@ -183,6 +184,25 @@ TEST(RoughWorld, HangsDoorsWhereTheyAreInNobodysWay) {
   }
   EXPECT_GT(shut, 5);
   EXPECT_GT(open, 5);
+}
+
+TEST(RoughWorld, StepsDownAreWhereNobodyWalks) {
+  int steps = 0;
+  const Scene scene = busyHome();
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (const FloorArea& area : roughened(scene, roughWorldOf("steps"), seed).floor_areas) {
+      EXPECT_GE(area.depth_m, 0.15);
+      EXPECT_LE(area.depth_m, 0.5);
+      for (double x = 3.0; x <= 4.0; x += 0.1) {  // They walk along y = 1.
+        const Eigen::Vector2d on_way(x, 1.0);
+        const Eigen::Vector2d nearest = on_way.cwiseMax(area.low).cwiseMin(area.high);
+        EXPECT_GT((nearest - on_way).norm(), 0.4);
+      }
+      ++steps;
+    }
+  }
+  EXPECT_GT(steps, 10);
+  EXPECT_LE(steps, 60);
 }
 
 TEST(RoughWorld, CoversHalfOfTheFurnitureWithWhatNoLaserSees) {

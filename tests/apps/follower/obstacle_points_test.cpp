@@ -63,13 +63,30 @@ Frame frameOf(const std::vector<Surface>& surfaces) {
   return frame;
 }
 
-/// A wall at 4 m, which is out of range.
-Surface farWall(const CameraSetup& setup) { return upright(setup, 4.0, wholeImage(setup)); }
+/// A wall at 4 m, which is out of range, and the floor before it, down to `under_m` under the
+/// camera.
+std::vector<Surface> room(const CameraSetup& setup, double under_m = kCamera_m) {
+  return {upright(setup, 4.0, wholeImage(setup)), level(setup, under_m, 1.5, 4.0)};
+}
+
+std::vector<Surface> with(std::vector<Surface> room, const Surface& thing) {
+  room.push_back(thing);
+  return room;
+}
+
+/// An RGB-D frame whose pixels are all at one depth.
+Frame flat(const CameraSetup& setup, float depth_m) {
+  Frame frame;
+  const cv::Size size(setup.camera.left.width, setup.camera.left.height);
+  frame.image_bgr = cv::Mat::zeros(size, CV_8UC3);
+  frame.depth_m = cv::Mat(size, CV_32FC1, cv::Scalar::all(depth_m));
+  return frame;
+}
 
 TEST(ObstaclePoints, AStereoTableTopIsWhereItIs) {
   const CameraSetup setup = setupOf(SensorKind::kStereo);
   ObstaclePoints obstacles(setup);
-  const auto points = obstacles.of(frameOf({farWall(setup), level(setup, 0.25, 0.9, 1.6)}));
+  const auto points = obstacles.of(frameOf(with(room(setup), level(setup, 0.25, 0.9, 1.6))));
   ASSERT_GT(points.size(), 200U);
   int good = 0;
   for (const Eigen::Vector3f& p : points) {
@@ -77,6 +94,37 @@ TEST(ObstaclePoints, AStereoTableTopIsWhereItIs) {
     good += on_top ? 1 : 0;
   }
   EXPECT_GT(good, 0.95 * static_cast<double>(points.size()));
+}
+
+// The floor ends 2.6 m ahead of the camera, and goes on a step lower.
+TEST(ObstaclePoints, AStepDownIsWhereTheFloorIsSeenThrough) {
+  const CameraSetup setup = setupOf(SensorKind::kStereo);
+  ObstaclePoints obstacles(setup);
+  EXPECT_LT(obstacles.of(frameOf(room(setup))).size(), 20U);
+  const auto points =
+      obstacles.of(frameOf(with(room(setup, kCamera_m + 0.3), level(setup, kCamera_m, 1.5, 2.6))));
+  ASSERT_GT(points.size(), 200U);
+  int good = 0;
+  for (const Eigen::Vector3f& p : points) good += p.x() > 2.5F && p.x() < 4.1F ? 1 : 0;
+  EXPECT_GT(good, 0.95 * static_cast<double>(points.size()));
+  const auto nearest = std::min_element(points.begin(), points.end(),
+                                        [](auto& a, auto& b) { return a.x() < b.x(); });
+  EXPECT_NEAR(nearest->x(), 2.65F, 0.15F);
+}
+
+TEST(ObstaclePoints, SeesThroughWhereAllAroundIsFartherAway) {
+  const CameraSetup setup = setupOf(SensorKind::kRgbd);
+  ObstaclePoints obstacles(setup);
+  obstacles.of(flat(setup, 2.0F));
+  EXPECT_TRUE(obstacles.seesThrough({1.4F, 0.06F, 1.0F}));
+  EXPECT_FALSE(obstacles.seesThrough({1.6F, 0.06F, 1.0F})) << "it may be a part of what is seen";
+  EXPECT_FALSE(obstacles.seesThrough({2.5F, 0.06F, 1.0F})) << "hidden";
+  EXPECT_FALSE(obstacles.seesThrough({1.4F, 0.06F, 0.1F})) << "below the picture";
+  EXPECT_FALSE(obstacles.seesThrough({-1.0F, 0.06F, 1.0F})) << "behind the camera";
+  Frame post = flat(setup, 2.0F);
+  post.depth_m(cv::Rect(322, 0, 4, 480)).setTo(std::numeric_limits<float>::quiet_NaN());
+  obstacles.of(post);
+  EXPECT_FALSE(obstacles.seesThrough({1.4F, 0.06F, 1.0F})) << "beside what has no depth";
 }
 
 TEST(ObstaclePoints, ABlankWallHasNoStereoPoints) {
@@ -94,7 +142,7 @@ TEST(ObstaclePoints, ThePictureOfABlankThingIsItsRim) {
   Surface board = upright(setup, 1.2, {200.0, 120.0, 240.0, 240.0});
   board.contrast = 0.0;
   board.colour_bgr = {30, 30, 30};
-  const auto points = obstacles.of(frameOf({farWall(setup), board}));
+  const auto points = obstacles.of(frameOf(with(room(setup), board)));
   ASSERT_GT(points.size(), 20U);
   const float left_m = static_cast<float>(0.06 + 1.2 * (319.5 - 200.0) / 500.0);
   const float right_m = static_cast<float>(0.06 - 1.2 * (440.0 - 319.5) / 500.0);
@@ -102,15 +150,6 @@ TEST(ObstaclePoints, ThePictureOfABlankThingIsItsRim) {
     EXPECT_NEAR(p.x(), 1.25F, 0.2F);
     EXPECT_LT(std::min(std::abs(p.y() - left_m), std::abs(p.y() - right_m)), 0.12F);
   }
-}
-
-/// An RGB-D frame whose pixels are all at one depth.
-Frame flat(const CameraSetup& setup, float depth_m) {
-  Frame frame;
-  const cv::Size size(setup.camera.left.width, setup.camera.left.height);
-  frame.image_bgr = cv::Mat::zeros(size, CV_8UC3);
-  frame.depth_m = cv::Mat(size, CV_32FC1, cv::Scalar::all(depth_m));
-  return frame;
 }
 
 TEST(ObstaclePoints, MeasuredDepthNeedsNoTexture) {
@@ -156,6 +195,7 @@ TEST(ObstaclePoints, PlacesAPostAsTheWholeImageDoes) {
   const CameraSetup setup = setupOf(SensorKind::kRgbd);
   ObstaclePoints obstacles(setup);
   Frame frame = flat(setup, 4.0F);
+  frame.depth_m.rowRange(360, 480).setTo(0.0F);  // The floor is nearer.
   frame.depth_m(cv::Rect(420, 200, 20, 200)).setTo(1.5F);
   const auto& points = obstacles.of(frame);
   ASSERT_FALSE(points.empty());
@@ -187,9 +227,9 @@ TEST(ObstaclePoints, LeavesSmallImagesAsTheyAre) {
 TEST(ObstaclePoints, AFrameLeavesNothingForTheNext) {
   const CameraSetup setup = setupOf(SensorKind::kStereo);
   ObstaclePoints obstacles(setup);
-  const Frame table = frameOf({farWall(setup), level(setup, 0.25, 0.9, 1.6)});
+  const Frame table = frameOf(with(room(setup), level(setup, 0.25, 0.9, 1.6)));
   const auto first = obstacles.of(table);
-  EXPECT_LT(obstacles.of(frameOf({farWall(setup)})).size(), first.size() / 10);
+  EXPECT_LT(obstacles.of(frameOf(room(setup))).size(), first.size() / 10);
   EXPECT_EQ(obstacles.of(table), first);
 }
 

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <heel/apps/simulation/floor_plan.hpp>
 #include <heel/apps/simulation/random.hpp>
 #include <heel/apps/simulation/ray_world.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -32,6 +34,32 @@ double toTube(const Eigen::Vector3d& o, const Eigen::Vector3d& d, const Eigen::V
   if (root < 0) return INFINITY;
   const double t = (-B - std::sqrt(root)) / A, along = axis.dot(o + t * d - a);
   return t < 0 || along < 0 || along > (b - a).norm() ? INFINITY : t;
+}
+
+TEST(FloorPlan, HasStepsDownThatNoMapShows) {
+  Scene scene;
+  FloorArea rug, step;
+  rug.low = {-2.0, -2.0};
+  rug.high = {2.0, 2.0};
+  step.low = {1.0, -0.5};
+  step.high = {3.0, 0.5};
+  step.depth_m = 0.3;
+  scene.floor_areas = {rug, step};
+  const Geometry geometry = makeGeometry(scene);
+  const RayWorld world(geometry);
+  const auto down_m = [&](float x, float y) {
+    return world.trace({x, y, 1.0F}, {0.0F, 0.0F, -1.0F}).distance;
+  };
+  for (const auto& [x, y] : {std::pair{0.5F, 0.0F}, {1.5F, 0.7F}, {1.5F, -0.7F}, {3.2F, 0.0F}}) {
+    EXPECT_NEAR(down_m(x, y), 1.0F, 0.003F) << x << ", " << y;
+  }
+  EXPECT_NEAR(down_m(1.5F, 0.0F), 1.3F, 1e-5F);
+  EXPECT_NEAR(down_m(2.9F, 0.4F), 1.3F, 1e-5F);
+  const RayHit side = world.trace({0.0F, 0.0F, 1.0F}, {3.0F, 0.0F, -1.1F});
+  EXPECT_NEAR(side.distance, 1.0F, 1e-5F) << "its far side";
+  EXPECT_LT(side.normal.x(), -0.99F);
+  EXPECT_LT(FloorPlan(scene).clearance({1.5, 0.0}), 0.0);
+  EXPECT_GT(FloorPlan(scene, true).clearance({1.5, 0.0}), 0.0);
 }
 
 class RayWorldTest : public ::testing::Test {
