@@ -77,10 +77,11 @@ LocalPlanner::LocalPlanner(const LocalPlannerParams& params) : params_(params) {
   for (const double value :
        {params.margin_m, params.people_margin_m, params.slow_gap_m, params.walks_mps,
         params.reacts_s, params.least_speed_mps, params.give_way_gap_m, params.give_way_s,
-        params.look_away_s, params.arrive_m, params.depart_m - params.arrive_m,
-        static_cast<double>(params.latency_periods)}) {
+        params.look_away_s, params.arrive_m, params.depart_m - params.arrive_m}) {
     if (!(value >= 0.0)) throw std::invalid_argument("a local planner's parameter is negative");
   }
+  const long held = std::lround(params.reacts_s / params.limits.period_s);
+  held_ = static_cast<std::size_t>(std::max(held, 1L));
   futures_.steps = static_cast<std::size_t>(std::lround(steps));
   gaps_m_.resize(futures_.steps);
 }
@@ -251,8 +252,7 @@ void LocalPlanner::layOut(const DriveScene& scene, bool threatened, bool backs) 
                              limits.max_acceleration_mps2 +
                          std::max(std::abs(scene.now.speed.turn_radps), limits.max_turn_radps) /
                              limits.max_turn_acceleration_radps2;
-  const auto most = static_cast<std::size_t>(std::ceil(slowest / limits.period_s)) + 3 +
-                    static_cast<std::size_t>(params_.latency_periods);
+  const auto most = static_cast<std::size_t>(std::ceil(slowest / limits.period_s)) + 2 + held_;
   staying_gap_m_.resize(most);
   for (std::size_t i = 0; i < most; ++i) {
     staying_gap_m_[i] = roomToWays(*scene.people, limits, scene.now.pose,
@@ -263,15 +263,14 @@ void LocalPlanner::layOut(const DriveScene& scene, bool threatened, bool backs) 
 LocalPlanner::Braking LocalPlanner::brake(const DriveScene& scene, const VelocityCommand& command,
                                           Clearance clearance) const {
   const DriveLimits& limits = params_.limits;
-  const std::size_t held = 1 + static_cast<std::size_t>(params_.latency_periods);
   Braking out{kInfinite, kInfinite, false};
   DriveState state = scene.now;
   std::size_t step = 0;
   const auto rolls = [&] {
     return std::abs(state.speed.forward_mps) > 1e-9 || std::abs(state.speed.turn_radps) > 1e-9;
   };
-  for (; step < staying_gap_m_.size() && (step < held || rolls()); ++step) {
-    state = driven(limits, state, step < held ? command : VelocityCommand{}, limits.period_s);
+  for (; step < staying_gap_m_.size() && (step < held_ || rolls()); ++step) {
+    state = driven(limits, state, step < held_ ? command : VelocityCommand{}, limits.period_s);
     const double way = wayBetween(limits, scene.now.pose, state.pose);
     // The room shrinks by no more than the way gone; look only where that doesn't settle it.
     const bool far = gap_m_ - way > std::max(params_.slow_gap_m, params_.margin_m);

@@ -19,8 +19,6 @@ struct LocalPlannerParams {
   DriveTermParams terms;
   FacingParams facing;
   double horizon_s = 4.0;  ///< How far into the future the tried motions reach.
-  /// How many periods late the brakes may act, besides the period itself.
-  int latency_periods = 1;
   double margin_m = 0.04;  ///< Room that is left to things when the robot has braked.
   /// Room that is left to people when the robot has braked, wherever on their way they are then.
   double people_margin_m = 0.1;
@@ -30,7 +28,9 @@ struct LocalPlannerParams {
   /// as fast as lets it stand when they reach it; beside them, and round corners, at
   /// `least_speed_mps`. A walk about the house.
   double walks_mps = 0.7;
-  double reacts_s = 0.2;  ///< From somebody's step until the robot begins to brake.
+  /// From somebody's step until the robot begins to brake: that of the sensors, of the wheels, and
+  /// two control periods.
+  double reacts_s = 0.2;
   /// A robot that has stood so long to keep a person in view may turn away from them.
   double look_away_s = 0.5;
   double give_way_gap_m = 0.2;  ///< The robot backs off when a person will come nearer than this.
@@ -82,10 +82,10 @@ struct LocalPlan {
 /// on the spot, a stop, and backing off from somebody who comes too near. A long body that has
 /// found no way to go backs off as far as it is long, to where it can turn.
 ///
-/// A future is admissible if the robot, having held its first command for a period and the latency
-/// and then braked, still has its margins to all that stands and to where people can be by then; or
-/// if it comes no nearer than it would by standing. Of those the cheapest (see `DriveTerm`) is
-/// permitted one is taken. If there is none it brakes. Same calls, same answers.
+/// A future is admissible if the robot, having held its first command for `reacts_s` and then
+/// braked, still has its margins to all that stands and to where people can be by then; or if it
+/// comes no nearer than it would by standing. Of those the cheapest (see `DriveTerm`) that is
+/// permitted is taken. If there is none it brakes. Same calls, same answers.
 class LocalPlanner {
  public:
   /// @throws std::invalid_argument  if a limit or a parameter is out of range.
@@ -133,6 +133,7 @@ class LocalPlanner {
   void explain(const DriveScene& scene, LocalPlan& plan, bool threatened);
 
   LocalPlannerParams params_;
+  std::size_t held_;  // periods for which a command is held
   VelocityCommand last_;
   bool arrived_ = false;
   double blocked_s_ = 0.0;

@@ -88,13 +88,19 @@ bool ObstaclePoints::seesThrough(const Eigen::Vector3f& point) const {
       std::lround(camera.fx * static_cast<double>(seen.x() / seen.z()) + camera.cx));
   const auto v = static_cast<int>(
       std::lround(camera.fy * static_cast<double>(seen.y() / seen.z()) + camera.cy));
-  if (u < 1 || v < 1 || u + 1 >= depth_m_.cols || v + 1 >= depth_m_.rows) return false;
+  if (u < 1 || v < 1 || u + 1 >= depth_m_.cols || v + 1 >= depth_m_.rows || isBlank(v, u)) {
+    return false;
+  }
   for (int y = v - 1; y <= v + 1; ++y) {
     for (int x = u - 1; x <= u + 1; ++x) {  // Not where it is not a number.
       if (!(depth_m_.at<float>(y, x) > seen.z() + kBehind_m)) return false;
     }
   }
   return true;
+}
+
+bool ObstaclePoints::isBlank(int v, int u) const {
+  return !texture_.empty() && texture_.at<std::uint8_t>(v, u) == 0;
 }
 
 void ObstaclePoints::findTexture() {
@@ -122,7 +128,7 @@ void ObstaclePoints::collect() {
     const float* depth = depth_m_.ptr<float>(v);
     for (int u = 0; u < depth_m_.cols; ++u) {
       if (!(depth[u] > nearest && std::isfinite(depth[u]))) continue;  // NaN too
-      if (!texture_.empty() && texture_.at<std::uint8_t>(v, u) == 0) continue;
+      if (isBlank(v, u)) continue;
       const Eigen::Vector3f seen(static_cast<float>((u - camera.cx) / camera.fx) * depth[u],
                                  static_cast<float>((v - camera.cy) / camera.fy) * depth[u],
                                  depth[u]);

@@ -48,6 +48,7 @@ class ObstaclePoints {
 
  private:
   void findTexture();
+  bool isBlank(int v, int u) const;
   void collect();
 
   SensorKind sensor_;
