@@ -273,6 +273,16 @@ void ObstacleLayer::addPoints(const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
   }
 }
 
+void ObstacleLayer::touch(const Eigen::Vector2d& in_base) {
+  requireFrame();
+  const GridCell at = worldCell(T_world_base_ * in_base);
+  if (!inWindow(at)) return;
+  Cell& cell = cells_[slot(at)];
+  cell.points = {clock_s_ - params_.max_memory_s / params_.memory_gain, clock_s_, true};
+  cell.at_laser_height = false;
+  cell.height_m = 0.0F;
+}
+
 void ObstacleLayer::clear(const std::function<bool(const Eigen::Vector3f&)>& sees_through) {
   requireFrame();
   const FloorPose T_base_world = T_world_base_.inverse();

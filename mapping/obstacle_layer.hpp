@@ -107,6 +107,9 @@ class ObstacleLayer {
   /// @throws std::invalid_argument  if an index is outside of the cloud.
   void addPoints(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, const pcl::Indices& indices);
 
+  /// Something is there that no sensor sees; remembered for as long as anything is.
+  void touch(const Eigen::Vector2d& in_base);
+
   /// Forgets what the camera saw where it now sees through it.
   /// @param sees_through  Asked for points in the base frame, at the height of what was seen.
   void clear(const std::function<bool(const Eigen::Vector3f&)>& sees_through);

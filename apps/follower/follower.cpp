@@ -17,6 +17,10 @@ using Eigen::Vector2d;
 
 constexpr double kFullTurn_rad = 6.283185307179586;
 constexpr double kOpenFloor_m = 100.0;  // Without a map, so far across.
+constexpr double kDrives_mps = 0.1;     // Who asks for more, and moves less,
+constexpr double kMoves_mps = 0.02;     // for so long,
+constexpr double kStalls_s = 0.5;       // is held by something that is
+constexpr double kFeels_rad = 0.6;      // so far to either side, ahead or behind.
 
 OccupancyGrid openFloor(const Vector2d& middle) {
   constexpr double kCell_m = 0.1;
@@ -200,6 +204,7 @@ void Follower::lookAround(const RobotReadings& readings) {
     layer_.addScan(*readings.scan, motion_.seenFromNow(scan_s_) * robot_.T_base_scanner,
                    [this](const Vector2d& p) { return isMapped(p); });
   }
+  feelAround();
   obstacles_age_s_ += dt_s_;
   if (readings.frame != nullptr && obstacles_age_s_ > params_.obstacles_every_s - 1e-6) {
     const std::vector<Eigen::Vector3f>& points = obstacle_points_.of(*readings.frame);
@@ -218,6 +223,23 @@ void Follower::lookAround(const RobotReadings& readings) {
   notePeople();
   planner_.setObstacles(standing_, &layer_.window());
   room_.setLayer({}, &layer_.window());
+}
+
+// Wheels that do not turn though they should are held by something that no sensor sees.
+void Follower::feelAround() {
+  const double asked_mps = step_.velocity.forward_mps;
+  const bool is_held =
+      std::abs(asked_mps) > kDrives_mps && std::abs(speed_.forward_mps) < kMoves_mps;
+  stalled_s_ = is_held ? stalled_s_ + dt_s_ : 0.0;
+  if (stalled_s_ < kStalls_s + robot_.wheels_latency_s) return;
+  stalled_s_ = 0.0;
+  const DriveLimits& body = robot_.drive;
+  const double reach_m = body.radius_m + params_.obstacles.cell_size_m;
+  for (double angle = -kFeels_rad; angle <= kFeels_rad; angle += 0.1) {
+    const Vector2d rim = reach_m * Vector2d(std::cos(angle), std::sin(angle));
+    layer_.touch(asked_mps > 0.0 ? Vector2d(body.front_m + rim.x(), rim.y())
+                                 : Vector2d(body.back_m - rim.x(), rim.y()));
+  }
 }
 
 // Who walks is left to the local planner; around who stands leads another way, but for the target:

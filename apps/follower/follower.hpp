@@ -100,6 +100,7 @@ class Follower {
   void checkFacts();
   void begin(FollowingAction action);
   void drive();
+  void feelAround();
   void notePeople();
   bool isMapped(const Eigen::Vector2d& place) const;
   bool isSomebody(const Eigen::Vector2d& place) const;
@@ -155,6 +156,7 @@ class Follower {
   double clock_offset_s_ = 0.0;  // what it is ahead of the readings',
   double frame_s_ = 0.0;         // and the newest frame's stamp on it
   VelocityCommand speed_;        // by odometry
+  double stalled_s_ = 0.0;       // so long the wheels have not turned, though they should
   TargetEstimate target_;
   std::optional<MovingPerson> person_;  // the target, where it is known to be;
   MovingPerson last_;                   // where it was when last seen,

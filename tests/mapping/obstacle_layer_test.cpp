@@ -297,6 +297,18 @@ TEST(ObstacleLayer, WhatTheCameraSawStaysUntilItSeesThroughIt) {
   EXPECT_FALSE(occupied(layer, 0.82, 0.02)) << "not for ever: ten times as long as it was seen";
 }
 
+TEST(ObstacleLayer, WhatIsTouchedIsKnownUntilItIsOld) {
+  ObstacleLayer layer;
+  layer.begin(0.0, {{1.0, 0.0}, 0.0});
+  layer.touch({0.32, 0.02});
+  layer.finish();
+  EXPECT_TRUE(occupied(layer, 1.32, 0.02));
+  seeScan(layer, 14.0, around(720, 3.0F));
+  EXPECT_TRUE(occupied(layer, 1.32, 0.02)) << "no laser sees it";
+  seeScan(layer, 16.0, around(720, 3.0F));
+  EXPECT_FALSE(occupied(layer, 1.32, 0.02));
+}
+
 TEST(ObstacleLayer, TheLaserClearsPointsInItsPlane) {
   ObstacleLayer layer;
   auto person = thrice(1.02, 0.01, 1.1);

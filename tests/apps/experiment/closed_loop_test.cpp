@@ -174,6 +174,26 @@ TEST(ClosedLoop, LearnsAPersonAndReachesThem) {
   EXPECT_LT(error_m / seen, 0.3) << "on average; small images make it coarse";
 }
 
+// A sill, too low for both sensors, across the way.
+TEST(ClosedLoop, DoesNotPushAgainstWhatNoSensorSees) {
+  Scene scene = test::smallHome();
+  FurniturePart sill;
+  sill.base = {2.4, 2.0, 0.0};
+  sill.size_m = {0.1, 1.2, 0.07};
+  scene.furniture.push_back({"sill", false, {sill}});
+  ClosedLoopParams params = quickLoop();
+  params.limit_s = 60.0;
+  const FollowLog log = runClosedLoop(scene, searchPlan(), params);
+  EXPECT_EQ(log.outcome, "reached") << "around it";
+  int pushes = 0;
+  for (std::size_t i = 1; i < log.samples.size(); ++i) {
+    const bool touches = log.samples[i].contact_by_robot;
+    if (touches && log.samples[i].command.forward_mps > 0.1) ++pushes;
+  }
+  EXPECT_GT(pushes, 0) << "or this shows nothing";
+  EXPECT_LT(pushes, 20) << "steps of a tenth of a second";
+}
+
 TEST(ClosedLoop, WithoutAMapItGoesByItsOdometryAndWhatItSees) {
   ClosedLoopParams params = quickLoop();
   params.limit_s = 30.0;
