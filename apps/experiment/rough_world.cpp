@@ -197,11 +197,11 @@ void stepDown(Scene& scene, std::uint64_t seed) {
   }
 }
 
-// Half of the pieces, by one draw for each.
+// A fifth of the pieces, by one draw for each.
 void cover(Scene& scene, const char* material, bool only_mapped, std::uint64_t seed) {
   RandomStream random(seed);
   for (Furniture& piece : scene.furniture) {
-    const bool is_covered = random.uniform() < 0.5;
+    const bool is_covered = random.uniform() < 0.2;
     if (!is_covered || (only_mapped && !piece.in_map)) continue;
     for (FurniturePart& part : piece.parts) part.surface = {material, usualColor(material)};
   }

@@ -27,8 +27,8 @@ struct RoughWorld {
   /// some are shut.
   bool doors = false;
   bool steps = false;     ///< Up to three steps down of 0.15 to 0.5 m, where nobody's way leads.
-  bool black = false;     ///< Half of the furniture is of velvet, which no laser sees.
-  bool glass = false;     ///< Of what the map shows half is of glass, which no laser sees.
+  bool black = false;     ///< A fifth of the furniture is of velvet, which no laser sees.
+  bool glass = false;     ///< Of what the map shows a fifth is of glass, which no laser sees.
   bool dropouts = false;  ///< Pictures and scans are missing for 0.2 to 2 s, about every 15 s.
   bool latency = false;   ///< Pictures, scans and the wheels are late, with jitter: see Latencies.
   bool map = false;    ///< In the robot's map furniture is up to 0.1 m off, and a piece is missing.
