@@ -278,7 +278,7 @@ void ObstacleLayer::touch(const Eigen::Vector2d& in_base) {
   const GridCell at = worldCell(T_world_base_ * in_base);
   if (!inWindow(at)) return;
   Cell& cell = cells_[slot(at)];
-  cell.points = {clock_s_ - params_.max_memory_s / params_.memory_gain, clock_s_, true};
+  cell.points = {clock_s_ - params_.max_memory_s, clock_s_, true};
   cell.at_laser_height = false;
   cell.height_m = 0.0F;
 }

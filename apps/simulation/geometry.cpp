@@ -102,10 +102,6 @@ void addFurniture(const FurniturePart& part, Builder& build) {
   build.box(part.base, part.size_m, part.yaw_rad, part.surface, part.surface, part.surface);
 }
 
-}  // namespace
-
-namespace {
-
 // What is left of rectangles without a part of them.
 std::vector<FloorArea> cutOut(const std::vector<FloorArea>& areas, const FloorArea& hole) {
   std::vector<FloorArea> left;

@@ -25,7 +25,7 @@ struct Material {
   float glow = 0.0F;          ///< Radiance of its own per unit of colour (lamps, windows).
   bool fit_width = false;     ///< One tile covers the whole width of a face,
   bool fit_height = false;    ///< ... or its whole height (pictures, book shelves).
-  LaserEcho echo = LaserEcho::kReturned;
+  LaserEcho echo = LaserEcho::kReturned;  ///< What a laser sees of it.
 };
 
 bool isMaterial(const std::string& name);
