@@ -44,6 +44,9 @@ ObstacleLayerParams checked(const ObstacleLayerParams& p) {
   require(notNegative(p.min_memory_s) && p.max_memory_s >= p.min_memory_s &&
               std::isfinite(p.max_memory_s) && notNegative(p.memory_gain),
           "memory must not be negative, with its limits in order");
+  require(notNegative(p.held_s) && notNegative(p.held_after_s) && notNegative(p.held_within_m) &&
+              p.held_within_m <= p.size_m,
+          "times and distance of what is held must not be negative, nor greater than the window");
   return p;
 }
 
@@ -79,6 +82,26 @@ bool ObstacleLayer::remembered(const Trace& trace) const {
   const double memory_s = std::clamp(params_.memory_gain * trace.lasted_s(), params_.min_memory_s,
                                      params_.max_memory_s);
   return clock_s_ - trace.seen_s <= memory_s;
+}
+
+/// Whether what the camera saw here stands on something that the laser still sees.
+bool ObstacleLayer::isHeld(const GridCell& world_cell) const {
+  const Trace& points = cells_[slot(world_cell)].points;
+  if (!points.known || points.lasted_s() < params_.held_after_s ||
+      clock_s_ - points.seen_s > params_.held_s) {
+    return false;
+  }
+  const double reach = params_.held_within_m / params_.cell_size_m;
+  const int most = static_cast<int>(reach);
+  for (int dy = -most; dy <= most; ++dy) {
+    for (int dx = -most; dx <= most; ++dx) {
+      const GridCell near{world_cell.x + dx, world_cell.y + dy};
+      if (dx * dx + dy * dy > reach * reach || !inWindow(near)) continue;
+      const Trace& laser = cells_[slot(near)].laser;
+      if (remembered(laser) && laser.lasted_s() >= params_.held_after_s) return true;
+    }
+  }
+  return false;
 }
 
 void ObstacleLayer::see(Trace& trace, bool again) const {
@@ -303,7 +326,7 @@ void ObstacleLayer::finish() {
   for (const std::size_t i : touched_) {
     Cell& cell = cells_[i];
     if (cell.frame_points >= params_.min_points) {
-      const bool again = remembered(cell.points);
+      const bool again = cell.held || remembered(cell.points);
       see(cell.points, again);
       cell.height_m = cell.frame_height_m;
       cell.at_laser_height = cell.frame_at_laser_height || (again && cell.at_laser_height);
@@ -322,7 +345,9 @@ void ObstacleLayer::finish() {
     for (int x = 0; x < n; ++x) {
       Cell& cell = row[first + x < n ? first + x : first + x - n];
       cell.laser.known = remembered(cell.laser);
-      cell.points.known = remembered(cell.points);
+      const bool is_fresh = remembered(cell.points);
+      cell.held = !is_fresh && isHeld({corner_.x + x, corner_.y + y});
+      cell.points.known = is_fresh || cell.held;
       const bool occupied = cell.laser.known || cell.points.known;
       window_.at(GridCell{x, y}) = occupied ? Occupancy::kOccupied : Occupancy::kFree;
       occupied_[window_.index({x, y})] = occupied ? 1 : 0;

@@ -53,9 +53,16 @@ struct ObstacleLayerParams {
   /// An obstacle is remembered for at most this time; less where many people walk about.
   double max_memory_s = 15.0;
   /// An obstacle is remembered for so many times as long as it was seen: somebody who walks by
-  /// leaves a short trail, a false match a shorter one, and a table that the robot drove up to is
-  /// known when it has left the picture.
+  /// leaves a short trail, and a table that the robot drove up to is known when it has left the
+  /// picture.
   double memory_gain = 5.0;
+
+  /// What the camera saw is remembered for so long beside something that the laser still sees: a
+  /// stool's seat over its leg; 0: never.
+  double held_s = 60.0;
+  /// held_s is for what camera and laser have both seen for at least this time.
+  double held_after_s = 1.0;
+  double held_within_m = 0.3;  ///< held_s is for what is this near to what the laser sees.
 };
 
 /// A rolling window of the floor in world axes around the robot, with what the laser and the
@@ -68,7 +75,7 @@ struct ObstacleLayerParams {
 /// The two sources are kept apart. A planar laser passes under table tops and chair seats and over
 /// low boxes, and has no echo of a black sofa. So its free space clears what the laser itself saw,
 /// and of what the camera saw only cells that had points in the laser's plane, before an echo. All
-/// else stays until the camera sees through it, or is forgotten with age.
+/// else is forgotten with age, or when the camera sees through it.
 ///
 /// Time is what `begin` says, and only its increase counts: a clock that is set back ages nothing,
 /// and one that is set forward forgets. Poses may be in any frame that does not jump; odometry's
@@ -146,12 +153,14 @@ class ObstacleLayer {
     Trace points;
     bool at_laser_height = false;  // the points
     bool frame_at_laser_height = false;
+    bool held = false;      // the points; see held_s
     float height_m = 0.0F;  // of the highest of them, as last seen
     float frame_height_m = 0.0F;
     std::uint16_t frame_points = 0;
   };
 
   bool remembered(const Trace& trace) const;
+  bool isHeld(const GridCell& world_cell) const;
   void see(Trace& trace, bool again) const;
   bool mayClear(const Trace& trace) const;
   bool inWindow(const GridCell& world_cell) const;

@@ -30,7 +30,7 @@ OccupancyGrid openFloor(const Vector2d& middle) {
 
 /// Without a map what was seen is all that is known of the walls.
 FollowerParams withoutMap(FollowerParams params) {
-  params.obstacles.max_memory_s *= 2.0;
+  params.obstacles.max_memory_s = params.obstacles.held_s;
   return params;
 }
 

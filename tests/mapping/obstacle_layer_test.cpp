@@ -262,6 +262,47 @@ TEST(ObstacleLayer, ATableTopSurvivesTheLaserUnderneath) {
   EXPECT_TRUE(occupied(layer, 1.52, 0.01));
 }
 
+/// For so many frames of a tenth of a second the laser sees a stool's leg, and the camera its seat.
+void seeStool(ObstacleLayer& layer, int frames, bool leg, bool seat, double& stamp_s) {
+  for (int i = 0; i < frames; ++i, stamp_s += 0.1) {
+    layer.begin(stamp_s, {});
+    if (leg) layer.addScan(oneBeam(1.02), {});
+    if (seat) layer.addPoints(thrice(0.82, 0.02, 0.44));
+    layer.finish();
+  }
+}
+
+TEST(ObstacleLayer, AStoolsSeatIsThereForAsLongAsTheLaserSeesItsLeg) {
+  ObstacleLayer layer;
+  double stamp_s = 0.0;
+  seeStool(layer, 15, true, true, stamp_s);
+  seeStool(layer, 500, true, false, stamp_s);
+  EXPECT_TRUE(occupied(layer, 0.82, 0.02));
+  seeStool(layer, 2, true, true, stamp_s);  // A glance makes it no younger.
+  seeStool(layer, 500, true, false, stamp_s);
+  EXPECT_TRUE(occupied(layer, 0.82, 0.02));
+  seeStool(layer, 150, true, false, stamp_s);  // Not for ever: 60 s.
+  EXPECT_FALSE(occupied(layer, 0.82, 0.02));
+}
+
+TEST(ObstacleLayer, ASeatWithoutALegIsForgotten) {
+  ObstacleLayer layer;
+  double stamp_s = 0.0;
+  seeStool(layer, 15, true, true, stamp_s);
+  seeStool(layer, 160, false, false, stamp_s);
+  EXPECT_TRUE(layer.obstacles().empty());
+}
+
+TEST(ObstacleLayer, WhatTheCameraSawForAMomentBesideALegIsForgotten) {
+  ObstacleLayer layer;
+  double stamp_s = 0.0;
+  seeStool(layer, 15, true, false, stamp_s);
+  seeStool(layer, 5, true, true, stamp_s);
+  seeStool(layer, 30, true, false, stamp_s);
+  EXPECT_FALSE(occupied(layer, 0.82, 0.02));
+  EXPECT_TRUE(occupied(layer, 1.02, 0.0));
+}
+
 // A stool's seat, as the robot drives up to it and the camera passes over it.
 TEST(ObstacleLayer, WhatTheCameraSawStaysUntilItSeesThroughIt) {
   ObstacleLayerParams params;
