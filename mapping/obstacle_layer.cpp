@@ -301,7 +301,9 @@ void ObstacleLayer::touch(const Eigen::Vector2d& in_base) {
   const GridCell at = worldCell(T_world_base_ * in_base);
   if (!inWindow(at)) return;
   Cell& cell = cells_[slot(at)];
-  cell.points = {clock_s_ - params_.max_memory_s, clock_s_, true};
+  // As if it were seen until then.
+  const double until_s = clock_s_ + params_.held_s - params_.max_memory_s;
+  cell.points = {until_s - params_.max_memory_s, until_s, true};
   cell.at_laser_height = false;
   cell.height_m = 0.0F;
 }

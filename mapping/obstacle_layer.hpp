@@ -114,7 +114,7 @@ class ObstacleLayer {
   /// @throws std::invalid_argument  if an index is outside of the cloud.
   void addPoints(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, const pcl::Indices& indices);
 
-  /// Something is there that no sensor sees; remembered for as long as anything is.
+  /// Something is there that no sensor sees; remembered for `held_s`, whatever is seen.
   void touch(const Eigen::Vector2d& in_base);
 
   /// Forgets what the camera saw where it now sees through it.

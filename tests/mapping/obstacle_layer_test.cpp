@@ -344,9 +344,9 @@ TEST(ObstacleLayer, WhatIsTouchedIsKnownUntilItIsOld) {
   layer.touch({0.32, 0.02});
   layer.finish();
   EXPECT_TRUE(occupied(layer, 1.32, 0.02));
-  seeScan(layer, 14.0, around(720, 3.0F));
+  seeScan(layer, 59.0, around(720, 3.0F));
   EXPECT_TRUE(occupied(layer, 1.32, 0.02)) << "no laser sees it";
-  seeScan(layer, 16.0, around(720, 3.0F));
+  seeScan(layer, 61.0, around(720, 3.0F));
   EXPECT_FALSE(occupied(layer, 1.32, 0.02));
 }
 
