@@ -311,14 +311,13 @@ void ObstacleLayer::touch(const Eigen::Vector2d& in_base) {
 void ObstacleLayer::clear(const std::function<bool(const Eigen::Vector3f&)>& sees_through) {
   requireFrame();
   const FloorPose T_base_world = T_world_base_.inverse();
-  for (int y = corner_.y; y < corner_.y + cells_per_edge_; ++y) {
-    for (int x = corner_.x; x < corner_.x + cells_per_edge_; ++x) {
-      Cell& cell = cells_[slot({x, y})];
-      if (!mayClear(cell.points)) continue;
-      const Eigen::Vector2d middle = params_.cell_size_m * Eigen::Vector2d(x + 0.5, y + 0.5);
-      const Eigen::Vector2f at = (T_base_world * middle).cast<float>();
-      if (sees_through({at.x(), at.y(), cell.height_m})) cell.points.known = false;
-    }
+  for (const Eigen::Vector2d& middle : obstacles_) {  // What is newer is not cleared yet.
+    const GridCell at = worldCell(middle);
+    if (!inWindow(at)) continue;
+    Cell& cell = cells_[slot(at)];
+    if (!mayClear(cell.points)) continue;
+    const Eigen::Vector2f seen = (T_base_world * middle).cast<float>();
+    if (sees_through({seen.x(), seen.y(), cell.height_m})) cell.points.known = false;
   }
 }
 

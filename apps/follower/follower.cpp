@@ -17,10 +17,12 @@ using Eigen::Vector2d;
 
 constexpr double kFullTurn_rad = 6.283185307179586;
 constexpr double kOpenFloor_m = 100.0;  // Without a map, so far across.
-constexpr double kDrives_mps = 0.1;     // Who asks for more, and moves less,
-constexpr double kMoves_mps = 0.02;     // for so long,
-constexpr double kStalls_s = 0.5;       // is held by something that is
-constexpr double kFeels_rad = 0.6;      // so far to either side, ahead or behind.
+// The robot has run into something if it is told to drive faster than kDrives_mps, and is slower
+// than kMoves_mps for kStalls_s. What it touches may be anywhere within kFeels_rad of its heading.
+constexpr double kDrives_mps = 0.1;
+constexpr double kMoves_mps = 0.02;
+constexpr double kStalls_s = 0.5;
+constexpr double kFeels_rad = 0.6;
 
 OccupancyGrid openFloor(const Vector2d& middle) {
   constexpr double kCell_m = 0.1;

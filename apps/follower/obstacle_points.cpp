@@ -4,6 +4,7 @@
 #include <heel/apps/follower/depth_images.hpp>
 #include <heel/apps/follower/obstacle_points.hpp>
 #include <heel/apps/follower/param_checks.hpp>
+#include <heel/apps/follower/wall_gate.hpp>
 
 #include <opencv2/imgproc.hpp>
 
@@ -16,7 +17,6 @@ namespace {
 
 // Whatever is so far behind a point is not a part of the same thing: a chair is as deep.
 constexpr float kBehind_m = 0.5F;
-constexpr double kDisparitySigma_px = 0.25;
 
 StereoCamera shrunk(const StereoCamera& camera, int width_px) {
   if (camera.left.width <= width_px) return camera;
@@ -119,11 +119,9 @@ void ObstaclePoints::collect() {
   const auto high = static_cast<float>(params_.max_height_m);
   const auto range = static_cast<float>(params_.max_range_m);
   const auto least_deep = static_cast<float>(params_.min_depth_m);
-  // A disparity's error is one of d^2 / (f B) in the depth d, of which the height has eye / d.
+  // Of an error in the depth d the height has eye / d.
   const float error_per_m =
-      sensor_ == SensorKind::kStereo
-          ? static_cast<float>(4.0 * kDisparitySigma_px / (camera.fx * camera_.baseline_m))
-          : 0.0F;
+      sensor_ == SensorKind::kStereo ? 2.0F * static_cast<float>(depthErrorOf(camera_)) : 0.0F;
   for (int v = 0; v < depth_m_.rows; ++v) {
     const float* depth = depth_m_.ptr<float>(v);
     for (int u = 0; u < depth_m_.cols; ++u) {
