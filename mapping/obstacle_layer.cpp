@@ -44,9 +44,6 @@ ObstacleLayerParams checked(const ObstacleLayerParams& p) {
   require(notNegative(p.min_memory_s) && p.max_memory_s >= p.min_memory_s &&
               std::isfinite(p.max_memory_s) && notNegative(p.memory_gain),
           "memory must not be negative, with its limits in order");
-  require(notNegative(p.held_s) && notNegative(p.held_after_s) && notNegative(p.held_within_m) &&
-              p.held_within_m <= p.size_m,
-          "times and distance of what is held must not be negative, nor greater than the window");
   return p;
 }
 
@@ -84,28 +81,12 @@ bool ObstacleLayer::remembered(const Trace& trace) const {
   return clock_s_ - trace.seen_s <= memory_s;
 }
 
-/// Whether what the camera saw here stands on something that the laser still sees.
-bool ObstacleLayer::isHeld(const GridCell& world_cell) const {
-  const Trace& points = cells_[slot(world_cell)].points;
-  if (!points.known || points.lasted_s() < params_.held_after_s ||
-      clock_s_ - points.seen_s > params_.held_s) {
-    return false;
+void ObstacleLayer::see(Trace& trace, bool is_somebody) const {
+  if (!remembered(trace)) {
+    trace.since_s = clock_s_;
+  } else if (is_somebody) {
+    trace.since_s += clock_s_ - trace.seen_s;  // It has not lasted any longer.
   }
-  const double reach = params_.held_within_m / params_.cell_size_m;
-  const int most = static_cast<int>(reach);
-  for (int dy = -most; dy <= most; ++dy) {
-    for (int dx = -most; dx <= most; ++dx) {
-      const GridCell near{world_cell.x + dx, world_cell.y + dy};
-      if (dx * dx + dy * dy > reach * reach || !inWindow(near)) continue;
-      const Trace& laser = cells_[slot(near)].laser;
-      if (remembered(laser) && laser.lasted_s() >= params_.held_after_s) return true;
-    }
-  }
-  return false;
-}
-
-void ObstacleLayer::see(Trace& trace, bool again) const {
-  if (!again) trace.since_s = clock_s_;
   trace.seen_s = clock_s_;
   trace.known = true;
 }
@@ -134,12 +115,19 @@ bool ObstacleLayer::leftOut(const Eigen::Vector2d& point) const {
   return target_ && (point - target_->center).norm() <= target_->radius_m;
 }
 
+bool ObstacleLayer::isSomebody(const Eigen::Vector2d& point) const {
+  return std::any_of(people_.begin(), people_.end(), [&](const FloorDisc& person) {
+    return (point - person.center).norm() <= person.radius_m;
+  });
+}
+
 void ObstacleLayer::requireFrame() const {
   if (!begun_) throw std::invalid_argument("an obstacle layer's frame must begin with begin()");
 }
 
 void ObstacleLayer::begin(double stamp_s, const FloorPose& T_world_base,
-                          const std::optional<FloorDisc>& target) {
+                          const std::optional<FloorDisc>& target,
+                          const std::vector<FloorDisc>& people) {
   require(std::isfinite(stamp_s), "stamp must be finite");
   require(
       finite(T_world_base) && (T_world_base.position / params_.cell_size_m).norm() < kFarthestCell,
@@ -150,6 +138,7 @@ void ObstacleLayer::begin(double stamp_s, const FloorPose& T_world_base,
   stamp_s_ = stamp_s;
   T_world_base_ = T_world_base;
   target_ = target;
+  people_.assign(people.begin(), people.end());
   const GridCell middle = worldCell(T_world_base.position);
   roll({middle.x - cells_per_edge_ / 2, middle.y - cells_per_edge_ / 2});
   forgetUnderRobot();
@@ -217,8 +206,7 @@ void ObstacleLayer::addScan(const LaserScan& scan, const FloorPose& T_base_laser
     const GridCell cell = worldCell(end);
     const bool is_known = is_mapped && is_mapped(end);
     if (inWindow(cell) && !leftOut(end) && !is_known) {
-      Trace& trace = cells_[slot(cell)].laser;
-      see(trace, remembered(trace));
+      see(cells_[slot(cell)].laser, isSomebody(end));
     }
   }
 }
@@ -268,6 +256,7 @@ void ObstacleLayer::addPoint(const Eigen::Vector3f& point) {
   if (cell.frame_points == 0) {
     touched_.push_back(index);
     cell.frame_at_laser_height = false;
+    cell.frame_is_somebody = isSomebody(in_world);
     cell.frame_height_m = point.z();
   }
   cell.frame_height_m = std::max(cell.frame_height_m, point.z());
@@ -300,12 +289,7 @@ void ObstacleLayer::touch(const Eigen::Vector2d& in_base) {
   requireFrame();
   const GridCell at = worldCell(T_world_base_ * in_base);
   if (!inWindow(at)) return;
-  Cell& cell = cells_[slot(at)];
-  // As if it were seen until then.
-  const double until_s = clock_s_ + params_.held_s - params_.max_memory_s;
-  cell.points = {until_s - params_.max_memory_s, until_s, true};
-  cell.at_laser_height = false;
-  cell.height_m = 0.0F;
+  cells_[slot(at)].touch = {clock_s_ - params_.max_memory_s, clock_s_, true};
 }
 
 void ObstacleLayer::clear(const std::function<bool(const Eigen::Vector3f&)>& sees_through) {
@@ -327,8 +311,8 @@ void ObstacleLayer::finish() {
   for (const std::size_t i : touched_) {
     Cell& cell = cells_[i];
     if (cell.frame_points >= params_.min_points) {
-      const bool again = cell.held || remembered(cell.points);
-      see(cell.points, again);
+      const bool again = remembered(cell.points);
+      see(cell.points, cell.frame_is_somebody);
       cell.height_m = cell.frame_height_m;
       cell.at_laser_height = cell.frame_at_laser_height || (again && cell.at_laser_height);
     }
@@ -346,10 +330,9 @@ void ObstacleLayer::finish() {
     for (int x = 0; x < n; ++x) {
       Cell& cell = row[first + x < n ? first + x : first + x - n];
       cell.laser.known = remembered(cell.laser);
-      const bool is_fresh = remembered(cell.points);
-      cell.held = !is_fresh && isHeld({corner_.x + x, corner_.y + y});
-      cell.points.known = is_fresh || cell.held;
-      const bool occupied = cell.laser.known || cell.points.known;
+      cell.points.known = remembered(cell.points);
+      cell.touch.known = remembered(cell.touch);
+      const bool occupied = cell.laser.known || cell.points.known || cell.touch.known;
       window_.at(GridCell{x, y}) = occupied ? Occupancy::kOccupied : Occupancy::kFree;
       occupied_[window_.index({x, y})] = occupied ? 1 : 0;
       if (occupied) obstacles_.push_back(window_.center({x, y}));

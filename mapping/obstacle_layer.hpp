@@ -48,21 +48,13 @@ struct ObstacleLayerParams {
   double clear_spacing_m = 0.05;
   double clear_after_s = 0.3;  ///< What was seen more recently than this is not cleared.
 
-  /// An obstacle is remembered for at least this time; see memory_gain.
-  double min_memory_s = 2.0;
-  /// An obstacle is remembered for at most this time; less where many people walk about.
-  double max_memory_s = 15.0;
-  /// An obstacle is remembered for so many times as long as it was seen: somebody who walks by
-  /// leaves a short trail, and a table that the robot drove up to is known when it has left the
-  /// picture.
-  double memory_gain = 5.0;
-
-  /// What the camera saw is remembered for so long beside something that the laser still sees: a
-  /// stool's seat over its leg; 0: never.
-  double held_s = 60.0;
-  /// held_s is for what camera and laser have both seen for at least this time.
-  double held_after_s = 1.0;
-  double held_within_m = 0.3;  ///< held_s is for what is this near to what the laser sees.
+  /// An obstacle is remembered for at least this time, and people for no longer: a false match of
+  /// one frame must not close a doorway for long.
+  double min_memory_s = 0.7;
+  double max_memory_s = 60.0;  ///< An obstacle is remembered for at most this time.
+  /// An obstacle is remembered for so many times as long as it was seen: a table that the robot
+  /// drove up to is known when it has left the picture.
+  double memory_gain = 10.0;
 };
 
 /// A rolling window of the floor in world axes around the robot, with what the laser and the
@@ -75,7 +67,7 @@ struct ObstacleLayerParams {
 /// The two sources are kept apart. A planar laser passes under table tops and chair seats and over
 /// low boxes, and has no echo of a black sofa. So its free space clears what the laser itself saw,
 /// and of what the camera saw only cells that had points in the laser's plane, before an echo. All
-/// else is forgotten with age, or when the camera sees through it.
+/// else is forgotten with age, or when the camera sees through it; people soon, for they walk.
 ///
 /// Time is what `begin` says, and only its increase counts: a clock that is set back ages nothing,
 /// and one that is set forward forgets. Poses may be in any frame that does not jump; odometry's
@@ -93,9 +85,11 @@ class ObstacleLayer {
   /// @param stamp_s  Of the readings that follow.
   /// @param target   Where the person is who is followed: readings in there are left out. What was
   ///                 seen there before stays until it is forgotten.
+  /// @param people   Where others are: what is seen in there is remembered for `min_memory_s`.
   /// @throws std::invalid_argument  if a number is not finite.
   void begin(double stamp_s, const FloorPose& T_world_base,
-             const std::optional<FloorDisc>& target = std::nullopt);
+             const std::optional<FloorDisc>& target = std::nullopt,
+             const std::vector<FloorDisc>& people = {});
 
   /// Each beam clears the cells before its end, and the end is an obstacle. Ranges that are not
   /// numbers or too short are left out; infinite ones are free up to `laser_max_range_m`.
@@ -114,7 +108,7 @@ class ObstacleLayer {
   /// @throws std::invalid_argument  if an index is outside of the cloud.
   void addPoints(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, const pcl::Indices& indices);
 
-  /// Something is there that no sensor sees; remembered for `held_s`, whatever is seen.
+  /// Something is there that no sensor sees; remembered for `max_memory_s`, whatever is seen.
   void touch(const Eigen::Vector2d& in_base);
 
   /// Forgets what the camera saw where it now sees through it.
@@ -151,22 +145,23 @@ class ObstacleLayer {
   struct Cell {
     Trace laser;
     Trace points;
+    Trace touch;
     bool at_laser_height = false;  // the points
     bool frame_at_laser_height = false;
-    bool held = false;      // the points; see held_s
-    float height_m = 0.0F;  // of the highest of them, as last seen
+    float height_m = 0.0F;  // of the highest of the points, as last seen
+    bool frame_is_somebody = false;
     float frame_height_m = 0.0F;
     std::uint16_t frame_points = 0;
   };
 
   bool remembered(const Trace& trace) const;
-  bool isHeld(const GridCell& world_cell) const;
-  void see(Trace& trace, bool again) const;
+  void see(Trace& trace, bool is_somebody) const;
   bool mayClear(const Trace& trace) const;
   bool inWindow(const GridCell& world_cell) const;
   std::size_t slot(const GridCell& world_cell) const;
   GridCell worldCell(const Eigen::Vector2d& point) const;
   bool leftOut(const Eigen::Vector2d& point) const;
+  bool isSomebody(const Eigen::Vector2d& point) const;
   void roll(const GridCell& corner);
   void forgetUnderRobot();
   void requireFrame() const;
@@ -183,6 +178,7 @@ class ObstacleLayer {
   std::optional<double> stamp_s_;
   FloorPose T_world_base_;
   std::optional<FloorDisc> target_;
+  std::vector<FloorDisc> people_;
   std::vector<std::size_t> touched_;  // cells with points in this frame
 
   OccupancyGrid window_;

@@ -238,9 +238,9 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
     const double free_s = lastFree(place);
     const bool moves = free_s == before.stamp_s && dt_s <= kOldestLook_s;
     const Vector2d velocity = moves ? velocityOf(place, before, dt_s) : Vector2d::Zero();
-    const bool roams = stamp_s - free_s <= params_.remembers_s;
+    const bool roams = free_s > kNotYet;
     if (roams) roaming_.push_back({place, velocity});
-    keep({place, 0.0, stamp_s, true, true, roams, free_s > kNotYet, velocity, 0.0});
+    keep({place, 0.0, stamp_s, true, true, roams, velocity, 0.0});
   }
   for (SeenThing& thing : things_) {
     if (!thing.roams || thing.seen_s != stamp_s) continue;
@@ -300,7 +300,7 @@ void RecentSight::addPoints(const std::vector<Eigen::Vector3f>& points, const Fl
   for (const Cell& cell : cells_) {
     if (cell.points < params_.min_points) continue;
     keep({placeOf(cell), static_cast<double>(cell.highest_m), stamp_s, false, cell.is_sure, false,
-          false, Vector2d::Zero(), 0.0});
+          Vector2d::Zero(), 0.0});
   }
   layOut();
 }

@@ -39,8 +39,7 @@ struct SeenThing {
   double seen_s;
   bool by_laser;
   bool is_sure;              ///< By the laser, or in two pictures one after the other.
-  bool roams;                ///< It came from elsewhere in the last `remembers_s`,
-  bool is_somebody;          ///< or in the last half minute (at most 8 times that).
+  bool roams;                ///< It came from elsewhere in the last half minute.
   Eigen::Vector2d velocity;  ///< Of what roams, the mean of all that is within a body's width.
   double gait_mps;  ///< Its owner's velocity is so far from that, any way; 0 for who stands.
 };

@@ -30,12 +30,6 @@ OccupancyGrid openFloor(const Vector2d& middle) {
   return {middle - Vector2d::Constant(0.5 * kOpenFloor_m), kCell_m, kCells, kCells};
 }
 
-/// Without a map what was seen is all that is known of the walls.
-FollowerParams withoutMap(FollowerParams params) {
-  params.obstacles.max_memory_s = params.obstacles.held_s;
-  return params;
-}
-
 }  // namespace
 
 const char* toText(FollowStage stage) {
@@ -66,7 +60,7 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
                    PetriPlan plan, const std::optional<FloorPose>& start,
                    const FollowerParams& params)
     : robot_(robot),
-      params_(walls ? fittedTo(robot, params) : withoutMap(fittedTo(robot, params))),
+      params_(fittedTo(robot, params)),
       walls_(std::move(walls)),
       start_(start.value_or(FloorPose{})),
       floor_(walls_ ? walls_->floorGrid({0.05, robot.height_m}) : openFloor(start_.position)),
@@ -201,7 +195,8 @@ void Follower::lookAround(const RobotReadings& readings) {
   const FloorPose& pose = step_.robot.pose;
   std::optional<FloorDisc> own;
   if (step_.target) own = FloorDisc{*step_.target, params_.target_radius_m};
-  layer_.begin(steady_s_, pose, own);
+  noteWalkers();
+  layer_.begin(steady_s_, pose, own, walkers_);
   if (readings.scan != nullptr) {
     layer_.addScan(*readings.scan, motion_.seenFromNow(scan_s_) * robot_.T_base_scanner,
                    [this](const Vector2d& p) { return isMapped(p); });
@@ -225,6 +220,20 @@ void Follower::lookAround(const RobotReadings& readings) {
   notePeople();
   planner_.setObstacles(standing_, &layer_.window());
   room_.setLayer({}, &layer_.window());
+}
+
+// Where there are people, and what came of late: who stands close before the robot is no person to
+// the camera.
+void Follower::noteWalkers() {
+  walkers_.clear();
+  const auto note = [this](const Vector2d& place) {
+    walkers_.push_back({place, params_.target_radius_m});
+  };
+  for (const MovingPerson& person : people_) note(person.position);
+  const FloorPose from_motion = step_.robot.pose * motion_.pose().inverse();
+  for (const SeenThing& thing : last_gate_.sight().things()) {
+    if (thing.roams) note(from_motion * thing.place);
+  }
 }
 
 // Wheels that do not turn though they should are held by something that no sensor sees.
@@ -275,22 +284,13 @@ bool Follower::isMapped(const Vector2d& place) const {
   return floor_.isOccupiedWithin(place, params_.mapped_within_m);
 }
 
-// Who walks is avoided as a person; what the camera saw of them would be in the way where they
-// were. Around who stands it is kept: who seems to be a person may be a table.
-bool Follower::isSomebody(const Vector2d& place) const {
-  return std::any_of(people_.begin(), people_.end(), [&](const MovingPerson& person) {
-    return person.velocity.norm() > params_.stands_mps &&
-           (person.position - place).norm() < params_.target_radius_m;
-  });
-}
-
 void Follower::keepUnmapped(const std::vector<Eigen::Vector3f>& points,
                             const FloorPose& T_base_then) {
   unmapped_.clear();
   for (const Eigen::Vector3f& point : points) {
     const Vector2d seen = T_base_then * Vector2d(point.head<2>().cast<double>());
     const Vector2d place = step_.robot.pose * seen;
-    if (isMapped(place) || isSomebody(place)) continue;
+    if (isMapped(place)) continue;
     unmapped_.emplace_back(static_cast<float>(seen.x()), static_cast<float>(seen.y()), point.z());
   }
 }

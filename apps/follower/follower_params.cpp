@@ -40,9 +40,6 @@ FollowerParams::FollowerParams() {
   drive.margin_m = 0.06;        // the map's walls are as far off as localization is
   drive.terms.weights[static_cast<std::size_t>(DriveTerm::kView)] = 4.0;  // or the target is lost
   obstacles.min_points = 6;      // coarse stereo errs in specks
-  obstacles.min_memory_s = 0.7;  // a false match of one frame must not close a doorway for long
-  obstacles.memory_gain = 3.0;   // in a home with people, what was there is soon out of date
-  obstacles.max_memory_s = 8.0;
 }
 
 double RobotDescription::halfView_rad() const {
