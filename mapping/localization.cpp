@@ -68,7 +68,7 @@ void Localization::startAt(const FloorPose& pose, double place_m, double heading
   estimate_.pose = pose;
   estimate_.covariance =
       Eigen::Vector3d(place_m * place_m, place_m * place_m, heading_rad * heading_rad).asDiagonal();
-  estimate_.cluster_share = 1.0;
+  estimate_.cluster_share = own_share_ = 1.0;
   estimate_.lost = false;
 }
 
@@ -94,9 +94,10 @@ bool Localization::update(const LaserScan& scan, const std::vector<FloorDisc>& l
   if (beams_.choose(scan, leave_out, T_base_then).size() == 0) return false;
   const bool moved =
       pending_.way_m() >= params_.min_move_m || pending_.turned_rad() >= params_.min_turn_rad;
-  if (!moved && !news_ && !unfit_) {
+  if (!moved && !news_) {
     judge();
-    if (!unfit_) return false;
+    if (unfit_ || rivals_.size() > 0) compare(false);
+    return false;
   }
   if (search_everywhere_) {
     search_.find(beams_.ends(), search_.poses(), params_.max_particles, random_, particles_);
@@ -114,7 +115,7 @@ bool Localization::update(const LaserScan& scan, const std::vector<FloorDisc>& l
   weigh(telling_, particles_);
   adopt(heaviestCluster(particles_));
   judge();
-  if (unfit_ || rivals_.size() > 0) compare();
+  if (unfit_ || rivals_.size() > 0) compare(true);
   resample();
   news_ = false;
   return true;
@@ -134,30 +135,36 @@ void Localization::weigh(const BeamEnds& ends, ParticleSet& particles) {
 
 // The estimate and its best rival each explain the scan; the better one is the estimate. What this
 // scan has found is no witness of its own, and is compared from the next one on.
-void Localization::compare() {
+void Localization::compare(bool is_news) {
   const double carried_off = std::log(params_.carried_off);
   const bool anew = rivals_.size() == 0;
-  if (!anew) {
+  if (anew) {
+    settled_log_odds_ = rivals_log_odds_ = carried_off;
+    searched_ = 0.0;
+  } else {
+    if (is_news) settled_log_odds_ = rivals_log_odds_;
     const Cluster rival = heaviestCluster(rivals_);
     const FloorPose change = rival_pose_.inverse() * rival.pose;
-    if (isElsewhere(change)) rivals_log_odds_ = carried_off;
+    if (isElsewhere(change)) settled_log_odds_ = carried_off;
     rival_pose_ = rival.pose;
     const ScanResiduals residuals =
         scanResiduals(field_, beams_.ends(), rival.pose, beams_.T_base_scanner(), params_.near_m);
-    rivals_log_odds_ += logLikelihood(residuals) - logLikelihood(estimate_.residuals);
+    // Once in a while it is carried off, whatever was seen before.
+    rivals_log_odds_ = std::max(carried_off, settled_log_odds_ + logLikelihood(residuals) -
+                                                 logLikelihood(estimate_.residuals));
     weigh(beams_.ends(), rivals_);
   }
-  // Once in a while it is carried off, whatever was seen before.
-  rivals_log_odds_ = anew ? carried_off : std::max(rivals_log_odds_, carried_off);
   if (rivals_log_odds_ > 0.0) {
     std::swap(particles_, rivals_);
+    settled_log_odds_ = std::max(-settled_log_odds_, carried_off);
     rivals_log_odds_ = std::max(-rivals_log_odds_, carried_off);
     rival_pose_ = estimate_.pose;
     adopt(heaviestCluster(particles_));
     judge();
   }
-  estimate_.cluster_share /= 1.0 + std::exp(rivals_log_odds_);
-  estimate_.lost = estimate_.lost || estimate_.cluster_share < params_.sure_share;
+  estimate_.cluster_share = own_share_ / (1.0 + std::exp(rivals_log_odds_));
+  estimate_.lost =
+      estimate_.lost || estimate_.cluster_share < params_.sure_share || searched_ < 1.0;
   if (!unfit_ && rivals_log_odds_ <= carried_off) {
     rivals_.clear();
     return;
@@ -166,6 +173,7 @@ void Localization::compare() {
       static_cast<std::size_t>((anew ? 1.0 : kNewRivals) * static_cast<double>(params_.rivals));
   const double poses =
       std::min(kEffortWhileLost * static_cast<double>(search_.poses()), kMostWhileLost);
+  searched_ += poses / static_cast<double>(search_.poses());
   drawn_.clear();
   drawSystematic(rivals_, params_.rivals - found, random_, drawn_);
   search_.find(beams_.ends(), static_cast<std::size_t>(std::ceil(poses)), found, random_, drawn_);
@@ -237,7 +245,7 @@ void Localization::adopt(const Cluster& cluster) {
   if (elsewhere) estimate_.fit = -1.0;
   confirmed_ = elsewhere ? 0 : confirmed_ + 1;
   estimate_.covariance = cluster.covariance;
-  estimate_.cluster_share = cluster.share;
+  estimate_.cluster_share = own_share_ = cluster.share;
   cluster_pose_ = estimate_.pose = cluster.pose;
 }
 
@@ -248,7 +256,8 @@ void Localization::judge() {
   const double fit = e.residuals.fit();
   e.fit = e.fit < 0.0 ? fit : e.fit + params_.fast_rate * (fit - e.fit);
   unfit_ = e.fit < params_.lost_fit || e.fit < params_.lost_drop * e.usual_fit;
-  e.lost = unfit_ || e.cluster_share < params_.sure_share || confirmed_ < params_.confirming_scans;
+  e.lost = e.fit < params_.lost_fit || e.cluster_share < params_.sure_share ||
+           confirmed_ < params_.confirming_scans;
   if (!e.lost) e.usual_fit += params_.slow_rate * (fit - e.usual_fit);
 }
 

@@ -49,9 +49,11 @@ struct LocalizationParams {
   double sure_share = 0.8;
   int confirming_scans = 8;  ///< So many weighed scans must agree with a place found anew.
   double near_m = 0.2;       ///< A beam's end this near to where the map has it is explained.
-  /// The robot is lost where the fit's short average (ScanResiduals::fit) is lower than this.
-  double lost_fit = 0.65;
-  /// The robot is lost, too, where the fit has fallen to this share of what was usual.
+  /// The robot is lost where the fit's short average (ScanResiduals::fit) is lower than this: the
+  /// scans contradict the map more than they agree with it.
+  double lost_fit = 0.5;
+  /// Where the fit has fallen to this share of what was usual, a better place is searched for; the
+  /// robot is lost until the whole map has been searched and none was found.
   double lost_drop = 0.75;
   double fast_rate = 0.15;   ///< Weight of a new scan in the fit's short average.
   double slow_rate = 0.005;  ///< Weight of a new scan in the usual fit.
@@ -125,7 +127,7 @@ class Localization {
   bool isElsewhere(const FloorPose& change) const;
   void adopt(const Cluster& cluster);
   double logLikelihood(const ScanResiduals& residuals) const;
-  void compare();
+  void compare(bool is_news);
   void judge();
   void resample();
 
@@ -142,7 +144,10 @@ class Localization {
   ParticleSet drawn_;  // The other buffer of resampling.
   ParticleSet rivals_;
   FloorPose rival_pose_;          // Of the heaviest cluster among them.
-  double rivals_log_odds_ = 0.0;  // Of that over the estimate.
+  double rivals_log_odds_ = 0.0;  // Of that over the estimate,
+  double settled_log_odds_ = 0.0;  // without the view from where the robot is.
+  double own_share_ = 0.0;         // Of the estimate's cluster, the rivals apart.
+  double searched_ = 0.0;          // So many times the map, since there are rivals.
   std::vector<float> cosine_, sine_, log_likelihood_;
   std::vector<std::uint32_t> bin_of_;
   LocalizationEstimate estimate_;
