@@ -152,6 +152,27 @@ TEST(Localization, KeepsItsPlaceInACrowdThoughClosetsWouldExplainTheScans) {
   driver.expectRight(localization);
 }
 
+// Bug: a robot that stood before a cupboard that is no longer there did not know where it was, and
+// found itself elsewhere in the end.
+TEST(Localization, KnowsItsPlaceWhereTheMapIsOld) {
+  Driver driver;
+  OccupancyGrid old_map = driver.room;
+  test::drawBlock(old_map, 5.3, 1.6, 5.6, 3.4);
+  Localization localization(old_map);
+  localization.startAt(driver.truth);
+  driver.drive(localization, 8);
+  const LaserScan scan = scanOf(driver.room, driver.truth);
+  for (int i = 0; i < 300; ++i) {
+    EXPECT_FALSE(localization.update(scan));
+    if (i >= 20) {
+      EXPECT_FALSE(localization.estimate().lost) << "scan " << i;
+    }
+  }
+  EXPECT_GT(localization.estimate().residuals.beyond, 0.3);
+  EXPECT_GT(localization.estimate().covariance(0, 0), 1e-6) << "the same view is no news";
+  driver.expectRight(localization);
+}
+
 TEST(Localization, NoticesInAWrongMap) {
   Driver driver;
   OccupancyGrid wrong = test::emptyRoom(5.0, 9.0);
