@@ -143,8 +143,8 @@ class Localization {
   ParticleSet particles_;
   ParticleSet drawn_;  // The other buffer of resampling.
   ParticleSet rivals_;
-  FloorPose rival_pose_;          // Of the heaviest cluster among them.
-  double rivals_log_odds_ = 0.0;  // Of that over the estimate,
+  FloorPose rival_pose_;           // Of the heaviest cluster among them.
+  double rivals_log_odds_ = 0.0;   // Of that over the estimate,
   double settled_log_odds_ = 0.0;  // without the view from where the robot is.
   double own_share_ = 0.0;         // Of the estimate's cluster, the rivals apart.
   double searched_ = 0.0;          // So many times the map, since there are rivals.

@@ -91,7 +91,7 @@ void LastGate::approach(const FloorLine& body, double reach_m) {
   for (const SeenThing& thing : sight_.things()) {
     const bool roams = thing.roams && thing.seen_s == sight_.newest_s();
     const double away2 = (thing.place - body.nearest(thing.place)).squaredNorm();
-    const double around_m = roams ? kBeyondLegs_m : 0.0;
+    const double around_m = thing.is_somebody ? kBeyondLegs_m : 0.0;
     if (!roams && away2 > (reach_m + around_m) * (reach_m + around_m)) continue;
     const double away_m = std::sqrt(away2);
     if (away_m >= body_m) nearest_m = std::min(nearest_m, away_m);

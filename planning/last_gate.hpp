@@ -47,9 +47,10 @@ struct GatedVelocity {
 /// It lets a velocity through if the robot, with it for a control period and then braking,
 /// - comes no nearer than `margin_m` to what was seen, or, where the nearest that it does not touch
 ///   was nearer at the last odometry, no nearer than that;
-/// - does the same with who came, in the last half minute, to where a look had seen nothing, as far
-///   as a body goes beyond legs, and wherever they may walk to meanwhile; what the robot leaves
-///   behind may come as near as it will;
+/// - does the same with what came, in the last `remembers_s`, to where a look had seen nothing,
+///   wherever that may walk to meanwhile; what the robot leaves behind may come as near as it will;
+/// - stays as far off the legs of who came in the last half minute, and stands, as a body goes
+///   beyond them;
 /// - does not drive towards what it touched then, not even as far as it has moved off since;
 /// - goes only where scans of the last `remembers_s` have seen, and backwards only where those of
 ///   the last half second have, for somebody may have come up from behind: all that the body newly

@@ -102,6 +102,19 @@ bool RecentSight::isSeen(const Vector2d& place, double short_m, double since_s) 
   return false;
 }
 
+bool RecentSight::seesFree(const Vector2d& place, double aside_m) const {
+  const Look& look = looks_[newest_];
+  const Vector2d at = look.turn * (place - look.scanner);
+  const double away_m = at.norm();
+  if (!(aside_m < away_m)) return false;
+  const double beams = std::ceil(std::asin(aside_m / away_m) / std::abs(look.scan.step_rad));
+  const double first = std::floor(beamTo(look, at));
+  for (double k = -beams; k <= beams + 1.0; ++k) {
+    if (!endsBeyond(look, first + k, away_m)) return false;
+  }
+  return true;
+}
+
 // The look that was `count` before the last.
 const RecentSight::Look& RecentSight::lookBefore(std::size_t count) const {
   return looks_[(newest_ + looks_.size() - count) % looks_.size()];
@@ -238,9 +251,9 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
     const double free_s = lastFree(place);
     const bool moves = free_s == before.stamp_s && dt_s <= kOldestLook_s;
     const Vector2d velocity = moves ? velocityOf(place, before, dt_s) : Vector2d::Zero();
-    const bool roams = free_s > kNotYet;
+    const bool roams = stamp_s - free_s <= params_.remembers_s;
     if (roams) roaming_.push_back({place, velocity});
-    keep({place, 0.0, stamp_s, true, true, roams, velocity, 0.0});
+    keep({place, 0.0, stamp_s, true, true, roams, free_s > kNotYet, velocity, 0.0});
   }
   for (SeenThing& thing : things_) {
     if (!thing.roams || thing.seen_s != stamp_s) continue;
@@ -300,7 +313,7 @@ void RecentSight::addPoints(const std::vector<Eigen::Vector3f>& points, const Fl
   for (const Cell& cell : cells_) {
     if (cell.points < params_.min_points) continue;
     keep({placeOf(cell), static_cast<double>(cell.highest_m), stamp_s, false, cell.is_sure, false,
-          Vector2d::Zero(), 0.0});
+          false, Vector2d::Zero(), 0.0});
   }
   layOut();
 }

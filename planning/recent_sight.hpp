@@ -39,7 +39,8 @@ struct SeenThing {
   double seen_s;
   bool by_laser;
   bool is_sure;              ///< By the laser, or in two pictures one after the other.
-  bool roams;                ///< It came from elsewhere in the last half minute.
+  bool roams;                ///< It came from elsewhere in the last `remembers_s`,
+  bool is_somebody;          ///< or in the last half minute (at most 8 times that).
   Eigen::Vector2d velocity;  ///< Of what roams, the mean of all that is within a body's width.
   double gait_mps;  ///< Its owner's velocity is so far from that, any way; 0 for who stands.
 };
@@ -86,6 +87,9 @@ class RecentSight {
   /// Whether a scan since then has seen that a place is free: both beams beside it end no nearer
   /// than `short_m` before it.
   bool isSeen(const Eigen::Vector2d& place, double short_m, double since_s);
+
+  /// Whether all beams of the newest scan, so far to both sides of a place, end beyond it.
+  bool seesFree(const Eigen::Vector2d& place, double aside_m) const;
 
   /// What a robot that stands can not see of its way straight on: the strips along both sides of
   /// the body of this radius, whose foremost disc is so far ahead, so wide, as far ahead as its

@@ -23,6 +23,7 @@ constexpr double kDrives_mps = 0.1;
 constexpr double kMoves_mps = 0.02;
 constexpr double kStalls_s = 0.5;
 constexpr double kFeels_rad = 0.6;
+constexpr double kLegs_m = 0.12;  // So far from the middle of who stands are their legs.
 
 OccupancyGrid openFloor(const Vector2d& middle) {
   constexpr double kCell_m = 0.1;
@@ -232,7 +233,7 @@ void Follower::noteWalkers() {
   for (const MovingPerson& person : people_) note(person.position);
   const FloorPose from_motion = step_.robot.pose * motion_.pose().inverse();
   for (const SeenThing& thing : last_gate_.sight().things()) {
-    if (thing.roams) note(from_motion * thing.place);
+    if (thing.is_somebody) note(from_motion * thing.place);
   }
 }
 
@@ -271,8 +272,13 @@ void Follower::notePeople() {
       person.velocity = track.motion.velocity_mps();
     }
   }
+  const auto has_left = [&, to_motion = motion_.pose() *
+                                        step_.robot.pose.inverse()](const Vector2d& place) {
+    return (place - step_.robot.pose.position).norm() > 0.5 * params_.obstacles.size_m ||
+           last_gate_.sight().seesFree(to_motion * place, kLegs_m);
+  };
   noteStanding({params_.stands_mps, params_.beside_people_m, params_.target_radius_m}, people_,
-               perception_->tracks(), layer_, standing_);
+               perception_->tracks(), has_left, standing_);
   if (person_) {
     people_.push_back(*person_);
   } else if (unseen_s_ < params_.walks_on_s) {  // passes where no sensor looks

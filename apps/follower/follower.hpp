@@ -186,7 +186,7 @@ class Follower {
   std::vector<MovingPerson> people_;
   std::vector<FloorDisc> standing_;  // people, with the room that they are left
   std::vector<FloorDisc> masked_;
-  std::vector<FloorDisc> walkers_;  // what is seen there may walk off
+  std::vector<FloorDisc> walkers_;         // what is seen there may walk off
   std::vector<Eigen::Vector3f> unmapped_;  // points in the base frame
 };
 

@@ -39,7 +39,7 @@ FollowerParams::FollowerParams() {
   goal.doorway_depth_m = 0.95;  // somebody who comes out of it must get past the robot
   drive.margin_m = 0.06;        // the map's walls are as far off as localization is
   drive.terms.weights[static_cast<std::size_t>(DriveTerm::kView)] = 4.0;  // or the target is lost
-  obstacles.min_points = 6;      // coarse stereo errs in specks
+  obstacles.min_points = 6;  // coarse stereo errs in specks
 }
 
 double RobotDescription::halfView_rad() const {

@@ -8,13 +8,14 @@
 namespace heel {
 
 void noteStanding(const StandingPeopleParams& params, const std::vector<MovingPerson>& people,
-                  const std::vector<Track>& tracks, const ObstacleLayer& layer,
+                  const std::vector<Track>& tracks,
+                  const std::function<bool(const Eigen::Vector2d&)>& has_left,
                   std::vector<FloorDisc>& standing) {
   const auto isOver = [&](const FloorDisc& stood) {
     const auto isNear = [&](const Eigen::Vector2d& place) {
       return (place - stood.center).norm() < params.near_m;
     };
-    return layer.distance(stood.center) > stood.radius_m - params.beside_m ||
+    return has_left(stood.center) ||
            std::any_of(people.begin(), people.end(),
                        [&](const MovingPerson& person) { return isNear(person.position); }) ||
            std::any_of(tracks.begin(), tracks.end(), [&](const Track& track) {

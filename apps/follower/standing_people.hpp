@@ -6,10 +6,10 @@
 #pragma once
 
 #include <heel/mapping/floor_pose.hpp>
-#include <heel/mapping/obstacle_layer.hpp>
 #include <heel/planning/surroundings.hpp>
 #include <heel/tracking/track.hpp>
 
+#include <functional>
 #include <vector>
 
 namespace heel {
@@ -21,12 +21,14 @@ struct StandingPeopleParams {
 };
 
 /// Renews the discs of who stands. Who stood, and is neither seen nor among the people any more, is
-/// kept while the layer has something within half a body of their place: else a way around them
-/// would lead through them as soon as the camera turns to it.
-/// @param people  Who is known of now, but for the target; in the frame of the discs, the layer and
-/// the tracks.
+/// kept until they are known to have left: else a way around them would lead through them as soon
+/// as the robot turns to it.
+/// @param people  Who is known of now, but for the target; in the frame of the discs and the
+/// tracks.
+/// @param has_left  Whether nobody is at a place any more.
 void noteStanding(const StandingPeopleParams& params, const std::vector<MovingPerson>& people,
-                  const std::vector<Track>& tracks, const ObstacleLayer& layer,
+                  const std::vector<Track>& tracks,
+                  const std::function<bool(const Eigen::Vector2d&)>& has_left,
                   std::vector<FloorDisc>& standing);
 
 }  // namespace heel
