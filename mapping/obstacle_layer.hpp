@@ -73,7 +73,7 @@ struct ObstacleLayerParams {
 /// and one that is set forward forgets. Poses may be in any frame that does not jump; odometry's
 /// keeps obstacles sharper than one that localization corrects.
 ///
-/// Nothing is allocated after the construction.
+/// Nothing is allocated after the construction, but for more people than ever.
 class ObstacleLayer {
  public:
   /// @throws std::invalid_argument  if a parameter is out of range.
