@@ -102,17 +102,22 @@ bool RecentSight::isSeen(const Vector2d& place, double short_m, double since_s) 
   return false;
 }
 
-bool RecentSight::seesFree(const Vector2d& place, double aside_m) const {
-  const Look& look = looks_[newest_];
+// Whether all beams so far to both sides of a place end so far beyond it.
+bool RecentSight::endBeyond(const Look& look, const Vector2d& place, double aside_m,
+                            double beyond_m) {
   const Vector2d at = look.turn * (place - look.scanner);
   const double away_m = at.norm();
-  if (!(aside_m < away_m)) return false;
-  const double beams = std::ceil(std::asin(aside_m / away_m) / std::abs(look.scan.step_rad));
+  if (!(aside_m < away_m)) return false;  // Not where it is not a number.
+  const double beams = std::ceil(aside_m / away_m / std::abs(look.scan.step_rad));
   const double first = std::floor(beamTo(look, at));
   for (double k = -beams; k <= beams + 1.0; ++k) {
-    if (!endsBeyond(look, first + k, away_m)) return false;
+    if (!endsBeyond(look, first + k, away_m + beyond_m)) return false;
   }
   return true;
+}
+
+bool RecentSight::seesFree(const Vector2d& place, double aside_m) const {
+  return endBeyond(looks_[newest_], place, aside_m, 0.0);
 }
 
 // The look that was `count` before the last.
@@ -155,13 +160,7 @@ bool RecentSight::wasFree(const Vector2d& place, const Look& now, const Look& be
   const double slips_m = kSlip * (now.driven_m - before.driven_m + away_m * turned_rad);
   const double aside_m =
       surface_m_ * std::abs(way.x() * was.y() - way.y() * was.x()) / away_m + slips_m;
-  if (!(aside_m < away_m)) return false;  // Not where it is not a number.
-  const double beams = std::ceil(aside_m / away_m / std::abs(before.scan.step_rad));
-  const double first = std::floor(beamTo(before, before.turn * was));
-  for (double k = -beams; k <= beams + 1.0; ++k) {
-    if (!endsBeyond(before, first + k, away_m + surface_m_ + slips_m)) return false;
-  }
-  return true;
+  return endBeyond(before, place, aside_m, surface_m_ + slips_m);
 }
 
 // When a look last saw nothing where the last sees something.

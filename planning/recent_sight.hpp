@@ -115,6 +115,8 @@ class RecentSight {
   };
   static double beamTo(const Look& look, const Eigen::Vector2d& at);
   static bool endsBeyond(const Look& look, double beam, double away_m);
+  static bool endBeyond(const Look& look, const Eigen::Vector2d& place, double aside_m,
+                        double beyond_m);
   bool sees(const Look& look, const Eigen::Vector2d& thing) const;
   static bool sawFree(const Look& look, const Eigen::Vector2d& place, double short_m);
   bool isInPicture(const SeenThing& thing, const FloorPose& T_base_world) const;

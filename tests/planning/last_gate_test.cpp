@@ -239,6 +239,20 @@ TEST(RecentSight, MayRememberNothing) {
   EXPECT_FALSE(sight.things().empty());
 }
 
+TEST(RecentSight, SeesAPlaceFreeOnlyIfNoLegBesideItEndsABeam) {
+  RecentSight sight({}, 3.0);
+  LaserScan scan = wallAhead(2.0);
+  sight.addScan(scan, {}, 0.1);
+  EXPECT_TRUE(sight.seesFree({1.0, 0.0}, 0.12));
+  EXPECT_FALSE(sight.seesFree({2.5, 0.0}, 0.12)) << "behind the wall";
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    if (std::abs(scan.angle(i) - 0.1) < 0.02) scan.ranges_m[i] = 0.9F;
+  }
+  sight.addScan(scan, {}, 0.2);
+  EXPECT_FALSE(sight.seesFree({1.0, 0.0}, 0.12)) << "a leg";
+  EXPECT_TRUE(sight.seesFree({1.0, 0.0}, 0.05)) << "beside the leg";
+}
+
 // Bug: the robot set off along somebody who had come up to it unseen.
 TEST(LastGate, KeepsOffWhoCameWhileItLookedElsewhere) {
   EXPECT_EQ(passedBesideALeg({0.45, 0.1}, true), 0.0);
