@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/planning/last_gate.hpp>
+#include <heel/planning/surroundings.hpp>
 
 #include <algorithm>
 #include <array>
@@ -36,7 +37,7 @@ VelocityCommand scaled(const VelocityCommand& v, double share) {
 
 const LastGateParams& checked(const LastGateParams& params) {
   checkLimits(params.limits);
-  for (const double value : {params.wheels_latency_s, params.margin_m, params.walkers_mps2}) {
+  for (const double value : {params.wheels_latency_s, params.margin_m}) {
     if (!(value >= 0.0) || !std::isfinite(value)) {
       throw std::invalid_argument("LastGateParams: a parameter is out of its range");
     }
@@ -44,12 +45,14 @@ const LastGateParams& checked(const LastGateParams& params) {
   return params;
 }
 
-// What is further away can't be touched before the robot stands, with a scan a control period, and
-// twice as long as a command can take to act; and as much for who walks.
+// What is further away can't touch the robot before it stands, walks though it may, with a scan a
+// control period, and twice as long as a command can take to act.
 double rangeFor(const LastGateParams& params) {
-  return 2.0 * (axisReach(params.limits) + params.limits.radius_m + params.margin_m +
-                stoppingDistance(params.limits, params.limits.max_speed_mps,
-                                 2.0 * params.wheels_latency_s + 0.5));
+  const DriveLimits& limits = params.limits;
+  const double acts_s = 2.0 * params.wheels_latency_s + 0.5;
+  return axisReach(limits) + limits.radius_m + params.margin_m +
+         stoppingDistance(limits, limits.max_speed_mps, acts_s) +
+         kFastestWalk_mps * (acts_s + limits.max_speed_mps / limits.max_acceleration_mps2);
 }
 
 // Only a body that is not round swings.
@@ -104,7 +107,7 @@ void LastGate::approach(const FloorLine& body, double reach_m) {
 // How far it can be from where it was seen, as it walked, some time after [m].
 double LastGate::strays(const Near& thing, double after_s) const {
   if (!thing.roams) return thing.around_m;
-  return thing.around_m + (thing.gait_mps + 0.5 * params_.walkers_mps2 * after_s) * after_s;
+  return thing.around_m + (thing.gait_mps + 0.5 * kWalkersGain_mps2 * after_s) * after_s;
 }
 
 // Whether a thing surely comes no nearer while the robot drives a piece of its way: it, and what it

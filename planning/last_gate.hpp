@@ -25,9 +25,6 @@ struct LastGateParams {
   double wheels_latency_s = 0.0;
   /// Room that is left to what was seen: two standard deviations of a laser's ranges.
   double margin_m = 0.02;
-  /// Who has walked lately may walk again, any way, and gains speed no faster than this: from
-  /// standing to a stroll within a step [m/s^2].
-  double walkers_mps2 = 2.0;
   RecentSightParams sight;  ///< What its sensors see, and for how long that is known.
 };
 

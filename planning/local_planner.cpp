@@ -136,11 +136,12 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
   plan.options = futures_.size();
 
   const auto allow = [&](const std::vector<MovingPerson>& some, double least_mps) {
+    const auto most = [&](const MovingPerson& person, double way) {
+      return std::max(allowedTowards(scene, person, way), least_mps);
+    };
     for (const MovingPerson& person : some) {
-      most_ahead_mps_ =
-          std::min(most_ahead_mps_, std::max(allowedTowards(scene, person, 1.0), least_mps));
-      most_back_mps_ =
-          std::min(most_back_mps_, std::max(allowedTowards(scene, person, -1.0), least_mps));
+      most_ahead_mps_ = std::min(most_ahead_mps_, most(person, 1.0));
+      most_back_mps_ = std::min(most_back_mps_, most(person, -1.0));
     }
   };
   most_ahead_mps_ = most_back_mps_ = kInfinite;
@@ -321,8 +322,15 @@ VelocityCommand LocalPlanner::slowed(const VelocityCommand& command, double gap_
           allowed / speed * command.turn_radps};  // Same arc.
 }
 
+// How far somebody comes who starts at a speed (below 0: away) and may walk faster.
+double LocalPlanner::comes(double speed_mps, double in_s) const {
+  const double gains_mps = std::max(params_.walks_mps - speed_mps, 0.0);
+  const double gaining_s = std::min(in_s, gains_mps / kWalkersGain_mps2);
+  return speed_mps * in_s + kWalkersGain_mps2 * gaining_s * (in_s - 0.5 * gaining_s);
+}
+
 // They may come straight at the robot, which drives on for reacts_s, brakes, and stands when they
-// are there: room = comes (reacts + v / brakes) + towards (v reacts + v^2 / (2 brakes)).
+// are there.
 double LocalPlanner::allowedTowards(const DriveScene& scene, const MovingPerson& person,
                                     double way) const {
   const DriveLimits& limits = params_.limits;
@@ -331,18 +339,21 @@ double LocalPlanner::allowedTowards(const DriveScene& scene, const MovingPerson&
   const double away_m = to.norm();
   const double towards = way * to.dot(Vector2d(std::cos(pose.yaw_rad), std::sin(pose.yaw_rad)));
   if (!(towards > 0.0)) return kInfinite;
-  const double leaves_mps = person.velocity.dot(to) / away_m;
-  const double comes_mps =
-      std::max({-leaves_mps, params_.walks_mps - std::max(leaves_mps, 0.0), 0.0});
+  const double comes_mps = person.gait_mps - person.velocity.dot(to) / away_m;
   const double share = towards / away_m, brakes_mps2 = limits.max_acceleration_mps2;
   const double room_m = away_m - limits.radius_m - person.radius_m;
-  const double b = comes_mps + share * brakes_mps2 * params_.reacts_s;
-  const double spare_m = room_m - comes_mps * params_.reacts_s;
+  const auto stands = [&](double speed_mps) {
+    const double brakes_s = speed_mps / brakes_mps2;
+    return comes(comes_mps, params_.reacts_s + brakes_s) +
+               share * speed_mps * (params_.reacts_s + 0.5 * brakes_s) <=
+           room_m;
+  };
+  double allowed_mps = 0.0;
+  for (double step = limits.max_speed_mps; step > kStands_mps; step *= 0.5) {
+    if (stands(allowed_mps + step)) allowed_mps += step;
+  }
   // It passes beside them slowly, and comes nearer no faster than who stands.
-  const double creeps_mps = std::min(params_.least_speed_mps, 0.5 * kStands_mps / share);
-  if (!(spare_m > 0.0)) return creeps_mps;
-  return std::max(creeps_mps, 2.0 * brakes_mps2 * spare_m /
-                                  (b + std::sqrt(b * b + 2.0 * share * brakes_mps2 * spare_m)));
+  return std::max(allowed_mps, std::min(params_.least_speed_mps, 0.5 * kStands_mps / share));
 }
 
 void LocalPlanner::explain(const DriveScene& scene, LocalPlan& plan, bool threatened) {

@@ -24,10 +24,11 @@ struct LocalPlannerParams {
   double people_margin_m = 0.1;
   double slow_gap_m = 0.08;       ///< With less room to things than this the robot slows down.
   double least_speed_mps = 0.08;  ///< It slows down no further than to this.
-  /// Who stands may walk at the robot as fast as this at any moment: it comes towards people only
-  /// as fast as lets it stand when they reach it; beside them, and round corners, at
-  /// `least_speed_mps`. A walk about the house.
-  double walks_mps = 0.7;
+  /// People may walk at the robot at any moment, and gain speed up to this: it comes towards them
+  /// only as fast as lets it stand when they reach it; beside them at `least_speed_mps`. Who comes
+  /// round a corner walks as fast from the first, and it drives there at `least_speed_mps` or more.
+  /// A comfortable walk (Bohannon, Age and Ageing 26, 1997).
+  double walks_mps = 1.3;
   /// From somebody's step until the robot begins to brake: that of the sensors, of the wheels, and
   /// two control periods.
   double reacts_s = 0.2;
@@ -129,6 +130,7 @@ class LocalPlanner {
   Braking brake(const DriveScene& scene, const VelocityCommand& command, Clearance clearance) const;
   std::size_t measure(const DriveScene& scene, std::size_t option, Clearance clearance);
   VelocityCommand slowed(const VelocityCommand& command, double gap_m) const;
+  double comes(double speed_mps, double in_s) const;
   double allowedTowards(const DriveScene& scene, const MovingPerson& person, double way) const;
   void explain(const DriveScene& scene, LocalPlan& plan, bool threatened);
 

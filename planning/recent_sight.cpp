@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/planning/recent_sight.hpp>
+#include <heel/planning/surroundings.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,6 @@ constexpr std::size_t kFewBeams = 20;   // Fewer tell nothing of all.
 constexpr double kManyScans = 100.0;    // A mean over more forgets the oldest.
 constexpr double kMedianStep = 0.954;   // Of two normal errors' difference: 0.6745 * sqrt(2) sigma.
 constexpr double kBody_m = 0.4;         // So far apart are parts of one body.
-constexpr double kWalks_mps = 1.2;      // Nobody walks faster.
 constexpr double kGait_mps = 0.4;       // A leg stands, or swings at twice its owner's speed.
 constexpr double kOldestLook_s = 1.0;   // Of a look from which to reckon who walks.
 constexpr double kRounding_rad = 1e-9;
@@ -178,7 +178,7 @@ double RecentSight::lastFree(const Vector2d& place) const {
 // fast to tell (not a number).
 Vector2d RecentSight::velocityOf(const Vector2d& place, const Look& before, double dt_s) {
   const Vector2d at = before.turn * (place - before.scanner);
-  const std::size_t from = nearestBeam(before, at, kWalks_mps * dt_s);
+  const std::size_t from = nearestBeam(before, at, kFastestWalk_mps * dt_s);
   if (from == before.scan.ranges_m.size()) return Vector2d::Constant(kUnknown);
   const double angle = before.scan.angle(from);
   const auto range_m = static_cast<double>(before.scan.ranges_m[from]);
@@ -265,7 +265,7 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
       ++count;
     }
     thing.velocity = count > 0 ? Vector2d(sum / count) : Vector2d::Zero();
-    thing.gait_mps = count == 0 ? kWalks_mps : thing.velocity.isZero() ? 0.0 : kGait_mps;
+    thing.gait_mps = count == 0 ? kFastestWalk_mps : thing.velocity.isZero() ? 0.0 : kGait_mps;
   }
   layOut();
 }

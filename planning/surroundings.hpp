@@ -18,11 +18,17 @@ using Clearance = FunctionRef<double(const Eigen::Vector2d&)>;
 /// Whether a point of the floor can be seen from another [world].
 using LineOfSight = FunctionRef<bool(const Eigen::Vector2d& from, const Eigen::Vector2d& to)>;
 
+/// In a house nobody walks faster than this [m/s].
+inline constexpr double kFastestWalk_mps = 1.6;
+/// Who walks gains speed no faster than this: from standing to a stroll within a step [m/s^2].
+inline constexpr double kWalkersGain_mps2 = 2.0;
+
 /// Somebody who may walk, as a disc on the floor.
 struct MovingPerson {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< [m, world]
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< [m/s]
   double radius_m = 0.25;
+  double gait_mps = 0.0;  ///< The velocity may be so far off, any way.
 };
 
 }  // namespace heel

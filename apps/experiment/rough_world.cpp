@@ -247,9 +247,9 @@ Scene roughened(Scene scene, const RoughWorld& rough, std::uint64_t seed) {
   }
   if (rough.company) addCompany(scene, seed);
   if (rough.drawers) openDrawers(scene, seed);
+  if (rough.black) cover(scene, "velvet", false, hashOf(seed, 80));  // no door leaves
   if (rough.doors) hangDoors(scene, seed);
   if (rough.steps) stepDown(scene, seed);
-  if (rough.black) cover(scene, "velvet", false, hashOf(seed, 80));
   if (rough.glass) cover(scene, "frosted glass", true, hashOf(seed, 81));
   RandomStream skirts(hashOf(seed, 78));
   for (ScenePerson& person : scene.people) {

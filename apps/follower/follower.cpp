@@ -25,6 +25,11 @@ constexpr double kStalls_s = 0.5;
 constexpr double kFeels_rad = 0.6;
 constexpr double kLegs_m = 0.12;  // So far from the middle of who stands are their legs.
 
+// Standard deviation of a velocity [m/s].
+double gaitOf(const MotionState& motion) {
+  return std::sqrt(0.5 * motion.covariance.bottomRightCorner<2, 2>().trace());
+}
+
 OccupancyGrid openFloor(const Vector2d& middle) {
   constexpr double kCell_m = 0.1;
   constexpr int kCells = static_cast<int>(kOpenFloor_m / kCell_m);
@@ -196,7 +201,13 @@ void Follower::lookAround(const RobotReadings& readings) {
   const FloorPose& pose = step_.robot.pose;
   std::optional<FloorDisc> own;
   if (step_.target) own = FloorDisc{*step_.target, params_.target_radius_m};
-  noteWalkers();
+  noteComers();
+  walkers_.clear();
+  for (const auto* some : {&people_, &came_}) {
+    for (const MovingPerson& person : *some) {
+      walkers_.push_back({person.position, params_.target_radius_m});
+    }
+  }
   layer_.begin(steady_s_, pose, own, walkers_);
   if (readings.scan != nullptr) {
     layer_.addScan(*readings.scan, motion_.seenFromNow(scan_s_) * robot_.T_base_scanner,
@@ -223,17 +234,23 @@ void Follower::lookAround(const RobotReadings& readings) {
   room_.setLayer({}, &layer_.window());
 }
 
-// Where there are people, and what came of late: who stands close before the robot is no person to
-// the camera.
-void Follower::noteWalkers() {
-  walkers_.clear();
-  const auto note = [this](const Vector2d& place) {
-    walkers_.push_back({place, params_.target_radius_m});
-  };
-  for (const MovingPerson& person : people_) note(person.position);
+// Who came of late to where the laser had seen nothing: who stands close before the robot is no
+// person to the camera.
+void Follower::noteComers() {
+  came_.clear();
   const FloorPose from_motion = step_.robot.pose * motion_.pose().inverse();
+  const Eigen::Rotation2Dd turn(from_motion.yaw_rad);
   for (const SeenThing& thing : last_gate_.sight().things()) {
-    if (thing.is_somebody) note(from_motion * thing.place);
+    if (!thing.is_somebody) continue;
+    const Vector2d place = from_motion * thing.place;
+    const auto is_there = [&](const MovingPerson& person) {
+      return (person.position - place).norm() < params_.target_radius_m;
+    };
+    if (std::any_of(people_.begin(), people_.end(), is_there) ||
+        std::any_of(came_.begin(), came_.end(), is_there)) {
+      continue;
+    }
+    came_.push_back({place, turn * thing.velocity, MovingPerson().radius_m, thing.gait_mps});
   }
 }
 
@@ -270,6 +287,7 @@ void Follower::notePeople() {
     person.position = track.motion.position_m();
     if (identity.restsFor_s(track.id, steady_s_) < params_.walks_on_s) {
       person.velocity = track.motion.velocity_mps();
+      person.gait_mps = gaitOf(track.motion);
     }
   }
   const auto has_left = [&, to_motion = motion_.pose() *
@@ -349,7 +367,8 @@ void Follower::noteTarget() {
   step_.target.reset();
   unseen_s_ += dt_s_;
   if (target_.hasPlace()) {
-    person_ = MovingPerson{target_.motion.position_m(), target_.motion.velocity_mps()};
+    person_ = MovingPerson{target_.motion.position_m(), target_.motion.velocity_mps(),
+                           MovingPerson().radius_m, gaitOf(target_.motion)};
     step_.target = person_->position;
     looked_s_ = 0.0;
   }

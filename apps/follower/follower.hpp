@@ -101,7 +101,7 @@ class Follower {
   void begin(FollowingAction action);
   void drive();
   void feelAround();
-  void noteWalkers();
+  void noteComers();
   void notePeople();
   bool isMapped(const Eigen::Vector2d& place) const;
   void keepUnmapped(const std::vector<Eigen::Vector3f>& points, const FloorPose& T_base_then);
@@ -186,6 +186,7 @@ class Follower {
   std::vector<MovingPerson> people_;
   std::vector<FloorDisc> standing_;  // people, with the room that they are left
   std::vector<FloorDisc> masked_;
+  std::vector<MovingPerson> came_;         // of late, but for people_
   std::vector<FloorDisc> walkers_;         // what is seen there may walk off
   std::vector<Eigen::Vector3f> unmapped_;  // points in the base frame
 };
