@@ -54,7 +54,7 @@ void findHidingPlaces(const LaserScan& scan, const FloorPose& scanner, Clearance
       for (double away_m = near_m + body_m; away_m < last_m; away_m += kStep_m) {
         const Vector2d body = along * Vector2d(away_m, on_left ? -body_m : body_m);
         const Vector2d place = scanner * body;
-        if (clearance(place) < 0.5 * body_m) continue;
+        if (clearance(place) < body_m - kStep_m) continue;
         if (isHidden(scan, body, body_m)) places.push_back(place);
         break;
       }

@@ -17,7 +17,7 @@ namespace heel {
 
 /// Where a scan's range jumps by more than a body is wide further than a wall would go on, and what
 /// stands before the jump is wide enough, somebody may stand behind the edge. Their place is the
-/// nearest to the edge that has room for half a body at least, and touches the beam that passes the
+/// nearest to the edge that has room for a body (5 cm less), and touches the beam that passes the
 /// edge: there they step out first.
 /// @param scanner    Where the scan was measured [m, world].
 /// @param clearance  Of what is known.

@@ -76,14 +76,22 @@ LocalPlanner::LocalPlanner(const LocalPlannerParams& params) : params_(params) {
   }
   for (const double value :
        {params.margin_m, params.people_margin_m, params.slow_gap_m, params.walks_mps,
-        params.reacts_s, params.least_speed_mps, params.give_way_gap_m, params.give_way_s,
-        params.look_away_s, params.arrive_m, params.depart_m - params.arrive_m}) {
+        params.appears_mps, params.reacts_s, params.least_speed_mps, params.give_way_gap_m,
+        params.give_way_s, params.look_away_s, params.arrive_m,
+        params.depart_m - params.arrive_m}) {
     if (!(value >= 0.0)) throw std::invalid_argument("a local planner's parameter is negative");
   }
   const long held = std::lround(params.reacts_s / params.limits.period_s);
   held_ = static_cast<std::size_t>(std::max(held, 1L));
   futures_.steps = static_cast<std::size_t>(std::lround(steps));
   gaps_m_.resize(futures_.steps);
+}
+
+void LocalPlanner::expect(const std::vector<Vector2d>& hidden) {
+  hidden_.clear();
+  for (const Vector2d& place : hidden) {
+    hidden_.push_back({place, Vector2d::Zero(), MovingPerson().radius_m, params_.appears_mps});
+  }
 }
 
 void LocalPlanner::reset() {
@@ -135,9 +143,10 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
   layOut(scene, threatened, backs);
   plan.options = futures_.size();
 
-  const auto allow = [&](const std::vector<MovingPerson>& some, double least_mps) {
+  const auto allow = [&](const std::vector<MovingPerson>& some, double walks_mps,
+                         double least_mps) {
     const auto most = [&](const MovingPerson& person, double way) {
-      return std::max(allowedTowards(scene, person, way), least_mps);
+      return std::max(allowedTowards(scene, person, walks_mps, way), least_mps);
     };
     for (const MovingPerson& person : some) {
       most_ahead_mps_ = std::min(most_ahead_mps_, most(person, 1.0));
@@ -145,8 +154,8 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
     }
   };
   most_ahead_mps_ = most_back_mps_ = kInfinite;
-  allow(people, 0.0);
-  allow(hidden_, params_.least_speed_mps);  // or it never passes a corner
+  allow(people, params_.walks_mps, 0.0);
+  allow(hidden_, params_.appears_mps, params_.least_speed_mps);  // or it never passes a corner
   const double drives_mps = std::max(std::abs(speed.forward_mps), kStands_mps);
   double least = kInfinite;
   for (std::size_t i = 0; i < futures_.size(); ++i) {
@@ -322,9 +331,9 @@ VelocityCommand LocalPlanner::slowed(const VelocityCommand& command, double gap_
           allowed / speed * command.turn_radps};  // Same arc.
 }
 
-// How far somebody comes who starts at a speed (below 0: away) and may walk faster.
-double LocalPlanner::comes(double speed_mps, double in_s) const {
-  const double gains_mps = std::max(params_.walks_mps - speed_mps, 0.0);
+// How far somebody comes who starts at a speed (below 0: away) and may gain another.
+double LocalPlanner::comes(double speed_mps, double walks_mps, double in_s) {
+  const double gains_mps = std::max(walks_mps - speed_mps, 0.0);
   const double gaining_s = std::min(in_s, gains_mps / kWalkersGain_mps2);
   return speed_mps * in_s + kWalkersGain_mps2 * gaining_s * (in_s - 0.5 * gaining_s);
 }
@@ -332,7 +341,7 @@ double LocalPlanner::comes(double speed_mps, double in_s) const {
 // They may come straight at the robot, which drives on for reacts_s, brakes, and stands when they
 // are there.
 double LocalPlanner::allowedTowards(const DriveScene& scene, const MovingPerson& person,
-                                    double way) const {
+                                    double walks_mps, double way) const {
   const DriveLimits& limits = params_.limits;
   const FloorPose& pose = scene.now.pose;
   const Vector2d to = person.position - axisOf(limits, pose).nearest(person.position);
@@ -344,7 +353,7 @@ double LocalPlanner::allowedTowards(const DriveScene& scene, const MovingPerson&
   const double room_m = away_m - limits.radius_m - person.radius_m;
   const auto stands = [&](double speed_mps) {
     const double brakes_s = speed_mps / brakes_mps2;
-    return comes(comes_mps, params_.reacts_s + brakes_s) +
+    return comes(comes_mps, walks_mps, params_.reacts_s + brakes_s) +
                share * speed_mps * (params_.reacts_s + 0.5 * brakes_s) <=
            room_m;
   };

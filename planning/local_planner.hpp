@@ -25,10 +25,12 @@ struct LocalPlannerParams {
   double slow_gap_m = 0.08;       ///< With less room to things than this the robot slows down.
   double least_speed_mps = 0.08;  ///< It slows down no further than to this.
   /// People may walk at the robot at any moment, and gain speed up to this: it comes towards them
-  /// only as fast as lets it stand when they reach it; beside them at `least_speed_mps`. Who comes
-  /// round a corner walks as fast from the first, and it drives there at `least_speed_mps` or more.
-  /// A comfortable walk (Bohannon, Age and Ageing 26, 1997).
+  /// only as fast as lets it stand when they reach it; beside them at `least_speed_mps`. A
+  /// comfortable walk (Bohannon, Age and Ageing 26, 1997).
   double walks_mps = 1.3;
+  /// Who is hidden may come out as fast as this at any moment; there it drives at `least_speed_mps`
+  /// or more. A walk about the house: at `walks_mps` it would slow down at every edge.
+  double appears_mps = 0.7;
   /// From somebody's step until the robot begins to brake: that of the sensors, of the wheels, and
   /// two control periods.
   double reacts_s = 0.2;
@@ -104,9 +106,9 @@ class LocalPlanner {
                  const std::optional<Eigen::Vector2d>& face = std::nullopt,
                  Permission permits = kAnyCommand);
 
-  /// Who may come out of where nobody sees, from now on: it comes towards them no faster than
-  /// towards those who stand, and minds them no further.
-  void expect(const std::vector<MovingPerson>& hidden) { hidden_ = hidden; }
+  /// Where somebody may come out whom nobody sees, from now on [m, world]: it comes towards them
+  /// no faster than lets it stand when they reach it, and minds them no further.
+  void expect(const std::vector<Eigen::Vector2d>& hidden);
 
   /// Forgets what went before, but for who is expected.
   void reset();
@@ -130,8 +132,9 @@ class LocalPlanner {
   Braking brake(const DriveScene& scene, const VelocityCommand& command, Clearance clearance) const;
   std::size_t measure(const DriveScene& scene, std::size_t option, Clearance clearance);
   VelocityCommand slowed(const VelocityCommand& command, double gap_m) const;
-  double comes(double speed_mps, double in_s) const;
-  double allowedTowards(const DriveScene& scene, const MovingPerson& person, double way) const;
+  static double comes(double speed_mps, double walks_mps, double in_s);
+  double allowedTowards(const DriveScene& scene, const MovingPerson& person, double walks_mps,
+                        double way) const;
   void explain(const DriveScene& scene, LocalPlan& plan, bool threatened);
 
   LocalPlannerParams params_;

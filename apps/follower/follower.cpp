@@ -201,12 +201,9 @@ void Follower::lookAround(const RobotReadings& readings) {
   const FloorPose& pose = step_.robot.pose;
   std::optional<FloorDisc> own;
   if (step_.target) own = FloorDisc{*step_.target, params_.target_radius_m};
-  noteComers();
   walkers_.clear();
-  for (const auto* some : {&people_, &came_}) {
-    for (const MovingPerson& person : *some) {
-      walkers_.push_back({person.position, params_.target_radius_m});
-    }
+  for (const MovingPerson& person : people_) {
+    walkers_.push_back({person.position, params_.target_radius_m});
   }
   layer_.begin(steady_s_, pose, own, walkers_);
   if (readings.scan != nullptr) {
@@ -234,26 +231,6 @@ void Follower::lookAround(const RobotReadings& readings) {
   room_.setLayer({}, &layer_.window());
 }
 
-// Who came of late to where the laser had seen nothing: who stands close before the robot is no
-// person to the camera.
-void Follower::noteComers() {
-  came_.clear();
-  const FloorPose from_motion = step_.robot.pose * motion_.pose().inverse();
-  const Eigen::Rotation2Dd turn(from_motion.yaw_rad);
-  for (const SeenThing& thing : last_gate_.sight().things()) {
-    if (!thing.is_somebody) continue;
-    const Vector2d place = from_motion * thing.place;
-    const auto is_there = [&](const MovingPerson& person) {
-      return (person.position - place).norm() < params_.target_radius_m;
-    };
-    if (std::any_of(people_.begin(), people_.end(), is_there) ||
-        std::any_of(came_.begin(), came_.end(), is_there)) {
-      continue;
-    }
-    came_.push_back({place, turn * thing.velocity, MovingPerson().radius_m, thing.gait_mps});
-  }
-}
-
 // Wheels that do not turn though they should are held by something that no sensor sees.
 void Follower::feelAround() {
   const double asked_mps = step_.velocity.forward_mps;
@@ -268,6 +245,26 @@ void Follower::feelAround() {
     const Vector2d rim = reach_m * Vector2d(std::cos(angle), std::sin(angle));
     layer_.touch(asked_mps > 0.0 ? Vector2d(body.front_m + rim.x(), rim.y())
                                  : Vector2d(body.back_m - rim.x(), rim.y()));
+  }
+}
+
+// Who came of late to where the laser had seen nothing, and is no track: who stands close before
+// the robot is no person to the camera.
+void Follower::noteComers() {
+  const FloorPose from_motion = step_.robot.pose * motion_.pose().inverse();
+  const Eigen::Rotation2Dd turn(from_motion.yaw_rad);
+  for (const SeenThing& thing : last_gate_.sight().things()) {
+    if (!thing.is_somebody) continue;
+    const Vector2d place = from_motion * thing.place;
+    const auto isNear = [&](const Vector2d& other) {
+      return (other - place).norm() < params_.target_radius_m;
+    };
+    if ((step_.target && isNear(*step_.target)) ||
+        std::any_of(people_.begin(), people_.end(),
+                    [&](const MovingPerson& person) { return isNear(person.position); })) {
+      continue;
+    }
+    people_.push_back({place, turn * thing.velocity, MovingPerson().radius_m, thing.gait_mps});
   }
 }
 
@@ -290,6 +287,7 @@ void Follower::notePeople() {
       person.gait_mps = gaitOf(track.motion);
     }
   }
+  noteComers();
   const auto has_left = [&, to_motion = motion_.pose() *
                                         step_.robot.pose.inverse()](const Vector2d& place) {
     return (place - step_.robot.pose.position).norm() > 0.5 * params_.obstacles.size_m ||

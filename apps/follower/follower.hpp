@@ -145,7 +145,7 @@ class Follower {
   LocalPlanner local_planner_;
   LastGate last_gate_;
   std::vector<Eigen::Vector2d> hiding_places_;  // in the odometry's frame
-  std::vector<MovingPerson> hidden_;            // there, on the map
+  std::vector<Eigen::Vector2d> hidden_;         // there, on the map
   GoalChooser goal_chooser_;
   std::optional<PersonSearch> search_;  // the same
   std::vector<DoorwayOnMap> doorways_;
@@ -186,7 +186,6 @@ class Follower {
   std::vector<MovingPerson> people_;
   std::vector<FloorDisc> standing_;  // people, with the room that they are left
   std::vector<FloorDisc> masked_;
-  std::vector<MovingPerson> came_;         // of late, but for people_
   std::vector<FloorDisc> walkers_;         // what is seen there may walk off
   std::vector<Eigen::Vector3f> unmapped_;  // points in the base frame
 };

@@ -309,12 +309,7 @@ VelocityCommand Follower::localCommand(const std::optional<Vector2d>& face) {
   const auto permits = [&](const VelocityCommand& velocity) { return last_gate_.lets(velocity); };
   hidden_.clear();
   const FloorPose from_motion = to_motion.inverse();
-  for (const Vector2d& place : hiding_places_) {
-    MovingPerson& person = hidden_.emplace_back();
-    person.position = from_motion * place;
-    person.gait_mps = params_.drive.walks_mps;
-  }
-  hidden_.insert(hidden_.end(), came_.begin(), came_.end());
+  for (const Vector2d& place : hiding_places_) hidden_.push_back(from_motion * place);
   local_planner_.expect(hidden_);
   const LocalPlan now =
       local_planner_.step(step_.robot.pose, speed_, plan_.path, room, people_, face, permits);

@@ -71,8 +71,8 @@ TEST(HidingPlaces, NobodyStandsInsideOfWhatHidesThem) {
   };
   const std::vector<Vector2d> places = placesIn(wallFrom(-100.0, -0.4), {}, beyond);
   ASSERT_EQ(places.size(), 1U);
-  EXPECT_GE(places.front().x(), 2.5 + 0.5 * kPersonBody_m);
-  EXPECT_LT(places.front().x(), 2.5 + 0.5 * kPersonBody_m + 0.05);
+  EXPECT_GE(places.front().x(), 2.5 + kPersonBody_m - 0.05);
+  EXPECT_LT(places.front().x(), 2.5 + kPersonBody_m);
 }
 
 TEST(HidingPlaces, WhatIsNarrowerThanABodyHidesNobodyNorDoesAWall) {

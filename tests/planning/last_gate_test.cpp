@@ -207,6 +207,32 @@ TEST(LastGate, KeepsOffTheBodyAboveLegs) {
   EXPECT_EQ(passedBesideSomebody(0.45, 31.0), 0.3) << "that has stood for so long is a thing";
 }
 
+// Bug: who was further than 1.2 m away was not looked at: who hurries was there before it stood.
+TEST(LastGate, StandsBeforeWhoeverWalksStraightIntoItIsThere) {
+  for (const double walks_mps : {0.7, 1.0, 1.3, 1.6}) {
+    LastGateParams params = usual();
+    params.wheels_latency_s = 0.1;
+    LastGate gate(params);
+    DriveState robot;
+    double leg_m = 5.0;
+    for (double now_s = 10.0; leg_m - robot.pose.position.x() > params.limits.radius_m;
+         now_s += 0.1, leg_m -= 0.1 * walks_mps) {
+      const double ahead_m = leg_m - robot.pose.position.x() - 0.1;  // of the scanner
+      LaserScan scan = wallAhead(9.0);
+      for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+        if (ahead_m * std::abs(std::sin(scan.angle(i))) < 0.08 && std::cos(scan.angle(i)) > 0.0) {
+          scan.ranges_m[i] = static_cast<float>(ahead_m);
+        }
+      }
+      gate.addScan(scan, robot.pose, now_s);
+      const VelocityCommand velocity = gate.pass({0.3, 0.0}, robot, 0.0, now_s).velocity;
+      robot = driven(params.limits, robot, velocity, 0.1);
+    }
+    EXPECT_NEAR(robot.speed.forward_mps, 0.0, 1e-9) << walks_mps;
+    EXPECT_GT(robot.pose.position.x(), 0.3) << "it drove";
+  }
+}
+
 /// What the gate lets through straight on after it saw a leg, which came there, as it says, while
 /// the robot had turned about and could not see it.
 double passedBesideALeg(const Eigen::Vector2d& leg, bool came) {
