@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/follower/follower.hpp>
-#include <heel/apps/follower/standing_people.hpp>
 #include <heel/planning/hiding_places.hpp>
 
 #include <algorithm>
@@ -81,7 +80,8 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
       local_planner_(params_.drive),
       last_gate_(params_.last_gate),
       goal_chooser_(params_.goal),
-      doorways_(findDoorways(floor_)) {
+      doorways_(findDoorways(floor_)),
+      standing_({params_.stands_mps, params_.beside_people_m, params_.target_radius_m}) {
   step_.robot.pose = start_;
   step_.robot.lost = false;
   if (!walls_) return;
@@ -227,7 +227,7 @@ void Follower::lookAround(const RobotReadings& readings) {
   }
   layer_.finish();
   notePeople();
-  planner_.setObstacles(standing_, &layer_.window());
+  planner_.setObstacles(standing_.discs(), &layer_.window());
   room_.setLayer({}, &layer_.window());
 }
 
@@ -293,8 +293,7 @@ void Follower::notePeople() {
     return (place - step_.robot.pose.position).norm() > 0.5 * params_.obstacles.size_m ||
            last_gate_.sight().seesFree(to_motion * place, kLegs_m);
   };
-  noteStanding({params_.stands_mps, params_.beside_people_m, params_.target_radius_m}, people_,
-               perception_->tracks(), has_left, standing_);
+  standing_.note(steady_s_, people_, perception_->tracks(), has_left);
   if (person_) {
     people_.push_back(*person_);
   } else if (unseen_s_ < params_.walks_on_s) {  // passes where no sensor looks

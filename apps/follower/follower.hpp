@@ -8,6 +8,7 @@
 #include <heel/apps/follower/follower_params.hpp>
 #include <heel/apps/follower/motion_history.hpp>
 #include <heel/apps/follower/sensor_watch.hpp>
+#include <heel/apps/follower/standing_people.hpp>
 #include <heel/mapping/wall_map.hpp>
 #include <heel/planning/clearance_map.hpp>
 #include <heel/planning/following_plan.hpp>
@@ -184,7 +185,7 @@ class Follower {
   std::vector<Eigen::Vector2d> waysides_;
   GlobalPlan plan_;
   std::vector<MovingPerson> people_;
-  std::vector<FloorDisc> standing_;  // people, with the room that they are left
+  StandingPeople standing_;
   std::vector<FloorDisc> masked_;
   std::vector<FloorDisc> walkers_;         // what is seen there may walk off
   std::vector<Eigen::Vector3f> unmapped_;  // points in the base frame

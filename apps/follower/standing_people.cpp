@@ -7,13 +7,12 @@
 
 namespace heel {
 
-void noteStanding(const StandingPeopleParams& params, const std::vector<MovingPerson>& people,
-                  const std::vector<Track>& tracks,
-                  const std::function<bool(const Eigen::Vector2d&)>& has_left,
-                  std::vector<FloorDisc>& standing) {
+void StandingPeople::note(double stamp_s, const std::vector<MovingPerson>& people,
+                          const std::vector<Track>& tracks,
+                          const std::function<bool(const Eigen::Vector2d&)>& has_left) {
   const auto isOver = [&](const FloorDisc& stood) {
     const auto isNear = [&](const Eigen::Vector2d& place) {
-      return (place - stood.center).norm() < params.near_m;
+      return (place - stood.center).norm() < params_.near_m;
     };
     return has_left(stood.center) ||
            std::any_of(people.begin(), people.end(),
@@ -22,11 +21,19 @@ void noteStanding(const StandingPeopleParams& params, const std::vector<MovingPe
              return track.observation != Track::kUnseen && isNear(track.motion.position_m());
            });
   };
-  standing.erase(std::remove_if(standing.begin(), standing.end(), isOver), standing.end());
-  for (const MovingPerson& person : people) {
-    if (person.velocity.norm() > params.slower_than_mps) continue;
-    standing.push_back({person.position, person.radius_m + params.beside_m});
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < discs_.size(); ++i) {
+    if (stamp_s - seen_s_[i] > params_.stays_s || isOver(discs_[i])) continue;
+    discs_[kept] = discs_[i];
+    seen_s_[kept++] = seen_s_[i];
   }
+  discs_.resize(kept);
+  for (const MovingPerson& person : people) {
+    if (person.velocity.norm() > params_.slower_than_mps) continue;
+    discs_.push_back({person.position, person.radius_m + params_.beside_m});
+  }
+  seen_s_.resize(kept);
+  seen_s_.resize(discs_.size(), stamp_s);
 }
 
 }  // namespace heel

@@ -18,17 +18,29 @@ struct StandingPeopleParams {
   double slower_than_mps = 0.0;  ///< Who is no faster stands.
   double beside_m = 0.0;         ///< Room that is left beside their body.
   double near_m = 0.0;           ///< Tracks so near to where somebody stood are of them.
+  double stays_s = 30.0;         ///< Nobody stays longer unseen: as long as the last gate takes.
 };
 
-/// Renews the discs of who stands. Who stood, and is neither seen nor among the people any more, is
-/// kept until they are known to have left: else a way around them would lead through them as soon
-/// as the robot turns to it.
-/// @param people  Who is known of now, but for the target; in the frame of the discs and the
-/// tracks.
-/// @param has_left  Whether nobody is at a place any more.
-void noteStanding(const StandingPeopleParams& params, const std::vector<MovingPerson>& people,
-                  const std::vector<Track>& tracks,
-                  const std::function<bool(const Eigen::Vector2d&)>& has_left,
-                  std::vector<FloorDisc>& standing);
+/// Discs around who stands. Who stood, and is neither seen nor among the people any more, stays
+/// for a while, or until they are known to have left: else a way around them would lead through
+/// them as soon as the robot turns to it.
+class StandingPeople {
+ public:
+  explicit StandingPeople(const StandingPeopleParams& params) : params_(params) {}
+
+  /// @param people  Who is known of now, but for the target; in the frame of the discs and the
+  ///                tracks.
+  /// @param has_left  Whether nobody is at a place any more.
+  void note(double stamp_s, const std::vector<MovingPerson>& people,
+            const std::vector<Track>& tracks,
+            const std::function<bool(const Eigen::Vector2d&)>& has_left);
+
+  const std::vector<FloorDisc>& discs() const { return discs_; }
+
+ private:
+  StandingPeopleParams params_;
+  std::vector<FloorDisc> discs_;
+  std::vector<double> seen_s_;  // theirs
+};
 
 }  // namespace heel

@@ -29,31 +29,45 @@ MovingPerson personAt(const Eigen::Vector2d& place_m) {
 // Bug: a robot turned to and fro between two ways, one of which led through somebody whom it saw
 // only when it had turned to it.
 TEST(StandingPeople, StayUntilTheyAreSeenToHaveLeft) {
-  std::vector<FloorDisc> standing;
+  StandingPeople standing(kParams);
   for (int i = 0; i < 3; ++i) {
-    noteStanding(kParams, {personAt({1.1, 0.0})}, {trackAt({1.1, 0.0}, true)}, stays, standing);
+    standing.note(i, {personAt({1.1, 0.0})}, {trackAt({1.1, 0.0}, true)}, stays);
   }
-  ASSERT_EQ(standing.size(), 1U);
-  EXPECT_EQ(standing[0].radius_m, 0.3);
-  noteStanding(kParams, {}, {trackAt({1.1, 0.0}, false)}, stays, standing);
-  noteStanding(kParams, {}, {}, stays, standing);
-  EXPECT_EQ(standing.size(), 1U);
-  noteStanding(kParams, {}, {}, leaves, standing);
-  EXPECT_TRUE(standing.empty()) << "they have gone";
+  ASSERT_EQ(standing.discs().size(), 1U);
+  EXPECT_EQ(standing.discs()[0].radius_m, 0.3);
+  standing.note(3.0, {}, {trackAt({1.1, 0.0}, false)}, stays);
+  standing.note(4.0, {}, {}, stays);
+  EXPECT_EQ(standing.discs().size(), 1U);
+  standing.note(5.0, {}, {}, leaves);
+  EXPECT_TRUE(standing.discs().empty()) << "they have gone";
+}
+
+// Bug: a robot stood for minutes before somebody who had stood behind a door, and left unseen.
+TEST(StandingPeople, StayForHalfAMinuteUnseen) {
+  StandingPeople standing(kParams);
+  standing.note(0.0, {personAt({1.1, 0.0})}, {}, stays);
+  standing.note(2.0, {personAt({3.0, 0.0})}, {}, stays);
+  standing.note(29.0, {}, {}, stays);
+  EXPECT_EQ(standing.discs().size(), 2U);
+  standing.note(31.0, {}, {}, stays);
+  ASSERT_EQ(standing.discs().size(), 1U);
+  EXPECT_EQ(standing.discs()[0].center.x(), 3.0);
 }
 
 TEST(StandingPeople, EndWhenTheyAreSeenToBeNone) {
-  std::vector<FloorDisc> standing{{{1.1, 0.0}, 0.3}};
-  noteStanding(kParams, {}, {trackAt({1.0, 0.0}, true)}, stays, standing);
-  EXPECT_TRUE(standing.empty()) << "it is a chair";
+  StandingPeople standing(kParams);
+  standing.note(0.0, {personAt({1.1, 0.0})}, {}, stays);
+  standing.note(1.0, {}, {trackAt({1.0, 0.0}, true)}, stays);
+  EXPECT_TRUE(standing.discs().empty()) << "it is a chair";
 }
 
 TEST(StandingPeople, WhoWalksDoesNotStand) {
   MovingPerson walker = personAt({1.1, 0.0});
   walker.velocity = {0.5, 0.0};
-  std::vector<FloorDisc> standing{{{1.0, 0.0}, 0.3}};
-  noteStanding(kParams, {walker}, {trackAt({1.1, 0.0}, true)}, stays, standing);
-  EXPECT_TRUE(standing.empty());
+  StandingPeople standing(kParams);
+  standing.note(0.0, {personAt({1.0, 0.0})}, {}, stays);
+  standing.note(1.0, {walker}, {trackAt({1.1, 0.0}, true)}, stays);
+  EXPECT_TRUE(standing.discs().empty());
 }
 
 }  // namespace
