@@ -253,8 +253,9 @@ void Follower::feelAround() {
 void Follower::noteComers() {
   const FloorPose from_motion = step_.robot.pose * motion_.pose().inverse();
   const Eigen::Rotation2Dd turn(from_motion.yaw_rad);
-  for (const SeenThing& thing : last_gate_.sight().things()) {
-    if (!thing.is_somebody) continue;
+  const RecentSight& sight = last_gate_.sight();
+  for (const SeenThing& thing : sight.things()) {
+    if (!thing.is_somebody || thing.seen_s != sight.newest_s()) continue;
     const Vector2d place = from_motion * thing.place;
     const auto isNear = [&](const Vector2d& other) {
       return (other - place).norm() < params_.target_radius_m;
