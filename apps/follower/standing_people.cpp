@@ -6,6 +6,11 @@
 #include <algorithm>
 
 namespace heel {
+namespace {
+
+constexpr double kStays_s = 30.0;  // Unseen; the last gate takes who came for somebody as long.
+
+}  // namespace
 
 void StandingPeople::note(double stamp_s, const std::vector<MovingPerson>& people,
                           const std::vector<Track>& tracks,
@@ -23,7 +28,7 @@ void StandingPeople::note(double stamp_s, const std::vector<MovingPerson>& peopl
   };
   std::size_t kept = 0;
   for (std::size_t i = 0; i < discs_.size(); ++i) {
-    if (stamp_s - seen_s_[i] > params_.stays_s || isOver(discs_[i])) continue;
+    if (stamp_s - seen_s_[i] > kStays_s || isOver(discs_[i])) continue;
     discs_[kept] = discs_[i];
     seen_s_[kept++] = seen_s_[i];
   }

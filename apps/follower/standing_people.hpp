@@ -18,12 +18,11 @@ struct StandingPeopleParams {
   double slower_than_mps = 0.0;  ///< Who is no faster stands.
   double beside_m = 0.0;         ///< Room that is left beside their body.
   double near_m = 0.0;           ///< Tracks so near to where somebody stood are of them.
-  double stays_s = 30.0;         ///< Nobody stays longer unseen: as long as the last gate takes.
 };
 
 /// Discs around who stands. Who stood, and is neither seen nor among the people any more, stays
-/// for a while, or until they are known to have left: else a way around them would lead through
-/// them as soon as the robot turns to it.
+/// for half a minute, or until they are known to have left: else a way around them would lead
+/// through them as soon as the robot turns to it.
 class StandingPeople {
  public:
   explicit StandingPeople(const StandingPeopleParams& params) : params_(params) {}
