@@ -6,7 +6,8 @@
 /// and then looks at what the wheels are told.
 ///   live_peer ROS DOMAIN WORD STATE moves|stands|ends
 /// It ends with 0 if within half a minute the robot moves, or has stood for a second, or the
-/// follower tells nothing any more. STATE may be "any": then the word is said until the end.
+/// follower tells nothing any more. STATE may be "any": then the word is said until the end, and
+/// for three seconds to a robot that stands anyway, or it may not have been heard at all.
 
 #include <heel/apps/live/live_network.hpp>
 
@@ -25,6 +26,7 @@ int run(const LiveNetworkParams& params, const std::string& word, const std::str
   network->subscribe({"/diagnostics", DiagnosticArrayMsg::kType, {}}, Delivery::kReliable);
   network->subscribe({"/cmd_vel", TwistMsg::kType, {}}, Delivery::kReliable);
   const double began_s = steadyClock_s();
+  const double stands_s = state == "any" ? 3.0 : 1.0;
   double said_s = 0.0, heard_s = began_s + 1.5, stood_s = 0.0;
   bool is_told = false;
   for (double now_s = began_s; now_s < began_s + 30.0; now_s = steadyClock_s()) {
@@ -50,7 +52,7 @@ int run(const LiveNetworkParams& params, const std::string& word, const std::str
       if (wheels == "moves" && !stands) return 0;
       if (!stands) stood_s = 0.0;
       if (stands && stood_s == 0.0) stood_s = now_s;
-      if (wheels == "stands" && stands && now_s > stood_s + 1.0) return 0;
+      if (wheels == "stands" && stands && now_s > stood_s + stands_s) return 0;
     }
   }
   std::printf("'%s': %s\n", word.c_str(), is_told ? "told, but not obeyed" : "not told");
