@@ -15,7 +15,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kStands_s = 30.0;       // Who came is taken for somebody who stands for so long.
 constexpr std::size_t kLooks = 20;       // So many are kept of the time that all is known,
 constexpr std::size_t kMostLooks = 160;  // of all: for half a minute, if 4 s are remembered;
 constexpr std::size_t kSpares = 4;       // and each so many'th is asked who came.
@@ -168,7 +167,7 @@ double RecentSight::lastFree(const Vector2d& place) const {
   const Look& now = looks_[newest_];
   for (std::size_t i = 1; i < looks_.size(); i += kSpares) {
     const Look& look = lookBefore(i);
-    if (now.stamp_s - look.stamp_s > kStands_s) break;
+    if (now.stamp_s - look.stamp_s > kStays_s) break;
     if (wasFree(place, now, look)) return look.stamp_s;
   }
   return kNotYet;

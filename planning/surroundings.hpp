@@ -22,6 +22,8 @@ using LineOfSight = FunctionRef<bool(const Eigen::Vector2d& from, const Eigen::V
 inline constexpr double kFastestWalk_mps = 1.6;
 /// Who walks gains speed no faster than this: from standing to a stroll within a step [m/s^2].
 inline constexpr double kWalkersGain_mps2 = 2.0;
+/// Who came or stood somewhere is taken to stay there for so long, if nothing else is seen [s].
+inline constexpr double kStays_s = 30.0;
 
 /// Somebody who may walk, as a disc on the floor.
 struct MovingPerson {

@@ -6,15 +6,10 @@
 #include <algorithm>
 
 namespace heel {
-namespace {
-
-constexpr double kStays_s = 30.0;  // Unseen; the last gate takes who came for somebody as long.
-
-}  // namespace
 
 void StandingPeople::note(double stamp_s, const std::vector<MovingPerson>& people,
                           const std::vector<Track>& tracks,
-                          const std::function<bool(const Eigen::Vector2d&)>& has_left) {
+                          FunctionRef<bool(const Eigen::Vector2d&)> has_left) {
   const auto isOver = [&](const FloorDisc& stood) {
     const auto isNear = [&](const Eigen::Vector2d& place) {
       return (place - stood.center).norm() < params_.near_m;

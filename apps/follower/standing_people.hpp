@@ -6,10 +6,10 @@
 #pragma once
 
 #include <heel/mapping/floor_pose.hpp>
+#include <heel/planning/function_ref.hpp>
 #include <heel/planning/surroundings.hpp>
 #include <heel/tracking/track.hpp>
 
-#include <functional>
 #include <vector>
 
 namespace heel {
@@ -31,8 +31,7 @@ class StandingPeople {
   ///                tracks.
   /// @param has_left  Whether nobody is at a place any more.
   void note(double stamp_s, const std::vector<MovingPerson>& people,
-            const std::vector<Track>& tracks,
-            const std::function<bool(const Eigen::Vector2d&)>& has_left);
+            const std::vector<Track>& tracks, FunctionRef<bool(const Eigen::Vector2d&)> has_left);
 
   const std::vector<FloorDisc>& discs() const { return discs_; }
 

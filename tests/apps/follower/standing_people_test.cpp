@@ -10,8 +10,8 @@ namespace {
 
 constexpr StandingPeopleParams kParams{0.2, 0.05, 0.45};
 
-bool stays(const Eigen::Vector2d& /*place*/) { return false; }
-bool leaves(const Eigen::Vector2d& /*place*/) { return true; }
+constexpr auto stays = [](const Eigen::Vector2d& /*place*/) { return false; };
+constexpr auto leaves = [](const Eigen::Vector2d& /*place*/) { return true; };
 
 Track trackAt(const Eigen::Vector2d& place_m, bool is_seen) {
   Track track;
