@@ -13,7 +13,8 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kStep_m = 0.05;
-constexpr double kDeepest_m = 2.0;  // Who is further behind an edge is seen in time.
+constexpr double kSqueezes_m = 0.05;  // A body has room where there is so much less.
+constexpr double kDeepest_m = 2.0;    // Who is further behind an edge is seen in time.
 
 // The range of the next beam, if what two beams end on goes on straight: on a straight line the
 // inverse range changes evenly. Infinite if it leads away.
@@ -54,7 +55,7 @@ void findHidingPlaces(const LaserScan& scan, const FloorPose& scanner, Clearance
       for (double away_m = near_m + body_m; away_m < last_m; away_m += kStep_m) {
         const Vector2d body = along * Vector2d(away_m, on_left ? -body_m : body_m);
         const Vector2d place = scanner * body;
-        if (clearance(place) < body_m - kStep_m) continue;
+        if (clearance(place) < body_m - kSqueezes_m) continue;
         if (isHidden(scan, body, body_m)) places.push_back(place);
         break;
       }

@@ -19,6 +19,7 @@ constexpr double kNoWorse_m = 1e-6;
 constexpr double kComes_mps = 0.15;
 constexpr double kStands_mps = 0.02;
 constexpr double kStands_radps = 0.05;
+constexpr double kFine_mps = 0.001;  // An allowed speed is known to this.
 /// A robot that waits for longer tries to turn to its path first.
 constexpr double kTurnsFirstAfter_s = 0.5;
 /// A long body that waits for longer backs off.
@@ -358,7 +359,7 @@ double LocalPlanner::allowedTowards(const DriveScene& scene, const MovingPerson&
            room_m;
   };
   double allowed_mps = 0.0;
-  for (double step = limits.max_speed_mps; step > kStands_mps; step *= 0.5) {
+  for (double step = limits.max_speed_mps; step > kFine_mps; step *= 0.5) {
     if (stands(allowed_mps + step)) allowed_mps += step;
   }
   // It passes beside them slowly, and comes nearer no faster than who stands.

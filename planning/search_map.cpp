@@ -18,9 +18,9 @@ constexpr double kNoChance = 1e-6;  // below this a cell is not worth a look
 
 void requirePositive(const SearchMapParams& p) {
   checkLimits(p.limits);
-  for (const double value : {p.cell_size_m, p.body_radius_m, p.top_speed_mps, p.usual_speed_mps,
-                             p.straight_s, p.place_sigma_m, p.field_of_view_rad, p.max_range_m,
-                             p.max_scan_m, p.notice_s, p.spare_m, p.look_s, p.view_spacing_m}) {
+  for (const double value : {p.cell_size_m, p.body_radius_m, p.usual_speed_mps, p.straight_s,
+                             p.place_sigma_m, p.field_of_view_rad, p.max_range_m, p.max_scan_m,
+                             p.notice_s, p.spare_m, p.look_s, p.view_spacing_m}) {
     if (!(value > 0.0)) throw std::invalid_argument("a search map's parameters must be positive");
   }
 }
@@ -84,7 +84,7 @@ void SearchMap::start(const Eigen::Vector2d& position, const Eigen::Vector2d& ve
   since_seen_s_ = carried_s_ = 0.0;
   floor_.walkingDistances(floor_.nearestFree(position), walked_m_, open_);
   const double speed = velocity.norm();
-  speed_mps_ = std::clamp(speed, params_.usual_speed_mps, params_.top_speed_mps);
+  speed_mps_ = std::clamp(speed, params_.usual_speed_mps, kFastestWalk_mps);
   // The faster one walked, the surer one goes on that way.
   Shares ways{};
   const double sureness = 6.0 * speed;
@@ -106,7 +106,7 @@ void SearchMap::start(const Eigen::Vector2d& position, const Eigen::Vector2d& ve
 void SearchMap::spread(double elapsed_s) {
   if (!(elapsed_s >= 0.0)) throw std::invalid_argument("time does not go back");
   if (walked_m_.empty()) return;
-  const double step_s = params_.cell_size_m / params_.top_speed_mps;
+  const double step_s = params_.cell_size_m / kFastestWalk_mps;
   carried_s_ += elapsed_s;
   if (carried_s_ < step_s) return;
   for (; carried_s_ >= step_s; carried_s_ -= step_s) {
@@ -118,7 +118,7 @@ void SearchMap::spread(double elapsed_s) {
 }
 
 void SearchMap::turn() {
-  const double step_s = params_.cell_size_m / params_.top_speed_mps;
+  const double step_s = params_.cell_size_m / kFastestWalk_mps;
   const double aside = 0.5 * (1.0 - std::exp(-step_s / params_.straight_s));
   for (Shares& cell : shares_) {
     const Shares before = cell;
@@ -130,7 +130,7 @@ void SearchMap::turn() {
 }
 
 void SearchMap::walk() {
-  const double furthest_m = params_.top_speed_mps * since_seen_s_ + 2.0 * params_.place_sigma_m;
+  const double furthest_m = kFastestWalk_mps * since_seen_s_ + 2.0 * params_.place_sigma_m;
   std::fill(next_.begin(), next_.end(), Shares{});
   for (std::size_t c = 0; c < shares_.size(); ++c) {
     for (std::size_t way = 0; way < kHeadings; ++way) {
@@ -144,7 +144,7 @@ void SearchMap::walk() {
       }
       const double steps = way % 2 == 0 ? 1.0 : std::sqrt(0.5);
       const bool is_too_far = static_cast<double>(walked_m_[index(to)]) > furthest_m;
-      const double walks = is_too_far ? 0.0 : steps * speed_mps_ / params_.top_speed_mps;
+      const double walks = is_too_far ? 0.0 : steps * speed_mps_ / kFastestWalk_mps;
       next_[index(to)][way] += walks * share;
       next_[c][way] += (1.0 - walks) * share;
     }

@@ -10,7 +10,7 @@
 #include <heel/mapping/floor_pose.hpp>
 #include <heel/mapping/laser_scan.hpp>
 #include <heel/planning/coarse_floor.hpp>
-#include <heel/planning/function_ref.hpp>
+#include <heel/planning/surroundings.hpp>
 #include <heel/planning/trajectory.hpp>
 
 #include <array>
@@ -25,7 +25,6 @@ struct SearchMapParams {
   double body_radius_m = 0.2;  ///< Radius of a person.
 
   // How people walk.
-  double top_speed_mps = 1.2;    ///< Nobody walks faster than this.
   double usual_speed_mps = 0.5;  ///< Speed of somebody who stood when last seen, pauses included.
   double straight_s = 2.0;       ///< Time after which a walker has turned by 45 degrees.
   /// Standard deviation of the place where the person was last seen.

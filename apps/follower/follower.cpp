@@ -24,9 +24,10 @@ constexpr double kStalls_s = 0.5;
 constexpr double kFeels_rad = 0.6;
 constexpr double kLegs_m = 0.12;  // So far from the middle of who stands are their legs.
 
-// Standard deviation of a velocity [m/s].
-double gaitOf(const MotionState& motion) {
-  return std::sqrt(0.5 * motion.covariance.bottomRightCorner<2, 2>().trace());
+// Standard deviation of their velocity along the line to a place [m/s].
+double gaitOf(const MotionState& motion, const Vector2d& place) {
+  const Vector2d along = (place - motion.position_m()).stableNormalized();
+  return std::sqrt(along.dot(motion.covariance.bottomRightCorner<2, 2>() * along));
 }
 
 OccupancyGrid openFloor(const Vector2d& middle) {
@@ -185,12 +186,8 @@ void Follower::localize(const RobotReadings& readings) {
 
 void Follower::findOnMap(const LaserScan* scan) {
   if (scan != nullptr) {
-    masked_.clear();
-    const FloorPose T_base_world = localization_->estimate().pose.inverse();
-    for (const MovingPerson& person : people_) {
-      masked_.push_back({T_base_world * person.position, params_.target_radius_m});
-    }
-    localization_->update(*scan, masked_, motion_.seenFromNow(scan_s_));
+    layOutPeople(localization_->estimate().pose.inverse());
+    localization_->update(*scan, people_discs_, motion_.seenFromNow(scan_s_));
   }
   step_.robot = localization_->estimate();
 }
@@ -201,11 +198,8 @@ void Follower::lookAround(const RobotReadings& readings) {
   const FloorPose& pose = step_.robot.pose;
   std::optional<FloorDisc> own;
   if (step_.target) own = FloorDisc{*step_.target, params_.target_radius_m};
-  walkers_.clear();
-  for (const MovingPerson& person : people_) {
-    walkers_.push_back({person.position, params_.target_radius_m});
-  }
-  layer_.begin(steady_s_, pose, own, walkers_);
+  layOutPeople({});  // What is seen there may walk off.
+  layer_.begin(steady_s_, pose, own, people_discs_);
   if (readings.scan != nullptr) {
     layer_.addScan(*readings.scan, motion_.seenFromNow(scan_s_) * robot_.T_base_scanner,
                    [this](const Vector2d& p) { return isMapped(p); });
@@ -285,7 +279,7 @@ void Follower::notePeople() {
     person.position = track.motion.position_m();
     if (identity.restsFor_s(track.id, steady_s_) < params_.walks_on_s) {
       person.velocity = track.motion.velocity_mps();
-      person.gait_mps = gaitOf(track.motion);
+      person.gait_mps = gaitOf(track.motion, step_.robot.pose.position);
     }
   }
   noteComers();
@@ -299,6 +293,13 @@ void Follower::notePeople() {
     people_.push_back(*person_);
   } else if (unseen_s_ < params_.walks_on_s) {  // passes where no sensor looks
     people_.push_back(expected());
+  }
+}
+
+void Follower::layOutPeople(const FloorPose& T_frame_world) {
+  people_discs_.clear();
+  for (const MovingPerson& person : people_) {
+    people_discs_.push_back({T_frame_world * person.position, params_.target_radius_m});
   }
 }
 
@@ -365,8 +366,9 @@ void Follower::noteTarget() {
   step_.target.reset();
   unseen_s_ += dt_s_;
   if (target_.hasPlace()) {
-    person_ = MovingPerson{target_.motion.position_m(), target_.motion.velocity_mps(),
-                           MovingPerson().radius_m, gaitOf(target_.motion)};
+    person_ =
+        MovingPerson{target_.motion.position_m(), target_.motion.velocity_mps(),
+                     MovingPerson().radius_m, gaitOf(target_.motion, step_.robot.pose.position)};
     step_.target = person_->position;
     looked_s_ = 0.0;
   }

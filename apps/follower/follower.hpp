@@ -104,6 +104,7 @@ class Follower {
   void feelAround();
   void noteComers();
   void notePeople();
+  void layOutPeople(const FloorPose& T_frame_world);
   bool isMapped(const Eigen::Vector2d& place) const;
   void keepUnmapped(const std::vector<Eigen::Vector3f>& points, const FloorPose& T_base_then);
   void driveTo(const Eigen::Vector2d& goal);
@@ -186,8 +187,7 @@ class Follower {
   GlobalPlan plan_;
   std::vector<MovingPerson> people_;
   StandingPeople standing_;
-  std::vector<FloorDisc> masked_;
-  std::vector<FloorDisc> walkers_;         // what is seen there may walk off
+  std::vector<FloorDisc> people_discs_;    // the same, in the frame last asked for
   std::vector<Eigen::Vector3f> unmapped_;  // points in the base frame
 };
 

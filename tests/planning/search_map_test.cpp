@@ -98,7 +98,7 @@ TEST(SearchMap, NobodyIsFurtherThanOneCanWalk) {
   for (int second = 1; second < 6; ++second) {
     map.spread(1.0);
     for (std::size_t c = 0; c < distance.size(); ++c) {
-      if (static_cast<double>(distance[c]) > 1.2 * second + 0.6 + 0.01) {
+      if (static_cast<double>(distance[c]) > kFastestWalk_mps * second + 0.6 + 0.01) {
         ASSERT_EQ(map.belief()[c], 0.0);
       }
     }
