@@ -96,7 +96,7 @@ bool Localization::update(const LaserScan& scan, const std::vector<FloorDisc>& l
       pending_.way_m() >= params_.min_move_m || pending_.turned_rad() >= params_.min_turn_rad;
   if (!moved && !news_) {
     judge();
-    if (unfit_ || rivals_.size() > 0) compare(false);
+    if (unfit_ || rivals_.size() > 0) compare(0.0);
     return false;
   }
   if (search_everywhere_) {
@@ -110,12 +110,15 @@ bool Localization::update(const LaserScan& scan, const std::vector<FloorDisc>& l
                   &telling_);
     moveParticles(pending_, params_.motion, random_, particles_);
     moveParticles(pending_, params_.motion, random_, rivals_);
+    rival_pose_ = rival_pose_ * pending_.motion();
   }
+  const double another_view = std::min(
+      pending_.way_m() / params_.cluster_m + pending_.turned_rad() / params_.cluster_rad, 1.0);
   pending_.clear();
   weigh(telling_, particles_);
   adopt(heaviestCluster(particles_));
   judge();
-  if (unfit_ || rivals_.size() > 0) compare(true);
+  if (unfit_ || rivals_.size() > 0) compare(another_view);
   resample();
   news_ = false;
   return true;
@@ -133,30 +136,30 @@ void Localization::weigh(const BeamEnds& ends, ParticleSet& particles) {
   particles.weigh(log_likelihood_.data(), params_.evidence);
 }
 
-// The estimate and its best rival each explain the scan; the better one is the estimate. What this
-// scan has found is no witness of its own, and is compared from the next one on.
-void Localization::compare(bool is_news) {
-  const double carried_off = std::log(params_.carried_off);
+// The estimate and its best rival each explain the scans; the better one is the estimate. What the
+// map does not show is much the same in the next scan: only one from elsewhere is a witness of its
+// own. What this scan has found is compared from the next one on.
+void Localization::compare(double another_view) {
+  const double carried_off =
+      std::log(params_.carried_off / static_cast<double>(search_.poses()));  // to just there
   const bool anew = rivals_.size() == 0;
   if (anew) {
-    settled_log_odds_ = rivals_log_odds_ = carried_off;
+    rivals_log_odds_ = carried_off;
     searched_ = 0.0;
   } else {
-    if (is_news) settled_log_odds_ = rivals_log_odds_;
     const Cluster rival = heaviestCluster(rivals_);
     const FloorPose change = rival_pose_.inverse() * rival.pose;
-    if (isElsewhere(change)) settled_log_odds_ = carried_off;
+    if (isElsewhere(change)) rivals_log_odds_ = carried_off;
     rival_pose_ = rival.pose;
     const ScanResiduals residuals =
         scanResiduals(field_, beams_.ends(), rival.pose, beams_.T_base_scanner(), params_.near_m);
     // Once in a while it is carried off, whatever was seen before.
-    rivals_log_odds_ = std::max(carried_off, settled_log_odds_ + logLikelihood(residuals) -
-                                                 logLikelihood(estimate_.residuals));
+    const double better = logLikelihood(residuals) - logLikelihood(estimate_.residuals);
+    rivals_log_odds_ = std::max(carried_off, rivals_log_odds_ + another_view * better);
     weigh(beams_.ends(), rivals_);
   }
   if (rivals_log_odds_ > 0.0) {
     std::swap(particles_, rivals_);
-    settled_log_odds_ = std::max(-settled_log_odds_, carried_off);
     rivals_log_odds_ = std::max(-rivals_log_odds_, carried_off);
     rival_pose_ = estimate_.pose;
     adopt(heaviestCluster(particles_));

@@ -127,7 +127,7 @@ class Localization {
   bool isElsewhere(const FloorPose& change) const;
   void adopt(const Cluster& cluster);
   double logLikelihood(const ScanResiduals& residuals) const;
-  void compare(bool is_news);
+  void compare(double another_view);
   void judge();
   void resample();
 
@@ -143,11 +143,10 @@ class Localization {
   ParticleSet particles_;
   ParticleSet drawn_;  // The other buffer of resampling.
   ParticleSet rivals_;
-  FloorPose rival_pose_;           // Of the heaviest cluster among them.
-  double rivals_log_odds_ = 0.0;   // Of that over the estimate,
-  double settled_log_odds_ = 0.0;  // without the view from where the robot is.
-  double own_share_ = 0.0;         // Of the estimate's cluster, the rivals apart.
-  double searched_ = 0.0;          // So many times the map, since there are rivals.
+  FloorPose rival_pose_;          // Of the heaviest cluster among them.
+  double rivals_log_odds_ = 0.0;  // Of that over the estimate.
+  double own_share_ = 0.0;        // Of the estimate's cluster, the rivals apart.
+  double searched_ = 0.0;         // So many times the map, since there are rivals.
   std::vector<float> cosine_, sine_, log_likelihood_;
   std::vector<std::uint32_t> bin_of_;
   LocalizationEstimate estimate_;
