@@ -247,8 +247,9 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
     const double angle = scan.angle(i);
     const Vector2d place = scanner * Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
     const double free_s = lastFree(place);
-    const bool moves = free_s == before.stamp_s && dt_s <= kOldestLook_s;
-    const Vector2d velocity = moves ? velocityOf(place, before, dt_s) : Vector2d::Zero();
+    const Vector2d velocity = free_s != before.stamp_s ? Vector2d(Vector2d::Zero())
+                              : dt_s > kOldestLook_s   ? Vector2d(Vector2d::Constant(kUnknown))
+                                                       : velocityOf(place, before, dt_s);
     const bool roams = stamp_s - free_s <= params_.remembers_s;
     if (roams) roaming_.push_back({place, velocity});
     keep({place, 0.0, stamp_s, true, true, roams, free_s > kNotYet, velocity, 0.0});

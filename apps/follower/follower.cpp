@@ -424,7 +424,7 @@ void Follower::begin(FollowingAction action) {
   has_arrived_ = false;
   if (search_) search_->restart();
   is_there_ = false;
-  if (action != FollowingAction::kFollow && action != FollowingAction::kFace) making_room_.reset();
+  if (action == FollowingAction::kStop) making_room_.reset();
   if (action == FollowingAction::kSeek) {
     turned_rad_ = 0.0;
     seek_side_ = sideOf(expected().position);

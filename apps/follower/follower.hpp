@@ -113,9 +113,8 @@ class Follower {
   void face();
   bool standsInDoorway() const;
   bool makesRoom();
-  bool isInTheWay() const;
-  void goAside();
-  bool hasPassed() const;
+  bool isInTheWayOf(const MovingPerson& person) const;
+  void goAside(const MovingPerson& person);
   void goToLastSeen();
   bool looksAtSuspect();
   const Track* suspect() const;
@@ -174,11 +173,12 @@ class Follower {
   bool is_there_ = false;     // at the search's view, and turned to it
   bool has_arrived_ = false;  // where the last driveTo() went, or as near as can be
   bool looks_away_ = false;   // from the target, in this step
-  /// The target wants to get past the robot, which goes aside.
+  Eigen::Vector2d stood_at_ = Eigen::Vector2d::Zero();  // and has not left since,
+  double stuck_s_ = 0.0;                                // though it wanted to for so long
+  /// Somebody wants to get past the robot, which goes aside.
   struct MakingRoom {
     Eigen::Vector2d place;   // where it goes
-    Eigen::Vector2d before;  // where it was then,
-    Eigen::Vector2d person;  // and where they were
+    Eigen::Vector2d before;  // where it was then
     double since_s = 0.0;
     double waited_s = 0.0;
   };

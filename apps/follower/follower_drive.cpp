@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -22,6 +23,12 @@ constexpr double kFurthestTurn_m = 1.5;  // up to so far off.
 
 // A speed for what the plan says (section 3.3); nothing moves while it is not safe.
 void Follower::drive() {
+  if ((step_.robot.pose.position - stood_at_).norm() > robot_.drive.radius_m) {
+    stood_at_ = step_.robot.pose.position;
+    stuck_s_ = 0.0;
+  } else if (step_.goal) {
+    stuck_s_ += dt_s_;
+  }
   step_.goal.reset();
   step_.path = nullptr;
   step_.velocity = {};
@@ -44,14 +51,15 @@ void Follower::drive() {
     return;
   }
   step_.reason = target_.hasPlace() || step_.perception == nullptr ? "" : step_.perception->reason;
+  if (action_ == FollowingAction::kStop || makesRoom()) return;
   switch (action_) {
     case FollowingAction::kStop:
       break;
     case FollowingAction::kFollow:
-      if (!makesRoom()) follow();
+      follow();
       break;
     case FollowingAction::kFace:
-      if (!makesRoom()) face();
+      face();
       break;
     case FollowingAction::kGoToLastSeen:
       goToLastSeen();
@@ -223,28 +231,39 @@ bool Follower::standsInDoorway() const {
   });
 }
 
-// Where there is no room for two, the robot leaves the way to a person who comes up to it.
+// Where there is no room for two, the robot leaves the way to a person: to the target who comes up
+// to it, and to anybody while it gets nowhere.
 bool Follower::makesRoom() {
-  if (!making_room_ && isInTheWay()) goAside();
+  if (!making_room_) {
+    if (person_ && isInTheWayOf(*person_)) {
+      goAside(*person_);
+    } else if (stuck_s_ > params_.give_up_s) {
+      stuck_s_ = 0.0;
+      const auto waits = std::find_if(people_.begin(), people_.end(),
+                                      [&](const MovingPerson& p) { return isInTheWayOf(p); });
+      if (waits != people_.end()) goAside(*waits);
+    }
+  }
   if (!making_room_) return false;
   MakingRoom& room = *making_room_;
   room.since_s += dt_s_;
-  if (hasPassed() || room.since_s > params_.makes_room_s || room.waited_s > params_.waits_aside_s) {
+  const bool have_passed = std::none_of(people_.begin(), people_.end(), [&](const auto& person) {
+    return (person.position - room.before).norm() < params_.far_m;
+  });
+  if (have_passed || room.since_s > params_.makes_room_s || room.waited_s > params_.waits_aside_s) {
     making_room_.reset();
     return false;
   }
   looks_away_ = true;
   driveTo(room.place);
-  if (has_arrived_) {
+  if (std::exchange(has_arrived_, false)) {  // not where the plan wants to be
     room.waited_s += dt_s_;
     if (step_.target) lookAt(*step_.target);
   }
   return true;
 }
 
-bool Follower::isInTheWay() const {
-  if (!person_) return false;
-  const MovingPerson& person = *person_;
+bool Follower::isInTheWayOf(const MovingPerson& person) const {
   const Vector2d& here = step_.robot.pose.position;
   const Vector2d to_robot = here - person.position;
   const bool comes = person.velocity.dot(to_robot) > params_.comes_mps * to_robot.norm();
@@ -253,31 +272,20 @@ bool Follower::isInTheWay() const {
   return standsInDoorway() || !leavesRoom(here, person.position, room, params_.wayside);
 }
 
-void Follower::goAside() {
+void Follower::goAside(const MovingPerson& person) {
   const Vector2d& here = step_.robot.pose.position;
-  const Vector2d& person = person_->position;
   const auto room = [this](const Vector2d& p) { return room_.clearance(p); };
-  findWaysides(here, person, room, doorways_, params_.wayside, waysides_);
+  findWaysides(here, person.position, room, doorways_, params_.wayside, waysides_);
   for (const Vector2d& place : waysides_) {
     planner_.plan(here, place, plan_);
     const bool is_near = plan_.length_m < 1.5 * params_.wayside.reach_m;
     if (!plan_.found() || !is_near || (plan_.end - place).norm() > params_.wayside.apart_m) {
       continue;
     }
-    making_room_ = MakingRoom{place, here, person};
+    making_room_ = MakingRoom{place, here};
     local_planner_.reset();
     return;
   }
-}
-
-// They are on the other side of where the robot stood, and go on.
-bool Follower::hasPassed() const {
-  if (!person_) return false;
-  const MovingPerson& person = *person_;
-  const Vector2d off = person.position - making_room_->before;
-  const bool is_beyond = off.dot(making_room_->person - making_room_->before) < 0.0;
-  const Vector2d from_robot = person.position - step_.robot.pose.position;
-  return is_beyond && from_robot.norm() > params_.near_m && person.velocity.dot(from_robot) > 0.0;
 }
 
 // Around what the map and the moment show, in view of the person if there is one.

@@ -296,6 +296,20 @@ TEST(LastGate, StandsBeforeALegThatCameTooFastToTell) {
   EXPECT_LT(passedBesideSomebody(0.75, 0.0, 0.0, 2.5), 0.3);
 }
 
+// Bug: after a gap in the scans, whoever had come in it was taken to stand.
+TEST(LastGate, SlowsBeforeSomebodyWhoCameWhileThereWasNoScan) {
+  LastGate gate(usual());
+  for (double now_s = 9.0; now_s < 10.05; now_s += 0.1) gate.addScan(wallAhead(9.0), {}, now_s);
+  LaserScan scan = wallAhead(9.0);
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
+    if (std::abs(wrapped(scan.angle(i))) < 0.1) scan.ranges_m[i] = 0.65F;
+  }
+  gate.addScan(scan, {}, 11.5);
+  EXPECT_LT(gate.pass({0.3, 0.0}, {}, 0.0, 11.5).velocity.forward_mps, 0.3);
+  for (double now_s = 11.6; now_s < 12.55; now_s += 0.1) gate.addScan(scan, {}, now_s);
+  EXPECT_EQ(gate.pass({0.3, 0.0}, {}, 0.0, 12.5).velocity.forward_mps, 0.3) << "they stand";
+}
+
 // Bug: errors of a cheaper laser's ranges were people who walk, and robots stood in doorways.
 TEST(RecentSight, MeasuresTheErrorsOfRangesWhileTheRobotStands) {
   for (const double sigma_m : {0.0, 0.01, 0.025, 0.04}) {
