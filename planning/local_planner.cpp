@@ -16,6 +16,7 @@ using Eigen::Vector2d;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kNoWorse_m = 1e-6;
+constexpr double kTouches_m = 0.05;  // Who will be so near is touched, as far as one can tell.
 constexpr double kComes_mps = 0.15;
 constexpr double kStands_mps = 0.02;
 constexpr double kStands_radps = 0.05;
@@ -105,7 +106,7 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
                              const std::vector<Vector2d>& path, Clearance clearance,
                              const std::vector<MovingPerson>& people,
                              const std::optional<Vector2d>& face, Permission permits) {
-  DriveScene scene{{pose, speed}, last_, &path_, {}, &people, face};
+  DriveScene scene{{pose, speed}, last_, &path_, {}, &people, 0.0, face};
   if (face && !face->allFinite()) scene.face.reset();
   LocalPlan plan;
   if (const auto fault = findFault(scene, path)) {
@@ -115,7 +116,7 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
   }
   gap_m_ = roomAt(params_.limits, pose, clearance);
   plan.gap_m = gap_m_;
-  plan.people_gap_m = roomToPeople(people, params_.limits, pose, 0.0);
+  plan.people_gap_m = scene.people_room_m = roomToPeople(people, params_.limits, pose, 0.0);
   if (gap_m_ == -kInfinite) {
     reset();
     plan.reason = DriveReason::kNoClearance;
@@ -303,6 +304,7 @@ std::size_t LocalPlanner::measure(const DriveScene& scene, std::size_t option,
   const DriveLimits& limits = params_.limits;
   std::size_t clear = futures_.steps;
   double known = gap_m_;
+  const double least_m = std::min(kTouches_m, scene.people_room_m - kNoWorse_m);
   FloorPose there = scene.now.pose;
   for (std::size_t i = 0; i < futures_.steps; ++i) {
     const double moved = wayBetween(limits, there, poses[i]);
@@ -314,7 +316,7 @@ std::size_t LocalPlanner::measure(const DriveScene& scene, std::size_t option,
     gaps_m_[i] = gap;
     const double t = limits.period_s * static_cast<double>(i + 1);
     const bool touches = gap < 0.0 || (t <= params_.terms.foresight_s &&
-                                       roomToPeople(*scene.people, limits, poses[i], t) < 0.05);
+                                       roomToPeople(*scene.people, limits, poses[i], t) < least_m);
     if (touches && clear == futures_.steps) clear = i;
   }
   return clear;

@@ -289,6 +289,9 @@ void Follower::notePeople() {
            last_gate_.sight().seesFree(to_motion * place, kLegs_m);
   };
   standing_.note(steady_s_, people_, perception_->tracks(), has_left);
+  for (std::size_t i = 0; i < standing_.remembered(); ++i) {
+    people_.emplace_back().position = standing_.discs()[i].center;
+  }
   if (person_) {
     people_.push_back(*person_);
   } else if (unseen_s_ < params_.walks_on_s) {  // passes where no sensor looks

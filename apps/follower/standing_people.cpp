@@ -27,6 +27,7 @@ void StandingPeople::note(double stamp_s, const std::vector<MovingPerson>& peopl
     discs_[kept] = discs_[i];
     seen_s_[kept++] = seen_s_[i];
   }
+  remembered_ = kept;
   discs_.resize(kept);
   for (const MovingPerson& person : people) {
     if (person.velocity.norm() > params_.slower_than_mps) continue;

@@ -10,6 +10,7 @@
 #include <heel/planning/surroundings.hpp>
 #include <heel/tracking/track.hpp>
 
+#include <cstddef>
 #include <vector>
 
 namespace heel {
@@ -21,8 +22,8 @@ struct StandingPeopleParams {
 };
 
 /// Discs around who stands. Who stood, and is neither seen nor among the people any more, stays
-/// for half a minute, or until they are known to have left: else a way around them would lead
-/// through them as soon as the robot turns to it.
+/// for half a minute, or until they are known to have left: else the robot would drive into them
+/// once it has turned away.
 class StandingPeople {
  public:
   explicit StandingPeople(const StandingPeopleParams& params) : params_(params) {}
@@ -34,11 +35,14 @@ class StandingPeople {
             const std::vector<Track>& tracks, FunctionRef<bool(const Eigen::Vector2d&)> has_left);
 
   const std::vector<FloorDisc>& discs() const { return discs_; }
+  /// So many of the first discs are of people who are not among `people`, only remembered.
+  std::size_t remembered() const { return remembered_; }
 
  private:
   StandingPeopleParams params_;
   std::vector<FloorDisc> discs_;
   std::vector<double> seen_s_;  // theirs
+  std::size_t remembered_ = 0;
 };
 
 }  // namespace heel

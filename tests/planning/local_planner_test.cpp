@@ -211,6 +211,22 @@ TEST(LocalPlanner, BacksOffOnlyOntoKnownFreeFloor) {
   EXPECT_EQ(planner.step({}, {}, {}, unknown_behind, people).command.forward_mps, 0.0);
 }
 
+// Bug: as long as somebody touched it all futures were the same to it, and it turned on the spot.
+TEST(LocalPlanner, DrivesAwayFromWhoeverTouchesIt) {
+  const auto passage = [](const Vector2d& p) { return 0.45 - std::abs(p.y()); };
+  for (const double at_m : {-0.45, -0.48}) {
+    LocalPlanner planner;
+    DriveState robot;
+    const std::vector<MovingPerson> people = {{{at_m, -0.1}, {0.0, 0.0}, 0.25}};
+    for (int i = 0; i < 40; ++i) {
+      const LocalPlan& plan =
+          planner.step(robot.pose, robot.speed, {{0.0, 0.0}, {3.0, 0.0}}, passage, people);
+      robot = driven(planner.params().limits, robot, plan.command, 0.1);
+    }
+    EXPECT_GT(robot.pose.position.x(), 0.5) << at_m;
+  }
+}
+
 TEST(LocalPlanner, TurnsToTheFaceWhenThereIsNowhereToGo) {
   DriveLoop loop(emptyRoom(), {{0, 0}, 0});
   EXPECT_EQ(loop.step({}, Vector2d(0, 2)).status, DriveStatus::kTurning);

@@ -271,6 +271,49 @@ TEST(ClosedLoop, LetsThePersonOutOfADeadEnd) {
   EXPECT_LT(log.samples.back().person_true->x(), 2.5) << "and she came out";
 }
 
+/// Ida walks on through a passage too narrow for two, and out of sight. Ben, who does not see the
+/// robot, comes through it against the robot, and does not give up.
+Scene meetingInAPassage() {
+  Scene scene = test::smallHome();
+  for (const double y : {0.775, 3.225}) {  // from wall to passage
+    FurniturePart shelf;
+    shelf.base = {4.65, y, 0.0};
+    shelf.size_m = {1.5, 1.55, 1.6};
+    shelf.surface = {"wood", Rgb(0.4F, 0.35F, 0.3F)};
+    Furniture furniture;
+    furniture.name = "shelf";
+    furniture.parts = {shelf};
+    scene.furniture.push_back(furniture);
+  }
+  const auto walk = [](ScenePerson& person, double x, double y) {
+    PathStep step;
+    step.kind = PathStep::Kind::kWalk;
+    step.to = {x, y};
+    step.speed_mps = 0.6;
+    person.path.push_back(step);
+  };
+  ScenePerson ben = scene.people.front();
+  ben.name = "ben";
+  ben.start = {6.0, 1.3};
+  ben.outfit.top.front.color = {0.1F, 0.2F, 0.5F};
+  ben.sees_robot = false;
+  ben.path.clear();
+  ben.path.emplace_back().wait_s = 16.0;
+  walk(ben, 5.8, 2.0);
+  for (int i = 0; i < 5; ++i) walk(ben, 2.0, 1.2);
+  scene.people.push_back(ben);
+  walk(scene.people.front(), 6.2, 2.0);
+  walk(scene.people.front(), 6.2, 3.3);
+  return scene;
+}
+
+TEST(ClosedLoop, LetsSomebodyThroughAPassageWhoDoesNotSeeIt) {
+  const FollowLog log = follow(meetingInAPassage(), {}, 1, 60.0);
+  EXPECT_EQ(log.outcome, "reached");
+  EXPECT_LT(log.samples.back().others_true.front().x(), 3.5) << "he came through";
+  for (const FollowSample& sample : log.samples) ASSERT_FALSE(sample.contact_by_robot);
+}
+
 // She stands beside a doorway, behind the wall: the way to her leads out of view of her. There is a
 // second doorway, and she is no reason to go round by it.
 TEST(ClosedLoop, GoesThroughTheDoorwayThatThePersonStandsBehind) {

@@ -47,8 +47,10 @@ TEST(StandingPeople, StayForHalfAMinuteUnseen) {
   StandingPeople standing(kParams);
   standing.note(0.0, {personAt({1.1, 0.0})}, {}, stays);
   standing.note(2.0, {personAt({3.0, 0.0})}, {}, stays);
+  EXPECT_EQ(standing.remembered(), 1U);
   standing.note(29.0, {}, {}, stays);
   EXPECT_EQ(standing.discs().size(), 2U);
+  EXPECT_EQ(standing.remembered(), 2U);
   standing.note(31.0, {}, {}, stays);
   ASSERT_EQ(standing.discs().size(), 1U);
   EXPECT_EQ(standing.discs()[0].center.x(), 3.0);
