@@ -101,6 +101,7 @@ class Follower {
   void checkFacts();
   void begin(FollowingAction action);
   void drive();
+  void noteProgress();
   void feelAround();
   void noteComers();
   void notePeople();

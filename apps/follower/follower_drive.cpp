@@ -23,12 +23,7 @@ constexpr double kFurthestTurn_m = 1.5;  // up to so far off.
 
 // A speed for what the plan says (section 3.3); nothing moves while it is not safe.
 void Follower::drive() {
-  if ((step_.robot.pose.position - stood_at_).norm() > robot_.drive.radius_m) {
-    stood_at_ = step_.robot.pose.position;
-    stuck_s_ = 0.0;
-  } else if (step_.goal) {
-    stuck_s_ += dt_s_;
-  }
+  noteProgress();
   step_.goal.reset();
   step_.path = nullptr;
   step_.velocity = {};
@@ -70,6 +65,17 @@ void Follower::drive() {
     case FollowingAction::kSearch:
       search();
       break;
+  }
+}
+
+// Whoever wants to go somewhere, and turns this way and that, is stuck too.
+void Follower::noteProgress() {
+  const Vector2d& here = step_.robot.pose.position;
+  if ((here - stood_at_).norm() > robot_.drive.radius_m) {
+    stood_at_ = here;
+    stuck_s_ = 0.0;
+  } else if (step_.goal) {
+    stuck_s_ += dt_s_;
   }
 }
 
