@@ -289,6 +289,7 @@ void Follower::notePeople() {
            last_gate_.sight().seesFree(to_motion * place, kLegs_m);
   };
   standing_.note(steady_s_, people_, perception_->tracks(), has_left);
+  seen_people_ = people_.size();
   for (std::size_t i = 0; i < standing_.remembered(); ++i) {
     people_.emplace_back().position = standing_.discs()[i].center;
   }

@@ -245,9 +245,10 @@ bool Follower::makesRoom() {
       goAside(*person_);
     } else if (stuck_s_ > params_.give_up_s) {
       stuck_s_ = 0.0;
-      const auto waits = std::find_if(people_.begin(), people_.end(),
+      const auto end = people_.begin() + static_cast<std::ptrdiff_t>(seen_people_);
+      const auto waits = std::find_if(people_.begin(), end,
                                       [&](const MovingPerson& p) { return isInTheWayOf(p); });
-      if (waits != people_.end()) goAside(*waits);
+      if (waits != end) goAside(*waits);
     }
   }
   if (!making_room_) return false;
