@@ -59,7 +59,8 @@ struct LocalizationParams {
   double slow_rate = 0.005;  ///< Weight of a new scan in the usual fit.
   /// Particles that may be anywhere else, kept while the robot is lost.
   std::size_t rivals = 1000;
-  /// Chance that the robot was carried off, or its odometry failed, before a scan that is weighed.
+  /// Chance that the robot was carried off, or its odometry failed, before a scan that is weighed:
+  /// to any of the places on the map.
   double carried_off = 1e-3;
   std::uint64_t seed = 1;  ///< Seed of all that is drawn by chance.
 };
@@ -83,7 +84,10 @@ struct LocalizationEstimate {
 /// (where a beam that passed through a wall counts more than one that somebody blocked), the map is
 /// searched with each scan, and what is found goes on as a filter of its own, the rivals. Both
 /// explain every scan more or less well; the odds between them say which is the estimate, and the
-/// other is kept, so that it can win back. Rivals end when the scans fit again.
+/// other is kept, so that it can win back. Rivals end when the scans fit again. The odds begin with
+/// the chance that the robot was carried off to just there, one of all the places on the map, and
+/// scans count by how far apart they were measured (once every `cluster_m` or `cluster_rad`), for
+/// furniture that has moved misleads neighbouring scans alike.
 ///
 /// The same calls give the same results. No allocation once warm.
 class Localization {

@@ -187,9 +187,9 @@ class Follower {
   std::vector<Eigen::Vector2d> waysides_;
   GlobalPlan plan_;
   std::vector<MovingPerson> people_;
-  std::size_t seen_people_ = 0;  // So many of them are seen, and are not the target.
+  std::size_t seen_people_ = 0;          // the first ones, who are seen, and not the target
+  std::vector<FloorDisc> people_discs_;  // all, in the frame last asked for
   StandingPeople standing_;
-  std::vector<FloorDisc> people_discs_;    // the same, in the frame last asked for
   std::vector<Eigen::Vector3f> unmapped_;  // points in the base frame
 };
 

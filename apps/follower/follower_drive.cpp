@@ -46,7 +46,7 @@ void Follower::drive() {
     return;
   }
   step_.reason = target_.hasPlace() || step_.perception == nullptr ? "" : step_.perception->reason;
-  if (action_ == FollowingAction::kStop || makesRoom()) return;
+  if (action_ != FollowingAction::kStop && makesRoom()) return;
   switch (action_) {
     case FollowingAction::kStop:
       break;

@@ -123,6 +123,25 @@ TEST(Localization, FindsItselfAgainAfterATurnThatTheOdometryMissed) {
   driver.expectRight(localization);
 }
 
+// Bug: a rival that the robot took further than half a metre with it began anew with each scan.
+TEST(Localization, FindsItselfAgainByScansThatAreFarApart) {
+  Driver driver;
+  Localization localization(driver.room);
+  localization.startAt(driver.truth);
+  driver.drive(localization, 20);
+  driver.truth = driver.truth * FloorPose{{0.0, 0.0}, 1.4};
+  for (int i = 0; i < 20; ++i) {
+    for (int step = 0; step < 9; ++step) {
+      driver.truth = driver.truth * driver.step;
+      localization.predict(driver.step);
+    }
+    LaserScan scan = scanOf(driver.room, driver.truth);
+    for (std::size_t b = 0; b < 70; ++b) scan.ranges_m[b] = std::min(scan.ranges_m[b], 0.5F);
+    localization.update(scan);
+  }
+  driver.expectRight(localization);
+}
+
 TEST(Localization, KeepsItsPlaceInACrowdThoughClosetsWouldExplainTheScans) {
   OccupancyGrid building({-0.2, -0.2}, 0.05, 600, 140);  // the odd room, and closets 10 m off
   test::drawBlock(building, -1.0, -1.0, 40.0, 10.0);
