@@ -285,10 +285,17 @@ void Follower::notePeople() {
   noteComers();
   const auto has_left = [&, to_motion = motion_.pose() *
                                         step_.robot.pose.inverse()](const Vector2d& place) {
-    return (place - step_.robot.pose.position).norm() > 0.5 * params_.obstacles.size_m ||
+    const auto isThingThere = [&](const Track& track) {
+      return track.observation != Track::kUnseen &&
+             (track.motion.position_m() - place).norm() < params_.target_radius_m &&
+             identity.probabilities(track.id)[kThing] > params_.surely_person;
+    };
+    const std::vector<Track>& tracks = perception_->tracks();
+    return std::any_of(tracks.begin(), tracks.end(), isThingThere) ||
+           (place - step_.robot.pose.position).norm() > 0.5 * params_.obstacles.size_m ||
            last_gate_.sight().seesFree(to_motion * place, kLegs_m);
   };
-  standing_.note(steady_s_, people_, perception_->tracks(), has_left);
+  standing_.note(steady_s_, people_, has_left);
   seen_people_ = people_.size();
   for (std::size_t i = 0; i < standing_.remembered(); ++i) {
     people_.emplace_back().position = standing_.discs()[i].center;

@@ -8,17 +8,11 @@
 namespace heel {
 
 void StandingPeople::note(double stamp_s, const std::vector<MovingPerson>& people,
-                          const std::vector<Track>& tracks,
                           FunctionRef<bool(const Eigen::Vector2d&)> has_left) {
   const auto isOver = [&](const FloorDisc& stood) {
-    const auto isNear = [&](const Eigen::Vector2d& place) {
-      return (place - stood.center).norm() < params_.near_m;
-    };
     return has_left(stood.center) ||
-           std::any_of(people.begin(), people.end(),
-                       [&](const MovingPerson& person) { return isNear(person.position); }) ||
-           std::any_of(tracks.begin(), tracks.end(), [&](const Track& track) {
-             return track.observation != Track::kUnseen && isNear(track.motion.position_m());
+           std::any_of(people.begin(), people.end(), [&](const MovingPerson& person) {
+             return (person.position - stood.center).norm() < params_.near_m;
            });
   };
   std::size_t kept = 0;

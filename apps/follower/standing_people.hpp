@@ -8,7 +8,6 @@
 #include <heel/mapping/floor_pose.hpp>
 #include <heel/planning/function_ref.hpp>
 #include <heel/planning/surroundings.hpp>
-#include <heel/tracking/track.hpp>
 
 #include <cstddef>
 #include <vector>
@@ -18,7 +17,7 @@ namespace heel {
 struct StandingPeopleParams {
   double slower_than_mps = 0.0;  ///< Who is no faster stands.
   double beside_m = 0.0;         ///< Room that is left beside their body.
-  double near_m = 0.0;           ///< Tracks so near to where somebody stood are of them.
+  double near_m = 0.0;           ///< People so near to where somebody stood are them.
 };
 
 /// Discs around who stands. Who stood, and is neither seen nor among the people any more, stays
@@ -28,11 +27,10 @@ class StandingPeople {
  public:
   explicit StandingPeople(const StandingPeopleParams& params) : params_(params) {}
 
-  /// @param people  Who is known of now, but for the target; in the frame of the discs and the
-  ///                tracks.
+  /// @param people  Who is known of now, but for the target; in the frame of the discs.
   /// @param has_left  Whether nobody is at a place any more.
   void note(double stamp_s, const std::vector<MovingPerson>& people,
-            const std::vector<Track>& tracks, FunctionRef<bool(const Eigen::Vector2d&)> has_left);
+            FunctionRef<bool(const Eigen::Vector2d&)> has_left);
 
   const std::vector<FloorDisc>& discs() const { return discs_; }
   /// So many of the first discs are of people who are not among `people`, only remembered.
