@@ -14,7 +14,6 @@ using Eigen::Vector2d;
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr std::size_t kStride = 5;  // The slow terms look at every fifth pose.
-constexpr double kNoLess_m = 1e-6;
 
 double square(double x) { return x * x; }
 
@@ -81,7 +80,7 @@ double nearPeople(const DriveLimits& limits, const DriveTermParams& params, cons
     const double room = roomToPeople(*scene.people, limits, option.poses[i], t);
     // After a touch the future ends: people don't walk through the robot. From whoever touches it
     // now it may get away.
-    touched = touched || room < std::min(0.0, scene.people_room_m - kNoLess_m);
+    touched = touched || room < std::min(0.0, scene.people_room_m);
     const double lack =
         touched ? kTouch : std::clamp(1.0 - room / params.people_comfort_m, 0.0, kTouch);
     sum += weight * square(lack);

@@ -50,7 +50,7 @@ struct DriveScene {
   const PathAhead* path = nullptr;
   PathAhead::Place start;  ///< Of the robot on the path, if there is one.
   const std::vector<MovingPerson>* people = nullptr;
-  double people_room_m = 0.0;  ///< To the nearest of them, now.
+  double people_room_m = 0.0;  ///< A hair less than to the nearest of them now.
   std::optional<Eigen::Vector2d> face;
 };
 

@@ -116,7 +116,8 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
   }
   gap_m_ = roomAt(params_.limits, pose, clearance);
   plan.gap_m = gap_m_;
-  plan.people_gap_m = scene.people_room_m = roomToPeople(people, params_.limits, pose, 0.0);
+  plan.people_gap_m = roomToPeople(people, params_.limits, pose, 0.0);
+  scene.people_room_m = plan.people_gap_m - kNoWorse_m;
   if (gap_m_ == -kInfinite) {
     reset();
     plan.reason = DriveReason::kNoClearance;
@@ -304,7 +305,7 @@ std::size_t LocalPlanner::measure(const DriveScene& scene, std::size_t option,
   const DriveLimits& limits = params_.limits;
   std::size_t clear = futures_.steps;
   double known = gap_m_;
-  const double least_m = std::min(kTouches_m, scene.people_room_m - kNoWorse_m);
+  const double least_m = std::min(kTouches_m, scene.people_room_m);
   FloorPose there = scene.now.pose;
   for (std::size_t i = 0; i < futures_.steps; ++i) {
     const double moved = wayBetween(limits, there, poses[i]);

@@ -173,9 +173,10 @@ double RecentSight::lastFree(const Vector2d& place) const {
   return kNotYet;
 }
 
-// How what is seen at a place has come there since a look: from the nearest that it saw, or too
-// fast to tell (not a number).
+// How what is seen at a place has come there since a look: from the nearest that it saw; not a
+// number if it was too fast to tell, or the look is too old.
 Vector2d RecentSight::velocityOf(const Vector2d& place, const Look& before, double dt_s) {
+  if (dt_s > kOldestLook_s) return Vector2d::Constant(kUnknown);
   const Vector2d at = before.turn * (place - before.scanner);
   const std::size_t from = nearestBeam(before, at, kFastestWalk_mps * dt_s);
   if (from == before.scan.ranges_m.size()) return Vector2d::Constant(kUnknown);
@@ -247,9 +248,8 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
     const double angle = scan.angle(i);
     const Vector2d place = scanner * Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
     const double free_s = lastFree(place);
-    const Vector2d velocity = free_s != before.stamp_s ? Vector2d(Vector2d::Zero())
-                              : dt_s > kOldestLook_s   ? Vector2d(Vector2d::Constant(kUnknown))
-                                                       : velocityOf(place, before, dt_s);
+    const bool moves = free_s == before.stamp_s;
+    const Vector2d velocity = moves ? velocityOf(place, before, dt_s) : Vector2d::Zero();
     const bool roams = stamp_s - free_s <= params_.remembers_s;
     if (roams) roaming_.push_back({place, velocity});
     keep({place, 0.0, stamp_s, true, true, roams, free_s > kNotYet, velocity, 0.0});

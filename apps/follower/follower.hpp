@@ -114,6 +114,7 @@ class Follower {
   void face();
   bool standsInDoorway() const;
   bool makesRoom();
+  const MovingPerson* whoWantsPast();
   bool isInTheWayOf(const MovingPerson& person) const;
   void goAside(const MovingPerson& person);
   void goToLastSeen();

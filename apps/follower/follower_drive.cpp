@@ -237,19 +237,10 @@ bool Follower::standsInDoorway() const {
   });
 }
 
-// Where there is no room for two, the robot leaves the way to a person: to the target who comes up
-// to it, and to anybody while it gets nowhere.
+// Where there is no room for two, the robot leaves the way to a person.
 bool Follower::makesRoom() {
   if (!making_room_) {
-    if (person_ && isInTheWayOf(*person_)) {
-      goAside(*person_);
-    } else if (stuck_s_ > params_.give_up_s) {
-      stuck_s_ = 0.0;
-      const auto end = people_.begin() + static_cast<std::ptrdiff_t>(seen_people_);
-      const auto waits = std::find_if(people_.begin(), end,
-                                      [&](const MovingPerson& p) { return isInTheWayOf(p); });
-      if (waits != end) goAside(*waits);
-    }
+    if (const MovingPerson* person = whoWantsPast()) goAside(*person);
   }
   if (!making_room_) return false;
   MakingRoom& room = *making_room_;
@@ -268,6 +259,17 @@ bool Follower::makesRoom() {
     if (step_.target) lookAt(*step_.target);
   }
   return true;
+}
+
+// The target who comes up to it, or anybody while it gets nowhere; null: nobody.
+const MovingPerson* Follower::whoWantsPast() {
+  if (person_ && isInTheWayOf(*person_)) return &*person_;
+  if (stuck_s_ <= params_.give_up_s) return nullptr;
+  stuck_s_ = 0.0;
+  const auto end = people_.begin() + static_cast<std::ptrdiff_t>(seen_people_);
+  const auto waits =
+      std::find_if(people_.begin(), end, [this](const auto& p) { return isInTheWayOf(p); });
+  return waits == end ? nullptr : &*waits;
 }
 
 bool Follower::isInTheWayOf(const MovingPerson& person) const {

@@ -34,19 +34,10 @@ constexpr double kStep_s = 0.1;
 constexpr double kMost_s = 240.0;
 constexpr double kLost_s = 2.0;
 constexpr double kBody_m = 0.2;
-
-/// Whether nothing of eye height stands between two places.
-bool isOpen(const heel::OccupancyGrid& sight, const Vector2d& from, const Vector2d& to) {
-  const Vector2d way = to - from;
-  const int steps = std::max(1, static_cast<int>(way.norm() / 0.05));
-  for (int i = 1; i < steps; ++i) {
-    if (sight.isOccupiedWithin(from + way * i / steps, 0.0)) return false;
-  }
-  return true;
-}
+constexpr double kEye_m = 1.2;
 
 bool isInView(const heel::WorldTruth& truth, const heel::SearchMapParams& camera,
-              const heel::OccupancyGrid& sight) {
+              const heel::WallMap& world) {
   const Vector2d& eye = truth.robot.position;
   const Vector2d& target = truth.people.front().position;
   const double away_m = (target - eye).norm();
@@ -60,7 +51,8 @@ bool isInView(const heel::WorldTruth& truth, const heel::SearchMapParams& camera
         const double ahead_m = to.dot(along);
         return ahead_m > 0.0 && ahead_m < away_m && (to - ahead_m * along).norm() < kBody_m;
       });
-  return !is_hidden && isOpen(sight, eye, target);
+  return !is_hidden &&
+         world.lineOfSight({eye.x(), eye.y(), kEye_m}, {target.x(), target.y(), kEye_m}, kBody_m);
 }
 
 /// Seconds until the person is found; nothing if they are not, or never were lost.
@@ -69,7 +61,7 @@ std::optional<double> searchedFor(std::uint64_t seed, bool& was_lost) {
   const heel::Scene scene = heel::roughened(heel::randomEpisode(seed, HEEL_SCENES), rough, seed);
   heel::Scene seen = scene;
   for (heel::Furniture& piece : seen.furniture) piece.in_map = true;
-  const heel::OccupancyGrid sight = heel::sceneGrid(seen, {0.05, 1.1, 1.4});
+  const heel::WallMap solid = heel::wallMapOf(seen);
   const heel::WallMap walls = heel::wallMapOf(heel::asMapped(scene, rough, seed));
 
   heel::RobotDescription robot;
@@ -94,7 +86,7 @@ std::optional<double> searchedFor(std::uint64_t seed, bool& was_lost) {
     command = {};
     const FloorPose& pose = now.truth.robot;
     if (s < 18.0) continue;  // They are learned.
-    if (isInView(now.truth, params.search.map, sight)) {
+    if (isInView(now.truth, params.search.map, solid)) {
       if (was_lost) return searched_s;
       last.position = now.truth.people.front().position;
       last.velocity = now.truth.people.front().velocity;
@@ -124,9 +116,9 @@ std::optional<double> searchedFor(std::uint64_t seed, bool& was_lost) {
     if (!view) continue;
     if ((view->camera.position - pose.position).norm() < 0.15) {
       const Vector2d ahead = view->camera * Vector2d(2.0, 0.0);
-      const double turn = heel::bearingOf(pose, ahead);
-      command.turn_radps = std::clamp(1.5 * turn, -0.8, 0.8);
-      is_there = std::abs(turn) < 0.05;
+      command.turn_radps =
+          heel::turnToFace(robot.drive, {pose, now.truth.robot_speed}, ahead, params.drive.facing);
+      is_there = command.turn_radps == 0.0;
       continue;
     }
     planner.plan(pose.position, view->camera.position, plan);

@@ -222,39 +222,45 @@ TEST(ClosedLoop, WithoutAMapItWaitsWhereItWouldSearch) {
   EXPECT_TRUE(stands(end.command));
 }
 
+/// Shelves from both walls of the small home leave an aisle of this width along its middle.
+void addAisle(Scene& scene, double from_x, double to_x, double width_m) {
+  const double deep_m = 0.5 * (4.0 - width_m);
+  for (const double y : {0.5 * deep_m, 4.0 - 0.5 * deep_m}) {
+    FurniturePart shelf;
+    shelf.base = {0.5 * (from_x + to_x), y, 0.0};
+    shelf.size_m = {to_x - from_x, deep_m, 1.6};
+    shelf.surface = {"wood", Rgb(0.4F, 0.35F, 0.3F)};
+    Furniture& furniture = scene.furniture.emplace_back();
+    furniture.name = "shelf";
+    furniture.parts = {shelf};
+  }
+}
+
+PathStep walkTo(double x, double y, double speed_mps) {
+  PathStep step;
+  step.kind = PathStep::Kind::kWalk;
+  step.to = {x, y};
+  step.speed_mps = speed_mps;
+  return step;
+}
+
 /// Ida walks on into an aisle without another end, and out again when the robot has come after her.
 Scene deadEnd() {
   Scene scene = test::smallHome();
   scene.robot.laser.view_rad = 6.283;
   scene.robot.laser.beams = 361;
-  for (const double y : {0.725, 3.275}) {  // from wall to aisle
-    FurniturePart shelf;
-    shelf.base = {5.75, y, 0.0};
-    shelf.size_m = {2.5, 1.45, 1.6};
-    shelf.surface = {"wood", Rgb(0.4F, 0.35F, 0.3F)};
-    Furniture furniture;
-    furniture.name = "shelf";
-    furniture.parts = {shelf};
-    scene.furniture.push_back(furniture);
-  }
+  addAisle(scene, 4.5, 7.0, 1.1);
   std::vector<PathStep>& path = scene.people[0].path;
-  const auto walk = [&path](double x, double y) {
-    PathStep step;
-    step.kind = PathStep::Kind::kWalk;
-    step.to = {x, y};
-    step.speed_mps = 0.5;
-    path.push_back(step);
-  };
   const auto awaitRobot = [&path](double within_m) {
     PathStep step;
     step.kind = PathStep::Kind::kWaitForRobot;
     step.robot_within_m = within_m;
     path.push_back(step);
   };
-  walk(6.4, 2.0);
+  path.push_back(walkTo(6.4, 2.0, 0.5));
   awaitRobot(1.3);
-  walk(4.0, 2.0);
-  walk(2.0, 1.2);
+  path.push_back(walkTo(4.0, 2.0, 0.5));
+  path.push_back(walkTo(2.0, 1.2, 0.5));
   awaitRobot(1.4);
   return scene;
 }
@@ -275,23 +281,7 @@ TEST(ClosedLoop, LetsThePersonOutOfADeadEnd) {
 /// robot, comes through it against the robot, and does not give up.
 Scene meetingInAPassage() {
   Scene scene = test::smallHome();
-  for (const double y : {0.775, 3.225}) {  // from wall to passage
-    FurniturePart shelf;
-    shelf.base = {4.65, y, 0.0};
-    shelf.size_m = {1.5, 1.55, 1.6};
-    shelf.surface = {"wood", Rgb(0.4F, 0.35F, 0.3F)};
-    Furniture furniture;
-    furniture.name = "shelf";
-    furniture.parts = {shelf};
-    scene.furniture.push_back(furniture);
-  }
-  const auto walk = [](ScenePerson& person, double x, double y) {
-    PathStep step;
-    step.kind = PathStep::Kind::kWalk;
-    step.to = {x, y};
-    step.speed_mps = 0.6;
-    person.path.push_back(step);
-  };
+  addAisle(scene, 3.9, 5.4, 0.9);
   ScenePerson ben = scene.people.front();
   ben.name = "ben";
   ben.start = {6.0, 1.3};
@@ -299,11 +289,12 @@ Scene meetingInAPassage() {
   ben.sees_robot = false;
   ben.path.clear();
   ben.path.emplace_back().wait_s = 16.0;
-  walk(ben, 5.8, 2.0);
-  for (int i = 0; i < 5; ++i) walk(ben, 2.0, 1.2);
+  ben.path.push_back(walkTo(5.8, 2.0, 0.6));
+  for (int i = 0; i < 5; ++i) ben.path.push_back(walkTo(2.0, 1.2, 0.6));
   scene.people.push_back(ben);
-  walk(scene.people.front(), 6.2, 2.0);
-  walk(scene.people.front(), 6.2, 3.3);
+  std::vector<PathStep>& path = scene.people.front().path;
+  path.push_back(walkTo(6.2, 2.0, 0.6));
+  path.push_back(walkTo(6.2, 3.3, 0.6));
   return scene;
 }
 
