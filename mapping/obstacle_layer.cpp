@@ -84,8 +84,8 @@ bool ObstacleLayer::remembered(const Trace& trace) const {
 void ObstacleLayer::see(Trace& trace, bool is_somebody) const {
   if (!remembered(trace)) {
     trace.since_s = clock_s_;
-  } else if (is_somebody) {
-    trace.since_s += clock_s_ - trace.seen_s;  // It has not lasted any longer.
+  } else if (is_somebody || clock_s_ - trace.seen_s > params_.min_memory_s) {
+    trace.since_s += clock_s_ - trace.seen_s;  // It was not seen for any longer.
   }
   trace.seen_s = clock_s_;
   trace.known = true;

@@ -30,6 +30,7 @@ constexpr std::size_t kFewBeams = 20;   // Fewer tell nothing of all.
 constexpr double kManyScans = 100.0;    // A mean over more forgets the oldest.
 constexpr double kMedianStep = 0.954;   // Of two normal errors' difference: 0.6745 * sqrt(2) sigma.
 constexpr double kBody_m = 0.4;         // So far apart are parts of one body.
+constexpr double kLeg_m = 0.12;         // So wide is one.
 constexpr double kGait_mps = 0.4;       // A leg stands, or swings at twice its owner's speed.
 constexpr double kOldestLook_s = 1.0;   // Of a look from which to reckon who walks.
 constexpr double kRounding_rad = 1e-9;
@@ -323,6 +324,14 @@ void RecentSight::keep(const SeenThing& thing) {
     things_.erase(things_.begin(), things_.begin() + kMostThings / 4);
   }
   things_.push_back(thing);
+}
+
+bool RecentSight::isLeg(const SeenThing& thing) const {
+  const auto isOfIt = [&](const SeenThing& other) {
+    return other.is_somebody && other.seen_s == newest_s() &&
+           (other.place - thing.place).squaredNorm() < kLeg_m * kLeg_m;
+  };
+  return isOfIt(thing) && std::count_if(things_.begin(), things_.end(), isOfIt) > 1;
 }
 
 // What clearance() reads, in a row.

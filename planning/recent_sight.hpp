@@ -81,6 +81,10 @@ class RecentSight {
   /// When the newest scan was measured.
   double newest_s() const { return looks_[newest_].stamp_s; }
 
+  /// Whether two beams or more of the newest scan see somebody there: a leg is as wide as that, and
+  /// one alone is an error.
+  bool isLeg(const SeenThing& thing) const;
+
   /// Distance from a place to the nearest of them [m].
   double clearance(const Eigen::Vector2d& place) const;
 

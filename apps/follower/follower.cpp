@@ -249,7 +249,7 @@ void Follower::noteComers() {
   const Eigen::Rotation2Dd turn(from_motion.yaw_rad);
   const RecentSight& sight = last_gate_.sight();
   for (const SeenThing& thing : sight.things()) {
-    if (!thing.is_somebody || thing.seen_s != sight.newest_s()) continue;
+    if (!sight.isLeg(thing)) continue;
     const Vector2d place = from_motion * thing.place;
     const auto isNear = [&](const Vector2d& other) {
       return (other - place).norm() < params_.target_radius_m;

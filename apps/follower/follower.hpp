@@ -87,6 +87,16 @@ class Follower {
   const Perception* perception() const { return perception_ ? &*perception_ : nullptr; }
 
  private:
+  /// Somebody wants to get past the robot, which goes aside.
+  struct MakingRoom {
+    Eigen::Vector2d place;   // where it goes
+    Eigen::Vector2d before;  // where it was then
+    Eigen::Vector2d person;  // and they
+    bool is_for_target = false;
+    double since_s = 0.0;
+    double waited_s = 0.0;
+  };
+
   void tellTime(double stamp_s);
   RobotReadings stamped(const RobotReadings& readings) const;
   Frame onSteadyClock(const Frame& frame);
@@ -115,6 +125,10 @@ class Follower {
   bool standsInDoorway() const;
   bool makesRoom();
   const MovingPerson* whoWantsPast();
+  bool wantsPast(const MovingPerson& person, const MakingRoom& room) const;
+  std::vector<MovingPerson>::const_iterator seenEnd() const {
+    return people_.begin() + static_cast<std::ptrdiff_t>(seen_people_);
+  }
   bool isInTheWayOf(const MovingPerson& person) const;
   void goAside(const MovingPerson& person);
   void goToLastSeen();
@@ -177,13 +191,6 @@ class Follower {
   bool looks_away_ = false;   // from the target, in this step
   Eigen::Vector2d stood_at_ = Eigen::Vector2d::Zero();  // and has not left since,
   double stuck_s_ = 0.0;                                // though it wanted to for so long
-  /// Somebody wants to get past the robot, which goes aside.
-  struct MakingRoom {
-    Eigen::Vector2d place;   // where it goes
-    Eigen::Vector2d before;  // where it was then
-    double since_s = 0.0;
-    double waited_s = 0.0;
-  };
   std::optional<MakingRoom> making_room_;
   std::vector<Eigen::Vector2d> waysides_;
   GlobalPlan plan_;

@@ -245,10 +245,11 @@ bool Follower::makesRoom() {
   if (!making_room_) return false;
   MakingRoom& room = *making_room_;
   room.since_s += dt_s_;
-  const bool have_passed = std::none_of(people_.begin(), people_.end(), [&](const auto& person) {
-    return (person.position - room.before).norm() < params_.far_m;
-  });
-  if (have_passed || room.since_s > params_.makes_room_s || room.waited_s > params_.waits_aside_s) {
+  const bool waits = room.is_for_target
+                         ? !person_ || wantsPast(*person_, room)
+                         : std::any_of(people_.cbegin(), seenEnd(),
+                                       [&](const auto& p) { return wantsPast(p, room); });
+  if (!waits || room.since_s > params_.makes_room_s || room.waited_s > params_.waits_aside_s) {
     making_room_.reset();
     return false;
   }
@@ -266,10 +267,18 @@ const MovingPerson* Follower::whoWantsPast() {
   if (person_ && isInTheWayOf(*person_)) return &*person_;
   if (stuck_s_ <= params_.give_up_s) return nullptr;
   stuck_s_ = 0.0;
-  const auto end = people_.begin() + static_cast<std::ptrdiff_t>(seen_people_);
   const auto waits =
-      std::find_if(people_.begin(), end, [this](const auto& p) { return isInTheWayOf(p); });
-  return waits == end ? nullptr : &*waits;
+      std::find_if(people_.cbegin(), seenEnd(), [this](const auto& p) { return isInTheWayOf(p); });
+  return waits == seenEnd() ? nullptr : &*waits;
+}
+
+// Not who is far off, or past both places of the robot and on their way.
+bool Follower::wantsPast(const MovingPerson& person, const MakingRoom& room) const {
+  const Vector2d off = person.position - room.before;
+  const Vector2d from_robot = person.position - step_.robot.pose.position;
+  const bool is_past = off.dot(room.person - room.before) < 0.0 &&
+                       from_robot.norm() > params_.near_m && person.velocity.dot(from_robot) > 0.0;
+  return !is_past && off.norm() < params_.far_m;
 }
 
 bool Follower::isInTheWayOf(const MovingPerson& person) const {
@@ -291,7 +300,7 @@ void Follower::goAside(const MovingPerson& person) {
     if (!plan_.found() || !is_near || (plan_.end - place).norm() > params_.wayside.apart_m) {
       continue;
     }
-    making_room_ = MakingRoom{place, here};
+    making_room_ = MakingRoom{place, here, person.position, person_ && &person == &*person_};
     local_planner_.reset();
     return;
   }

@@ -177,6 +177,17 @@ TEST(ObstacleLayer, RemembersLongerWhatItSawLonger) {
   EXPECT_TRUE(layer.obstacles().empty());
 }
 
+TEST(ObstacleLayer, TimeInWhichNothingWasSeenAddsNothingToItsMemory) {
+  ObstacleLayer layer;
+  for (const double from_s : {0.0, 4.0}) {  // Two people walk by, half a second each.
+    for (int i = 0; i <= 5; ++i) seePoints(layer, from_s + 0.1 * i, thrice(1.0, 0.0, 0.7));
+  }
+  seeNothing(layer, 14.0);
+  EXPECT_EQ(layer.obstacles().size(), 1U);
+  seeNothing(layer, 15.5);
+  EXPECT_TRUE(layer.obstacles().empty());
+}
+
 TEST(ObstacleLayer, ABeamClearsUpToItsEndAndNotBehind) {
   ObstacleLayer layer;
   seeScan(layer, 0.0, oneBeam(1.02));

@@ -279,6 +279,23 @@ TEST(RecentSight, SeesAPlaceFreeOnlyIfNoLegBesideItEndsABeam) {
   EXPECT_TRUE(sight.seesFree({1.0, 0.0}, 0.05)) << "beside the leg";
 }
 
+// Bug: an error of one beam along a wall was somebody who stood there for half a minute.
+TEST(RecentSight, OneBeamAloneIsNoLeg) {
+  RecentSight sight({}, 3.0);
+  LaserScan scan = wallAhead(2.0);
+  sight.addScan(scan, {}, 0.1);
+  scan.ranges_m[180] = 1.0F;
+  for (const std::size_t beam : {200, 201, 202}) scan.ranges_m[beam] = 1.0F;
+  sight.addScan(scan, {}, 0.5);
+  int news = 0, legs = 0;
+  for (const SeenThing& thing : sight.things()) {
+    news += thing.is_somebody;
+    legs += sight.isLeg(thing);
+  }
+  EXPECT_EQ(news, 4);
+  EXPECT_EQ(legs, 3);
+}
+
 // Bug: the robot set off along somebody who had come up to it unseen.
 TEST(LastGate, KeepsOffWhoCameWhileItLookedElsewhere) {
   EXPECT_EQ(passedBesideALeg({0.45, 0.1}, true), 0.0);
