@@ -82,7 +82,8 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
       last_gate_(params_.last_gate),
       goal_chooser_(params_.goal),
       doorways_(findDoorways(floor_)),
-      standing_({params_.stands_mps, params_.beside_people_m, params_.target_radius_m}) {
+      unseen_({params_.stands_mps, params_.walks_on_s, params_.beside_people_m,
+               params_.target_radius_m}) {
   step_.robot.pose = start_;
   step_.robot.lost = false;
   if (!walls_) return;
@@ -221,7 +222,7 @@ void Follower::lookAround(const RobotReadings& readings) {
   }
   layer_.finish();
   notePeople();
-  planner_.setObstacles(standing_.discs(), &layer_.window());
+  planner_.setObstacles(unseen_.standing(), &layer_.window());
   room_.setLayer({}, &layer_.window());
 }
 
@@ -291,15 +292,13 @@ void Follower::notePeople() {
              identity.probabilities(track.id)[kThing] > params_.surely_person;
     };
     const std::vector<Track>& tracks = perception_->tracks();
-    return std::any_of(tracks.begin(), tracks.end(), isThingThere) ||
+    return (step_.target && (*step_.target - place).norm() < params_.target_radius_m) ||
+           std::any_of(tracks.begin(), tracks.end(), isThingThere) ||
            (place - step_.robot.pose.position).norm() > 0.5 * params_.obstacles.size_m ||
            last_gate_.sight().seesFree(to_motion * place, kLegs_m);
   };
-  standing_.note(steady_s_, people_, has_left);
   seen_people_ = people_.size();
-  for (std::size_t i = 0; i < standing_.remembered(); ++i) {
-    people_.emplace_back().position = standing_.discs()[i].center;
-  }
+  unseen_.step(steady_s_, people_, has_left);
   if (person_) {
     people_.push_back(*person_);
   } else if (unseen_s_ < params_.walks_on_s) {  // passes where no sensor looks

@@ -8,7 +8,7 @@
 #include <heel/apps/follower/follower_params.hpp>
 #include <heel/apps/follower/motion_history.hpp>
 #include <heel/apps/follower/sensor_watch.hpp>
-#include <heel/apps/follower/standing_people.hpp>
+#include <heel/apps/follower/unseen_people.hpp>
 #include <heel/mapping/wall_map.hpp>
 #include <heel/planning/clearance_map.hpp>
 #include <heel/planning/following_plan.hpp>
@@ -197,7 +197,7 @@ class Follower {
   std::vector<MovingPerson> people_;
   std::size_t seen_people_ = 0;          // the first ones, who are seen, and not the target
   std::vector<FloorDisc> people_discs_;  // all, in the frame last asked for
-  StandingPeople standing_;
+  UnseenPeople unseen_;
   std::vector<Eigen::Vector3f> unmapped_;  // points in the base frame
 };
 

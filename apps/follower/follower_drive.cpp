@@ -313,7 +313,7 @@ void Follower::driveTo(const Vector2d& goal) {
   if (!plan_.found()) {  // What is in the way may be gone by then: as the map has it.
     planner_.setObstacles({});
     planner_.plan(pose.position, goal, plan_);
-    planner_.setObstacles(standing_.discs(), &layer_.window());
+    planner_.setObstacles(unseen_.standing(), &layer_.window());
   }
   if (!plan_.found()) plan_.path.clear();
   step_.velocity = localCommand(looks_away_ ? std::nullopt : step_.target);

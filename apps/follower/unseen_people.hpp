@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Who was seen and is not any more; around who stands a path leads another way.
+#pragma once
+
+#include <heel/mapping/floor_pose.hpp>
+#include <heel/planning/function_ref.hpp>
+#include <heel/planning/surroundings.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace heel {
+
+struct UnseenPeopleParams {
+  double slower_than_mps = 0.0;  ///< Who is no faster stands.
+  double walks_on_s = 0.0;       ///< For so long whoever walked is expected to walk on.
+  double beside_m = 0.0;         ///< Room that is left beside the body of who stands.
+  double near_m = 0.0;           ///< People so near to where somebody should be are them.
+};
+
+/// Nobody vanishes: who is neither seen nor among the people any more stays for half a minute if
+/// they stood, and walks on for a while if they walked, or until they are known to have left. Else
+/// the robot would drive into them once it has turned away.
+class UnseenPeople {
+ public:
+  explicit UnseenPeople(const UnseenPeopleParams& params) : params_(params) {}
+
+  /// @param people  Who is known of now, but for the target; those who are remembered are added.
+  /// @param has_left  Whether nobody is at a place any more.
+  void step(double stamp_s, std::vector<MovingPerson>& people,
+            FunctionRef<bool(const Eigen::Vector2d&)> has_left);
+
+  /// Around all of them who stand.
+  const std::vector<FloorDisc>& standing() const { return standing_; }
+
+ private:
+  struct Known {
+    MovingPerson person;  // as last seen
+    double seen_s;
+  };
+  MovingPerson now(const Known& known, double stamp_s) const;
+  bool stands(const MovingPerson& person) const {
+    return person.velocity.norm() <= params_.slower_than_mps;
+  }
+
+  UnseenPeopleParams params_;
+  std::vector<Known> known_;
+  std::vector<FloorDisc> standing_;
+};
+
+}  // namespace heel
