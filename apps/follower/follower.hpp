@@ -125,10 +125,7 @@ class Follower {
   bool standsInDoorway() const;
   bool makesRoom();
   const MovingPerson* whoWantsPast();
-  bool wantsPast(const MovingPerson& person, const MakingRoom& room) const;
-  std::vector<MovingPerson>::const_iterator seenEnd() const {
-    return people_.begin() + static_cast<std::ptrdiff_t>(seen_people_);
-  }
+  bool hasPassed(const MovingPerson& person, const MakingRoom& room) const;
   bool isInTheWayOf(const MovingPerson& person) const;
   void goAside(const MovingPerson& person);
   void goToLastSeen();

@@ -245,10 +245,11 @@ bool Follower::makesRoom() {
   if (!making_room_) return false;
   MakingRoom& room = *making_room_;
   room.since_s += dt_s_;
-  const bool waits = room.is_for_target
-                         ? !person_ || wantsPast(*person_, room)
-                         : std::any_of(people_.cbegin(), seenEnd(),
-                                       [&](const auto& p) { return wantsPast(p, room); });
+  const auto isThere = [&](const auto& person) {
+    return (person.position - room.before).norm() < params_.far_m;
+  };
+  const bool waits = room.is_for_target ? !person_ || !hasPassed(*person_, room)
+                                        : std::any_of(people_.begin(), people_.end(), isThere);
   if (!waits || room.since_s > params_.makes_room_s || room.waited_s > params_.waits_aside_s) {
     making_room_.reset();
     return false;
@@ -267,18 +268,17 @@ const MovingPerson* Follower::whoWantsPast() {
   if (person_ && isInTheWayOf(*person_)) return &*person_;
   if (stuck_s_ <= params_.give_up_s) return nullptr;
   stuck_s_ = 0.0;
+  const auto end = people_.begin() + static_cast<std::ptrdiff_t>(seen_people_);
   const auto waits =
-      std::find_if(people_.cbegin(), seenEnd(), [this](const auto& p) { return isInTheWayOf(p); });
-  return waits == seenEnd() ? nullptr : &*waits;
+      std::find_if(people_.begin(), end, [this](const auto& p) { return isInTheWayOf(p); });
+  return waits == end ? nullptr : &*waits;
 }
 
-// Not who is far off, or past both places of the robot and on their way.
-bool Follower::wantsPast(const MovingPerson& person, const MakingRoom& room) const {
-  const Vector2d off = person.position - room.before;
+// They are beyond where it was, not beside where it is, and on their way.
+bool Follower::hasPassed(const MovingPerson& person, const MakingRoom& room) const {
   const Vector2d from_robot = person.position - step_.robot.pose.position;
-  const bool is_past = off.dot(room.person - room.before) < 0.0 &&
-                       from_robot.norm() > params_.near_m && person.velocity.dot(from_robot) > 0.0;
-  return !is_past && off.norm() < params_.far_m;
+  return (person.position - room.before).dot(room.person - room.before) < 0.0 &&
+         from_robot.norm() > params_.near_m && person.velocity.dot(from_robot) > 0.0;
 }
 
 bool Follower::isInTheWayOf(const MovingPerson& person) const {
