@@ -250,14 +250,15 @@ void Follower::noteComers() {
   const Eigen::Rotation2Dd turn(from_motion.yaw_rad);
   const RecentSight& sight = last_gate_.sight();
   for (const SeenThing& thing : sight.things()) {
-    if (!sight.isLeg(thing)) continue;
+    if (!thing.is_somebody) continue;
     const Vector2d place = from_motion * thing.place;
     const auto isNear = [&](const Vector2d& other) {
       return (other - place).norm() < params_.target_radius_m;
     };
     if ((step_.target && isNear(*step_.target)) ||
         std::any_of(people_.begin(), people_.end(),
-                    [&](const MovingPerson& person) { return isNear(person.position); })) {
+                    [&](const MovingPerson& person) { return isNear(person.position); }) ||
+        !sight.isLeg(thing)) {
       continue;
     }
     people_.push_back({place, turn * thing.velocity, MovingPerson().radius_m, thing.gait_mps});

@@ -4,6 +4,7 @@
 #include <heel/apps/follower/unseen_people.hpp>
 
 #include <algorithm>
+#include <cstddef>
 
 namespace heel {
 

@@ -9,7 +9,6 @@
 #include <heel/planning/function_ref.hpp>
 #include <heel/planning/surroundings.hpp>
 
-#include <cstddef>
 #include <vector>
 
 namespace heel {
@@ -21,9 +20,9 @@ struct UnseenPeopleParams {
   double near_m = 0.0;           ///< People so near to where somebody should be are them.
 };
 
-/// Nobody vanishes: who is neither seen nor among the people any more stays for half a minute if
-/// they stood, and walks on for a while if they walked, or until they are known to have left. Else
-/// the robot would drive into them once it has turned away.
+/// Who is not among the people any more stays for half a minute if they stood, and walks on for a
+/// while if they walked, or until they are known to have left. Else the robot would drive into them
+/// once it has turned away.
 class UnseenPeople {
  public:
   explicit UnseenPeople(const UnseenPeopleParams& params) : params_(params) {}
