@@ -23,7 +23,8 @@ struct Observation {
   /// step.
   const Eigen::ArrayXXf* look = nullptr;
   std::optional<double> stature_m = {};  ///< If it is seen up to the head.
-  /// What another sensor says of it: logarithm of the odds that it is a person, not a thing.
+  /// What its outline, depth and the laser say: logarithm of the odds that it is a person, not a
+  /// thing.
   double log_person = 0.0;
 };
 

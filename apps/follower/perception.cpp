@@ -312,6 +312,7 @@ void Perception::describeBodies(const Frame& frame, const FloorPose& robot) {
       const Eigen::Vector2d ray = place - T_base_camera_.translation().head<2>();
       const Eigen::Vector2d side_m = kBeside_m * Eigen::Vector2d(-ray.y(), ray.x()).normalized();
       seen.log_person += sight.logPerson(place, side_m, std::sqrt(depthCovariance(place).trace()));
+      seen.log_person += outline_.logPerson(view_, place);
     }
     if (looks_[k].colors.sum() > 0.0F) seen.look = &looks_[k].colors;
     seen.stature_m = looks_[k].stature_m;

@@ -16,6 +16,7 @@
 #include <heel/segmentation/appearance_model.hpp>
 #include <heel/segmentation/body_description.hpp>
 #include <heel/segmentation/height_crop.hpp>
+#include <heel/segmentation/person_outline.hpp>
 #include <heel/segmentation/plan_view.hpp>
 #include <heel/segmentation/world_blobs.hpp>
 #include <heel/tracking/target.hpp>
@@ -144,6 +145,7 @@ class Perception {
   PlanView plan_view_;
   WorldBlobFinder finder_;
   BodyDescriber describer_;
+  PersonOutline outline_;
   BodyView view_;                  // of the frame at hand
   std::vector<WorldBlob> bodies_;  // of the observations, in the base frame
   std::vector<cv::Rect> boards_;   // where they are in the image

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <heel/segmentation/person_outline.hpp>
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace heel {
+namespace {
+
+// Of the classifier: a person of 96 pixels stands in the middle of 64 x 128. People are not all as
+// tall, so it also looks a step higher and a step lower.
+constexpr double kPerson_m = 1.75, kPersonRows = 96.0;
+constexpr int kStep = 8;
+const cv::Size kBoard(64, 128 + 2 * kStep);
+// Log odds by the classifier's value, learned on people and things of real recordings by
+// tests/benchmarks/outline_fit.cpp, see docs/results.md.
+constexpr double kSlope = 2.8, kUndecided = -1.9;
+constexpr double kMisleading = 0.05;  // Of outlines: bounds what one look can say.
+// Looks at one body are alike: a third of the variance is between bodies, so many are worth three.
+// Who sums looks up lets many be worth five or six, so each counts as half.
+constexpr double kShare = 0.5;
+
+/// Where the corners of an upright board that faces the camera are in the picture, from the upper
+/// left one on; nothing if one is behind the camera.
+std::optional<std::array<cv::Point2f, 4>> cornersOf(const BodyView& view,
+                                                    const Eigen::Vector2d& place_m) {
+  constexpr double m_per_pixel = kPerson_m / kPersonRows;
+  const Eigen::Vector2d ray_m = place_m - view.T_base_camera.translation().head<2>();
+  const Eigen::Vector2d right = Eigen::Vector2d(ray_m.y(), -ray_m.x()).normalized();
+  const Eigen::Isometry3d T_camera_base = view.T_base_camera.inverse();
+  std::array<cv::Point2f, 4> corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double side = i == 0 || i == 3 ? -0.5 : 0.5, up = i < 2 ? 0.5 : -0.5;
+    const Eigen::Vector2d xy = place_m + side * kBoard.width * m_per_pixel * right;
+    const double z = 0.5 * kPerson_m + up * kBoard.height * m_per_pixel;
+    const Eigen::Vector3d p = T_camera_base * Eigen::Vector3d(xy.x(), xy.y(), z);
+    if (p.z() < 0.1) return std::nullopt;
+    corners[i] = {static_cast<float>(view.camera.fx * p.x() / p.z() + view.camera.cx),
+                  static_cast<float>(view.camera.fy * p.y() / p.z() + view.camera.cy)};
+  }
+  return corners;
+}
+
+/// Whether at least half of whoever stands in the middle of the board is in the picture.
+bool isInPicture(const std::array<cv::Point2f, 4>& corners, const cv::Size& picture) {
+  int in = 0, all = 0;
+  for (const float down : {0.2F, 0.35F, 0.5F, 0.65F, 0.8F}) {
+    for (const float right : {0.35F, 0.65F}) {
+      const cv::Point2f upper = corners[0] + right * (corners[1] - corners[0]);
+      const cv::Point2f lower = corners[3] + right * (corners[2] - corners[3]);
+      in += cv::Rect2f(cv::Point2f(), picture).contains(upper + down * (lower - upper)) ? 1 : 0;
+      ++all;
+    }
+  }
+  return 2 * in >= all;
+}
+
+}  // namespace
+
+PersonOutline::PersonOutline() {
+  const std::vector<float> detector = cv::HOGDescriptor::getDefaultPeopleDetector();
+  weights_ = Eigen::Map<const Eigen::VectorXf>(detector.data(),
+                                               static_cast<Eigen::Index>(detector.size()) - 1);
+  bias_ = detector.back();
+}
+
+std::optional<double> PersonOutline::classify(const BodyView& view,
+                                              const Eigen::Vector2d& place_m) {
+  const auto corners = cornersOf(view, place_m);
+  if (!corners || !isInPicture(*corners, view.image_bgr.size())) return std::nullopt;
+  const auto width = static_cast<float>(kBoard.width), height = static_cast<float>(kBoard.height);
+  const std::array<cv::Point2f, 4> board = {
+      {{0.0F, 0.0F}, {width, 0.0F}, {width, height}, {0.0F, height}}};
+  cv::warpPerspective(view.image_bgr, board_,
+                      cv::getPerspectiveTransform(corners->data(), board.data()), kBoard,
+                      cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  hog_.compute(board_, gradients_, {kStep, kStep});
+  const Eigen::Map<const Eigen::MatrixXf> windows(
+      gradients_.data(), weights_.size(),
+      static_cast<Eigen::Index>(gradients_.size()) / weights_.size());
+  return static_cast<double>((windows.transpose() * weights_).maxCoeff() + bias_);
+}
+
+double PersonOutline::logPerson(const BodyView& view, const Eigen::Vector2d& place_m) {
+  const std::optional<double> value = classify(view, place_m);
+  if (!value) return 0.0;
+  const double ratio = std::exp(kSlope * (*value - kUndecided));
+  return kShare * std::log(((1.0 - kMisleading) * ratio + kMisleading) /
+                           ((1.0 - kMisleading) + kMisleading * ratio));
+}
+
+}  // namespace heel

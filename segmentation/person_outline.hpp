@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// Person or thing, by the outline in the picture.
+#pragma once
+
+#include <heel/segmentation/body_description.hpp>
+
+#include <Eigen/Core>
+#include <opencv2/objdetect.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace heel {
+
+/// Asks OpenCV's classifier of people whether one stands at a place: histograms of oriented
+/// gradients, Dalal and Triggs, "Histograms of oriented gradients for human detection", CVPR 2005,
+/// trained on the people of INRIA. The place is known, so nothing is searched: the picture of an
+/// upright board there is looked at.
+class PersonOutline {
+ public:
+  PersonOutline();
+
+  /// The classifier's value; nothing where less than half of a person would be in the picture.
+  ///
+  /// @param view     Its depth is not used.
+  /// @param place_m  In the base frame.
+  std::optional<double> classify(const BodyView& view, const Eigen::Vector2d& place_m);
+
+  /// Logarithm of the likelihood of that value if a person stands there, over if they do not, as
+  /// one of many looks at the same body; 0 without a value.
+  double logPerson(const BodyView& view, const Eigen::Vector2d& place_m);
+
+ private:
+  cv::HOGDescriptor hog_;
+  Eigen::VectorXf weights_;
+  float bias_ = 0.0F;
+  cv::Mat board_;
+  std::vector<float> gradients_;
+};
+
+}  // namespace heel
