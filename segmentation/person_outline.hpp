@@ -18,7 +18,7 @@ namespace heel {
 /// Asks OpenCV's classifier of people whether one stands at a place: histograms of oriented
 /// gradients, Dalal and Triggs, "Histograms of oriented gradients for human detection", CVPR 2005,
 /// trained on the people of INRIA. The place is known, so nothing is searched: the picture of an
-/// upright board there is looked at.
+/// upright board there is looked at. OpenCV allocates inside at each look.
 class PersonOutline {
  public:
   PersonOutline();
