@@ -19,7 +19,7 @@ constexpr int kStep = 8;
 const cv::Size kBoard(64, 128 + 2 * kStep);
 // Log odds by the classifier's value, learned on people and things of real recordings by
 // tests/benchmarks/outline_fit.cpp, see docs/results.md.
-constexpr double kSlope = 2.8, kUndecided = -1.9;
+constexpr double kSlope = 2.6, kUndecided = -2.0;
 constexpr double kMisleading = 0.05;  // Of outlines: bounds what one look can say.
 // Looks at one body are alike: a third of the variance is between bodies, so many are worth three.
 // Who sums looks up lets many be worth five or six, so each counts as half.
@@ -79,7 +79,8 @@ std::optional<double> PersonOutline::classify(const BodyView& view,
   cv::warpPerspective(view.image_bgr, board_,
                       cv::getPerspectiveTransform(corners->data(), board.data()), kBoard,
                       cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-  hog_.compute(board_, gradients_, {kStep, kStep});
+  cv::cvtColor(board_, grey_, cv::COLOR_BGR2GRAY);  // In poor light colours are mostly noise.
+  hog_.compute(grey_, gradients_, {kStep, kStep});
   const Eigen::Map<const Eigen::MatrixXf> windows(
       gradients_.data(), weights_.size(),
       static_cast<Eigen::Index>(gradients_.size()) / weights_.size());

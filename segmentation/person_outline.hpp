@@ -37,7 +37,7 @@ class PersonOutline {
   cv::HOGDescriptor hog_;
   Eigen::VectorXf weights_;
   float bias_ = 0.0F;
-  cv::Mat board_;
+  cv::Mat board_, grey_;
   std::vector<float> gradients_;
 };
 
