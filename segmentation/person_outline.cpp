@@ -20,7 +20,7 @@ const cv::Size kBoard(64, 128 + 2 * kStep);
 // Log odds by the classifier's value, learned on people and things of real recordings by
 // tests/benchmarks/outline_fit.cpp, see docs/results.md.
 constexpr double kSlope = 2.6, kUndecided = -2.0;
-constexpr double kMisleading = 0.05;  // Of outlines: bounds what one look can say.
+constexpr double kMisleading = 0.05;  // As GalleryParams::misleading_share of colours.
 // Looks at one body are alike: a third of the variance is between bodies, so many are worth three.
 // Who sums looks up lets many be worth five or six, so each counts as half.
 constexpr double kShare = 0.5;
@@ -81,10 +81,10 @@ std::optional<double> PersonOutline::classify(const BodyView& view,
                       cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   cv::cvtColor(board_, grey_, cv::COLOR_BGR2GRAY);  // In poor light colours are mostly noise.
   hog_.compute(grey_, gradients_, {kStep, kStep});
-  const Eigen::Map<const Eigen::MatrixXf> windows(
-      gradients_.data(), weights_.size(),
-      static_cast<Eigen::Index>(gradients_.size()) / weights_.size());
-  return static_cast<double>((windows.transpose() * weights_).maxCoeff() + bias_);
+  const Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, 3>> windows(gradients_.data(),
+                                                                          weights_.size(), 3);
+  const Eigen::Vector3f values = windows.transpose() * weights_;
+  return static_cast<double>(values.maxCoeff() + bias_);
 }
 
 double PersonOutline::logPerson(const BodyView& view, const Eigen::Vector2d& place_m) {
