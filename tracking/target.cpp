@@ -12,7 +12,7 @@
 namespace heel {
 namespace {
 
-constexpr double kKeep = 2.0 / 3.0;  // Of take_above: else the target would flicker about it.
+constexpr double kKeep = 0.5;  // Of take_above: else the target would flicker about it.
 
 void require(bool holds, const char* what) {
   if (!holds) {

@@ -145,7 +145,7 @@ TEST(TargetTracker, IsNotSureOfSomebodyOfWhomNothingIsSeen) {
   EXPECT_EQ(estimate.candidates, 1);
 }
 
-TEST(TargetTracker, TakesAboveAProbabilityAndKeepsAboveTwoThirdsOfIt) {
+TEST(TargetTracker, TakesAboveAProbabilityAndKeepsAboveHalfOfIt) {
   Scene probe;
   const double confidence = probe.see({seen(2, 0)}).confidence;
   ASSERT_GT(confidence, 0.5);
@@ -157,7 +157,7 @@ TEST(TargetTracker, TakesAboveAProbabilityAndKeepsAboveTwoThirdsOfIt) {
   }
   for (const bool kept : {false, true}) {
     TargetParams params;
-    params.take_above = kept ? 0.5 : 0.6;
+    params.take_above = kept ? 0.6 : 0.8;
     Scene run(params);
     run.target().startAt({2, 0});
     run.sight(Sight::kHidden);
