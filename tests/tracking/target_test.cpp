@@ -96,11 +96,12 @@ TEST(TargetTracker, StartsWhereNobodyWasObserved) {
 
 TEST(TargetTracker, StartsByAppearance) {
   Scene run;
+  run.lookAround();
   const TargetEstimate& estimate = run.see({seen(2, 0), seen(3, 1, kUnlike)});
   EXPECT_EQ(estimate.status, TargetStatus::kFollowed);
   EXPECT_EQ(estimate.reason, TargetReason::kRecognized);
   EXPECT_NEAR(estimate.motion.mean.x(), 2.0, 1e-6);
-  EXPECT_GT(estimate.confidence, 0.6);
+  EXPECT_GT(estimate.confidence, 0.8);
   EXPECT_NEAR(estimate.confidence, run.target().identity().targetProbability(estimate.track_id),
               1e-12);
 }
@@ -147,12 +148,14 @@ TEST(TargetTracker, IsNotSureOfSomebodyOfWhomNothingIsSeen) {
 
 TEST(TargetTracker, TakesAboveAProbabilityAndKeepsAboveHalfOfIt) {
   Scene probe;
+  probe.lookAround();
   const double confidence = probe.see({seen(2, 0)}).confidence;
   ASSERT_GT(confidence, 0.5);
   for (const bool taken : {false, true}) {
     TargetParams params;
     params.take_above = confidence + (taken ? -1e-6 : 1e-6);
     Scene run(params);
+    run.lookAround();
     EXPECT_EQ(run.see({seen(2, 0)}).hasPlace(), taken);
   }
   for (const bool kept : {false, true}) {
@@ -431,7 +434,9 @@ TEST(TargetTracker, ForgetsTheLastPlaceWhenTheClockWasSetBack) {
 
 // Bug: see Identity.ForgetsTheReachWhenTheClockWasSetBack.
 TEST(TargetTracker, IsFoundAnywhereAfterTheClockWasSetBack) {
-  TargetTracker target({}, {}, {}, looksOf(kLike));
+  TargetParams params;
+  params.take_above = 0.5;
+  TargetTracker target(params, {}, {}, looksOf(kLike));
   target.startAt({1.0, 0.0});
   for (int k = 0; k < 10; ++k) target.step(1000.0 + 0.2 * k, {seen(1, 0)});
   for (int k = 0; k < 100; ++k) target.step(0.2 * k, {});
@@ -463,6 +468,8 @@ TEST(TargetTracker, ConfidenceFollowsLooksTimeAndRivals) {
   EXPECT_NEAR(unseen, there * std::exp(-0.4), 0.02);
   // Whoever looks alike lowers the confidence of somebody who is not known yet.
   Scene alone, pair;
+  alone.lookAround();
+  pair.lookAround();
   EXPECT_GT(alone.see({seen(2, 0)}).confidence,
             pair.see({seen(2, 0), seen(2, 4, kHalf)}).confidence + 0.01);
 }
