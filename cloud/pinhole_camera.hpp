@@ -5,6 +5,8 @@
 /// A rectified pinhole camera.
 #pragma once
 
+#include <Eigen/Core>
+
 #include <cmath>
 
 namespace heel {
@@ -27,6 +29,17 @@ inline bool isCalibrated(const PinholeCamera& camera) {
   return camera.width > 0 && camera.height > 0 && camera.fx > 0.0 && camera.fy > 0.0 &&
          std::isfinite(camera.fx) && std::isfinite(camera.fy) && std::isfinite(camera.cx) &&
          std::isfinite(camera.cy);
+}
+
+/// Where a point (of the optical frame, Z > 0) is seen [px].
+inline Eigen::Vector2d project(const PinholeCamera& camera, const Eigen::Vector3d& point) {
+  return {camera.fx * point.x() / point.z() + camera.cx,
+          camera.fy * point.y() / point.z() + camera.cy};
+}
+
+/// What is seen at a pixel is along this: the point of the optical frame at Z = 1.
+inline Eigen::Vector3d rayOf(const PinholeCamera& camera, double u, double v) {
+  return {(u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1.0};
 }
 
 /// A rectified stereo pair: the left camera, and what turns a disparity into a depth.

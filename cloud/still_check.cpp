@@ -74,9 +74,7 @@ bool StillCheck::isAnother(const cv::Mat& depth_m) const {
 }
 
 bool StillCheck::isAtBodyHeight(int u, int v, double depth_m) const {
-  const Eigen::Vector3d point((u - camera_.cx) / camera_.fx * depth_m,
-                              (v - camera_.cy) / camera_.fy * depth_m, depth_m);
-  const double height_m = (T_base_camera_ * point).z();
+  const double height_m = (T_base_camera_ * Eigen::Vector3d(rayOf(camera_, u, v) * depth_m)).z();
   return height_m > params_.min_height_m && height_m < params_.max_height_m;
 }
 

@@ -91,8 +91,7 @@ cv::Rect boardIn(const BodyView& view, const Eigen::Vector2d& place_m, double ha
     for (const double height_m : {min_height_m, max_height_m}) {
       const Eigen::Vector3d p = T_camera_base * Eigen::Vector3d(foot.x(), foot.y(), height_m);
       if (p.z() <= 0.1) return {};
-      const Eigen::Array2d pixel(view.camera.fx * p.x() / p.z() + view.camera.cx,
-                                 view.camera.fy * p.y() / p.z() + view.camera.cy);
+      const Eigen::Array2d pixel = project(view.camera, p);
       least = least.min(pixel);
       most = most.max(pixel);
     }

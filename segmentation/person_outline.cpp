@@ -40,8 +40,8 @@ std::optional<std::array<cv::Point2f, 4>> cornersOf(const BodyView& view,
     const double z = 0.5 * kPerson_m + up * kBoard.height * m_per_pixel;
     const Eigen::Vector3d p = T_camera_base * Eigen::Vector3d(xy.x(), xy.y(), z);
     if (p.z() < 0.1) return std::nullopt;
-    corners[i] = {static_cast<float>(view.camera.fx * p.x() / p.z() + view.camera.cx),
-                  static_cast<float>(view.camera.fy * p.y() / p.z() + view.camera.cy)};
+    const Eigen::Vector2f pixel = project(view.camera, p).cast<float>();
+    corners[i] = {pixel.x(), pixel.y()};
   }
   return corners;
 }

@@ -81,7 +81,7 @@ void Identity::look(const std::vector<Observation>& observations) {
   looks_.resize(observations.size());
   statures_.resize(observations.size());
   for (std::size_t i = 0; i < observations.size(); ++i) {
-    looks_[i] = gallery_.logLikelihood(observations[i]) + observations[i].log_person;
+    looks_[i] = gallery_.logLikelihood(observations[i]);
     looks_[i][kThing] -= observations[i].log_person;
     statures_[i] = gallery_.logTallness(observations[i]);
   }
@@ -108,12 +108,17 @@ Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s) const
     if (h != kTarget && !gallery_.isKnown(h)) continue;
     double reach = 1.0;
     if (const auto& last = last_[static_cast<std::size_t>(h)]) {
+      // It counts if it was them and they have gone from there; else they were never seen.
+      const Belief* holder = find(last->track_id);
+      const double gone = last->probability * (1.0 - (holder == nullptr ? 0.0 : holder->present));
+      const double counts = gone / std::max(gone + 1.0 - last->probability, 1e-9);
       const double away_s = std::max(stamp_s - last->seen_s, 0.0);
       const double away_m = (place_m - last->place_m).norm();
       const double sigma_m = std::hypot(0.3, params_.walk_mps * away_s);
       const double area_m2 = kTwoPi * sigma_m * sigma_m;
-      reach = std::max(kRoom_m2 / area_m2, 1.0) *
-              std::exp(-0.5 * away_m * away_m / (sigma_m * sigma_m));
+      reach = counts * std::max(kRoom_m2 / area_m2, 1.0) *
+                  std::exp(-0.5 * away_m * away_m / (sigma_m * sigma_m)) +
+              1.0 - counts;
     }
     weight[h] = params_.newcomer_density_per_m2 * reach;
   }
@@ -156,8 +161,7 @@ Identity::Belief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, 
     }
     belief = std::move(*same);
     left_.erase(same);
-    mixIn(belief, prior, prior, Tallness::Zero(),
-          newcomers_per_m2 / (newcomers_per_m2 + most_per_m2));
+    mixIn(belief, {prior, prior}, newcomers_per_m2 / (newcomers_per_m2 + most_per_m2));
     belief.is_alive = true;
     belief.present = 1.0;
   } else {
@@ -187,9 +191,9 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
   const double missed = 1.0 - belief.present + belief.present * kMissed * news;
   if (missed > 0.0) {
     const double same = (1.0 - missed) * track.density_per_m2;
-    const double other = missed * (clutter + params_.newcomer_density_per_m2);
     const Evidence prior = priorOf(seen.position_m, stamp_s);
-    mixIn(belief, prior, prior, Tallness::Zero(), other / (same + other));
+    const double other = missed * prior.exp().sum();
+    mixIn(belief, {prior, prior}, other / (same + other));
   }
   // However long it lasts, nothing is surer than that: who sat for an hour may get up.
   belief.log_place -= belief.log_place.maxCoeff();
@@ -242,19 +246,21 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
   }
   for (const Track& track : tracks) {
     Belief* belief = find(track.id);
-    if (belief == nullptr) belief = &begin(track.id, track.motion.position_m(), stamp_s);
-    if (track.observation != Track::kUnseen) continue;
+    if (belief == nullptr || track.observation != Track::kUnseen) continue;
     const Sight sight =
         viewpoint.sight_of ? viewpoint.sight_of(track.motion.position_m()) : Sight::kUnknown;
     const bool is_gone = sight == Sight::kFree || sight == Sight::kOutside;
     belief->present *= is_gone ? kMissed : std::exp(-std::max(dt_s, 0.0) / kCoastMemory_s);
+  }
+  for (const Track& track : tracks) {
+    if (find(track.id) == nullptr) begin(track.id, track.motion.position_m(), stamp_s);
   }
   mixSwaps(report.swaps);
   for (const Track& track : tracks) {
     if (track.observation == Track::kUnseen) continue;
     Belief& belief = *find(track.id);
     const auto i = static_cast<std::size_t>(track.observation);
-    takePlace(belief, track, observations[i], stamp_s);
+    if (belief.seen_s != stamp_s) takePlace(belief, track, observations[i], stamp_s);
     if (observations[i].look != nullptr) {
       takeLook(belief, observations[i], i, viewpoint.position_m, stamp_s);
     }
@@ -277,25 +283,35 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
   }
 }
 
+Tallness Identity::mixed(const Tallness& own, const Tallness& other, double other_share) const {
+  return ((1.0 - other_share) * (own - gallery_.logIfAnybody(own)).exp() +
+          other_share * (other - gallery_.logIfAnybody(other)).exp())
+      .log();
+}
+
 /// With a probability it is another body than before, of which `other` is believed. Past looks then
 /// say whatever the place does not, so that as they fade the place is left.
-void Identity::mixIn(Belief& belief, const Evidence& other, const Evidence& other_place,
-                     const Tallness& other_tallness, double other_share) {
+void Identity::mixIn(Belief& belief, const Past& other, double other_share) {
   if (other_share > kMistaken) {  // A portrait is of one body.
     belief.looks = 0.0;
     belief.sum.setZero();
   }
-  const Evidence both = mix(belief.logPast(), other, other_share);
-  belief.log_place = mix(belief.log_place, other_place, other_share);
+  const Past own = belief.past();
+  const Evidence both = mix(own.log_all, other.log_all, other_share);
+  belief.log_place = mix(own.log_place, other.log_place, other_share);
   belief.log_free *= 1.0 - other_share;
-  const double own_norm = gallery_.logIfAnybody(belief.log_tallness);
-  const double other_norm = gallery_.logIfAnybody(other_tallness);
-  belief.log_tallness = ((1.0 - other_share) * (belief.log_tallness - own_norm).exp() +
-                         other_share * (other_tallness - other_norm).exp())
-                            .log();
-  belief.log_stature = gallery_.logLikelihood(belief.logTallness());
-  const Evidence views = both - belief.log_place - belief.log_free;
+  if (View& view = belief.view; view.weight > 0.0) {
+    view.mean = mix(own.log_view, other.log_view, other_share) / view.weight;
+    view.mean -= view.mean[kStranger];
+    view.tallness =
+        mixed(own.log_view_tallness, other.log_view_tallness, other_share) / view.weight;
+    view.count *= 1.0 - other_share;
+  }
+  const Evidence views = both - belief.log_place - belief.log_free - belief.view.evidence();
   belief.log_views = views.isFinite().select(views, 0.0);
+  belief.log_tallness = mixed(own.log_tallness, other.log_tallness, other_share) -
+                        belief.view.weight * belief.view.tallness;
+  belief.log_stature = gallery_.logLikelihood(belief.logTallness());
 }
 
 /// Of bodies that meet nobody can say for sure which observation is whose.
@@ -304,11 +320,9 @@ void Identity::mixSwaps(const std::vector<Swap>& swaps) {
     Belief* a = find(swap.track_a);
     Belief* b = find(swap.track_b);
     if (a == nullptr || b == nullptr) continue;
-    const Evidence past_a = a->logPast(), place_a = a->log_place;
-    const Tallness tallness_a = a->log_tallness;
-    mixIn(*a, b->logPast(), b->log_place, b->log_tallness, swap.probability);
-    mixIn(*b, past_a, place_a, tallness_a, swap.probability);
-    for (View* view : {&a->view, &b->view}) view->count *= 1.0 - swap.probability;
+    const Past past_a = a->past();
+    mixIn(*a, b->past(), swap.probability);
+    mixIn(*b, past_a, swap.probability);
   }
 }
 
@@ -422,6 +436,7 @@ void Identity::leave(Belief& belief) {
     if (!other.is_alive || other.born_s > belief.seen_s) continue;
     other.log_free = (other.log_free + log_others).max(kLogMistaken);
   }
+  if (belief.seen_s <= belief.since_s) return;  // It rested nowhere.
   if (left_.size() == kMostLeft) left_.erase(left_.begin());
   left_.push_back(std::move(belief));
   left_.back().is_alive = false;
@@ -450,11 +465,15 @@ void Identity::remember(const std::vector<Track>& tracks,
     for (int h = kTarget; h < kHypotheses; ++h) {
       if (belief.probability[h] > 0.5) best = h;
     }
-    if (best != kStranger) last_[static_cast<std::size_t>(best)] = Absence{place_m, stamp_s};
+    if (best != kStranger) {
+      last_[static_cast<std::size_t>(best)] =
+          Absence{place_m, stamp_s, belief.probability[best], track.id};
+    }
     if (!is_alone) continue;
     if (best == kStranger) {
       const bool is_another = target_sure_m && (*target_sure_m - place_m).norm() > kAlone_m;
-      const bool is_unlike = belief.logLooks()[kTarget] < kLogMistaken;
+      const Evidence looks = belief.logLooks();
+      const bool is_unlike = looks[kTarget] - looks[kStranger] < kLogMistaken;
       const bool is_stranger = belief.probability[kStranger] > 1.0 - kMistaken;
       if ((is_another || is_unlike) && is_stranger && belief.looks > kMetLooks) meet(belief);
     } else if (belief.probability[best] > 1.0 - kMistaken && belief.view.count < kMostLooks) {
@@ -489,13 +508,17 @@ void Identity::meet(Belief& belief) {
   if (h == kStranger) return;
   for (std::vector<Belief>* beliefs : {&beliefs_, &left_}) {
     for (Belief& other : *beliefs) {
-      other.log_place[h] = other.log_place[kStranger] + kLogMistaken;
-      other.log_views[h] = other.view.mean[h] = other.log_stature[h] = 0.0;
+      for (Evidence* evidence : {&other.log_place, &other.log_free, &other.log_views,
+                                 &other.view.mean, &other.log_stature}) {
+        (*evidence)[h] = (*evidence)[kStranger];
+      }
+      other.log_place[h] += kLogMistaken;
     }
   }
   belief.log_place[h] = belief.log_place[kStranger];
   belief.log_place[kStranger] += kLogMistaken;
-  last_[static_cast<std::size_t>(h)] = Absence{belief.place_m, belief.seen_s};
+  last_[static_cast<std::size_t>(h)] =
+      Absence{belief.place_m, belief.seen_s, 1.0, belief.track_id};
   away_[h] = 0.0;
 }
 
@@ -511,7 +534,7 @@ void Identity::makeTarget(int track_id, const Eigen::Vector2d& place_m, double s
   left_.clear();
   belief->view = {};
   belief->looks = 0.0;
-  last_[kTarget] = Absence{place_m, stamp_s};
+  last_[kTarget] = Absence{place_m, stamp_s, 1.0, track_id};
   weighTogether();
 }
 

@@ -40,6 +40,8 @@ struct IdentityParams {
 struct Absence {
   Eigen::Vector2d place_m = Eigen::Vector2d::Zero();
   double seen_s = 0.0;
+  double probability = 0.0;  ///< That it was them.
+  int track_id = 0;          ///< Whose place it was.
 };
 
 /// Believes of each track of a Tracker that it is a thing, a stranger, the target or one of the
@@ -91,6 +93,14 @@ class Identity {
     Evidence evidence() const { return weight * mean; }
   };
 
+  /// What is believed of a body before it is seen again.
+  struct Past {
+    Evidence log_place = Evidence::Zero();
+    Evidence log_all = Evidence::Zero();   ///< By all but statures,
+    Evidence log_view = Evidence::Zero();  ///< and of it by the view at hand.
+    Tallness log_tallness = Tallness::Zero(), log_view_tallness = Tallness::Zero();
+  };
+
   struct Belief {
     int track_id = 0;
     Evidence log_place = Evidence::Zero();  ///< By where it came from and goes.
@@ -113,7 +123,10 @@ class Identity {
 
     Tallness logTallness() const { return log_tallness + view.weight * view.tallness; }
     Evidence logLooks() const { return log_views + view.evidence() + log_stature; }
-    Evidence logPast() const { return log_place + log_free + log_views; }
+    Past past() const {
+      return {log_place, log_place + log_free + log_views + view.evidence(), view.evidence(),
+              logTallness(), view.weight * view.tallness};
+    }
     Evidence logWeight() const { return log_place + log_free + logLooks(); }
   };
 
@@ -125,8 +138,8 @@ class Identity {
   void takePlace(Belief& belief, const Track& track, const Observation& seen, double stamp_s);
   void takeLook(Belief& belief, const Observation& seen, std::size_t look,
                 const Eigen::Vector2d& eye_m, double stamp_s);
-  void mixIn(Belief& belief, const Evidence& other, const Evidence& other_place,
-             const Tallness& other_tallness, double other_share);
+  Tallness mixed(const Tallness& own, const Tallness& other, double other_share) const;
+  void mixIn(Belief& belief, const Past& other, double other_share);
   void mixSwaps(const std::vector<Swap>& swaps);
   void weighTogether();
   void weigh(bool is_left, std::vector<Evidence>& marginals);

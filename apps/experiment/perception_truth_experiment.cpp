@@ -28,8 +28,7 @@ class TrueHeights {
 
   /// NaN where the depth is.
   double at(int u, int v, float depth_m) const {
-    const Eigen::Vector3d ray((u - camera_.cx) / camera_.fx, (v - camera_.cy) / camera_.fy, 1.0);
-    return (T_ * Eigen::Vector3d(ray * static_cast<double>(depth_m))).z();
+    return (T_ * Eigen::Vector3d(rayOf(camera_, u, v) * static_cast<double>(depth_m))).z();
   }
 
  private:

@@ -129,8 +129,7 @@ std::vector<Vector2d> FollowVideo::seenArea(const DrawnFrame& view) const {
   for (int i = 0; i <= kRays; ++i) {
     const double column = view.camera.width * double(i) / kRays;
     const Eigen::Vector3d ray =
-        view.T_floor_camera.linear() *
-        Eigen::Vector3d((column - view.camera.cx) / view.camera.fx, 0.0, 1.0);
+        view.T_floor_camera.linear() * rayOf(view.camera, column, view.camera.cy);
     const Vector2d along = ray.head<2>().normalized();
     double reach_m = 0.0;
     while (reach_m < params_.view_range_m &&

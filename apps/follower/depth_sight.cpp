@@ -20,13 +20,13 @@ constexpr double kOfThings = 0.2;
 DepthSight::Depth DepthSight::compare(const Eigen::Vector2d& place_m, double height_m,
                                       double tolerance_m) const {
   const Eigen::Vector3d p = T_camera_frame_ * Eigen::Vector3d(place_m.x(), place_m.y(), height_m);
-  const double u = camera_.fx * p.x() / p.z() + camera_.cx;
-  const double v = camera_.fy * p.y() / p.z() + camera_.cy;
-  if (!(p.z() > 0.1 && u >= 0.0 && v >= 0.0 && u < depth_m_.cols && v < depth_m_.rows)) {
+  const Eigen::Vector2d pixel = project(camera_, p);
+  const Eigen::Array2d size(depth_m_.cols, depth_m_.rows);
+  if (!(p.z() > 0.1 && (pixel.array() >= 0.0).all() && (pixel.array() < size).all())) {
     return Depth::kOutside;
   }
-  const auto depth =
-      static_cast<double>(depth_m_.at<float>(static_cast<int>(v), static_cast<int>(u)));
+  const Eigen::Vector2i at = pixel.cast<int>();
+  const auto depth = static_cast<double>(depth_m_.at<float>(at.y(), at.x()));
   if (!(depth > 0.0)) return Depth::kNone;
   const double behind_m = depth - p.z();
   if (behind_m > tolerance_m) return Depth::kFarther;

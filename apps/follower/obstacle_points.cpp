@@ -83,11 +83,9 @@ const std::vector<Eigen::Vector3f>& ObstaclePoints::of(const Frame& frame) {
 bool ObstaclePoints::seesThrough(const Eigen::Vector3f& point) const {
   const Eigen::Vector3f seen = T_base_camera_.inverse() * point;
   if (!(seen.z() > static_cast<float>(params_.nearest_m))) return false;
-  const PinholeCamera& camera = camera_.left;
-  const auto u = static_cast<int>(
-      std::lround(camera.fx * static_cast<double>(seen.x() / seen.z()) + camera.cx));
-  const auto v = static_cast<int>(
-      std::lround(camera.fy * static_cast<double>(seen.y() / seen.z()) + camera.cy));
+  const Eigen::Vector2d pixel = project(camera_.left, seen.cast<double>());
+  const auto u = static_cast<int>(std::lround(pixel.x()));
+  const auto v = static_cast<int>(std::lround(pixel.y()));
   if (u < 1 || v < 1 || u + 1 >= depth_m_.cols || v + 1 >= depth_m_.rows || isBlank(v, u)) {
     return false;
   }
@@ -127,9 +125,7 @@ void ObstaclePoints::collect() {
     for (int u = 0; u < depth_m_.cols; ++u) {
       if (!(depth[u] > nearest && std::isfinite(depth[u]))) continue;  // NaN too
       if (isBlank(v, u)) continue;
-      const Eigen::Vector3f seen(static_cast<float>((u - camera.cx) / camera.fx) * depth[u],
-                                 static_cast<float>((v - camera.cy) / camera.fy) * depth[u],
-                                 depth[u]);
+      const Eigen::Vector3f seen = rayOf(camera, u, v).cast<float>() * depth[u];
       Eigen::Vector3f point = T_base_camera_ * seen;
       if (point.z() < -std::max(least_deep, depth[u] * eye.z() * error_per_m)) {
         point = eye + eye.z() / (eye.z() - point.z()) * (point - eye);

@@ -286,7 +286,8 @@ void Perception::measureBodies(const Frame& frame) {
   boards_.clear();
   for (const WorldBlob& body : bodies_) boards_.push_back(describer_.boardOf(view_, body));
   view_.depth_m = coarse_depth_.of(frame, boards_);
-  depth_m_.copyTo(view_.depth_m, step_.mask);
+  cv::compare(depth_m_, 0.0, has_depth_, cv::CMP_GT);
+  depth_m_.copyTo(view_.depth_m, has_depth_);
 }
 
 // Whom only the laser found is looked at, too: other clothes than the target's say who it is not.

@@ -149,6 +149,7 @@ class Perception {
   BodyView view_;                  // of the frame at hand
   std::vector<WorldBlob> bodies_;  // of the observations, in the base frame
   std::vector<cv::Rect> boards_;   // where they are in the image
+  cv::Mat has_depth_;
   CoarseDepth coarse_depth_;
   std::vector<BodyDescription> looks_;  // of the observations
   // Of what the camera and the laser saw: what may be one person, the nearest first.

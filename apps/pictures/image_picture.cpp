@@ -171,7 +171,8 @@ std::optional<cv::Point2d> projectToImage(const Vector3d& point_m, const Pinhole
   const Vector3d p = T_floor_camera.inverse() * point_m;
   constexpr double kNear_m = 0.1;
   if (!(p.z() > kNear_m)) return std::nullopt;
-  return cv::Point2d(camera.fx * p.x() / p.z() + camera.cx, camera.fy * p.y() / p.z() + camera.cy);
+  const Eigen::Vector2d pixel = project(camera, p);
+  return cv::Point2d(pixel.x(), pixel.y());
 }
 
 }  // namespace heel

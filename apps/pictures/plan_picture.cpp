@@ -133,8 +133,7 @@ std::vector<Vector2d> visibleFloor(const PinholeCamera& camera,
   if (!(camera.fx > 0.0) || !(camera.fy > 0.0)) return floor_m;
   const Vector3d eye_m = T_floor_camera.translation();
   const auto look = [&](double u, double v) {
-    const Vector3d in_camera((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1.0);
-    const Vector3d ray = T_floor_camera.linear() * in_camera;
+    const Vector3d ray = T_floor_camera.linear() * rayOf(camera, u, v);
     const double across = ray.head<2>().norm();
     if (across < 1e-9) {
       floor_m.emplace_back(eye_m.head<2>());

@@ -65,8 +65,7 @@ void pointsOf(const cv::Mat& depth_m, const PinholeCamera& camera, int step,
     const auto* row = depth_m.ptr<float>(v);
     for (int u = 0; u < depth_m.cols; u += step) {
       if (!(row[u] > 0.0F)) continue;
-      const Eigen::Vector3d ray((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1.0);
-      points.push_back(ray.cast<float>() * row[u]);
+      points.push_back(rayOf(camera, u, v).cast<float>() * row[u]);
     }
   }
 }
