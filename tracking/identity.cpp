@@ -96,7 +96,8 @@ double Identity::logLikelihood(int track_id, int observation) const {
   const double same = gallery_.logIfAnybody(before + stature) - gallery_.logIfAnybody(before) -
                       gallery_.logIfAnybody(stature);
   const double empty = std::max(1.0 - belief->probability.sum(), 0.0);  // somebody else's, then
-  return std::log((belief->probability * look.exp()).sum() * std::exp(same) + empty + 1e-9);
+  return std::log((belief->probability * look.exp()).sum() * std::exp(same) + empty + 1e-9) -
+         look[kThing];
 }
 
 /// What is believed of somebody who appears at a place, before a look at them.

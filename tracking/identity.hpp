@@ -57,7 +57,7 @@ class Identity {
   /// Takes the looks in; call it before the tracker's step, so that it can ask logLikelihood().
   void look(const std::vector<Observation>& observations);
 
-  /// Of an observation being the next of a track, as far as looks go: relative to a stranger's.
+  /// Of an observation being the next of a track, as far as looks go: over that of a thing.
   double logLikelihood(int track_id, int observation) const;
 
   /// Takes in what the tracker made of them.
