@@ -261,6 +261,7 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
     if (track.observation == Track::kUnseen) continue;
     Belief& belief = *find(track.id);
     const auto i = static_cast<std::size_t>(track.observation);
+    // begin() has taken in where it was seen first.
     if (belief.seen_s != stamp_s) takePlace(belief, track, observations[i], stamp_s);
     if (observations[i].look != nullptr) {
       takeLook(belief, observations[i], i, viewpoint.position_m, stamp_s);
@@ -518,8 +519,7 @@ void Identity::meet(Belief& belief) {
   }
   belief.log_place[h] = belief.log_place[kStranger];
   belief.log_place[kStranger] += kLogMistaken;
-  last_[static_cast<std::size_t>(h)] =
-      Absence{belief.place_m, belief.seen_s, 1.0, belief.track_id};
+  last_[static_cast<std::size_t>(h)] = Absence{belief.place_m, belief.seen_s, 1.0, belief.track_id};
   away_[h] = 0.0;
 }
 

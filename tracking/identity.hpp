@@ -36,12 +36,12 @@ struct IdentityParams {
   double walk_mps = 1.0;
 };
 
-/// What is known of somebody who is not in view.
+/// Where somebody was seen last.
 struct Absence {
   Eigen::Vector2d place_m = Eigen::Vector2d::Zero();
   double seen_s = 0.0;
-  double probability = 0.0;  ///< That it was them.
-  int track_id = 0;          ///< Whose place it was.
+  double probability = 0.0;  ///< That it was them,
+  int track_id = 0;          ///< who were on this track.
 };
 
 /// Believes of each track of a Tracker that it is a thing, a stranger, the target or one of the
