@@ -69,6 +69,7 @@ ObstacleLayer::ObstacleLayer(const ObstacleLayerParams& params)
   cells_.resize(count);
   touched_.reserve(count);
   obstacles_.reserve(count);
+  steps_.reserve(count);
   occupied_.resize(count, 0);
   transform_.compute(occupied_, cells_per_edge_, cells_per_edge_, params_.cell_size_m,
                      distances_m_);
@@ -322,6 +323,7 @@ void ObstacleLayer::finish() {
 
   window_.setOrigin(params_.cell_size_m * Eigen::Vector2d(corner_.x, corner_.y));
   obstacles_.clear();
+  steps_.clear();
   // The ring's cell of each window's cell, without a division for each.
   const int n = cells_per_edge_;
   const int first = modulo(corner_.x, n);
@@ -335,7 +337,9 @@ void ObstacleLayer::finish() {
       const bool occupied = cell.laser.known || cell.points.known || cell.touch.known;
       window_.at(GridCell{x, y}) = occupied ? Occupancy::kOccupied : Occupancy::kFree;
       occupied_[window_.index({x, y})] = occupied ? 1 : 0;
-      if (occupied) obstacles_.push_back(window_.center({x, y}));
+      if (!occupied) continue;
+      obstacles_.push_back(window_.center({x, y}));
+      if (cell.points.known && cell.height_m == 0.0F) steps_.push_back(obstacles_.back());
     }
   }
   transform_.compute(occupied_, cells_per_edge_, cells_per_edge_, params_.cell_size_m,

@@ -125,6 +125,9 @@ class ObstacleLayer {
   /// Middles of the occupied cells, in the world.
   const std::vector<Eigen::Vector2d>& obstacles() const { return obstacles_; }
 
+  /// Of these, where all points were at the height 0.
+  const std::vector<Eigen::Vector2d>& steps() const { return steps_; }
+
   /// From the middle of the point's cell to the middle of the nearest occupied one [m]; that is at
   /// most 1.42 cells more than from the point to the cell itself. Infinite without obstacles and
   /// outside of the window, where nothing is known.
@@ -182,7 +185,7 @@ class ObstacleLayer {
   std::vector<std::size_t> touched_;  // cells with points in this frame
 
   OccupancyGrid window_;
-  std::vector<Eigen::Vector2d> obstacles_;
+  std::vector<Eigen::Vector2d> obstacles_, steps_;
   std::vector<std::uint8_t> occupied_;
   std::vector<float> distances_m_;
   DistanceTransform transform_;

@@ -82,8 +82,8 @@ void LastGate::addScan(const LaserScan& scan, const FloorPose& base, double stam
 }
 
 void LastGate::addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& base,
-                         double stamp_s) {
-  sight_.addPoints(points, base, stamp_s);
+                         double stamp_s, const std::vector<Vector2d>& steps) {
+  sight_.addPoints(points, base, stamp_s, steps);
 }
 
 // What can be touched, and how near it may come.

@@ -82,7 +82,8 @@ class LastGate {
 
   /// As those of RecentSight.
   void addScan(const LaserScan& scan, const FloorPose& base, double stamp_s);
-  void addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& base, double stamp_s);
+  void addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& base, double stamp_s,
+                 const std::vector<Eigen::Vector2d>& steps = {});
 
   const RecentSight& sight() const { return sight_; }
 

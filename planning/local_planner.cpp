@@ -365,8 +365,7 @@ double LocalPlanner::allowedTowards(const DriveScene& scene, const MovingPerson&
   for (double step = limits.max_speed_mps; step > kFine_mps; step *= 0.5) {
     if (stands(allowed_mps + step)) allowed_mps += step;
   }
-  // It passes slowly beside who stands, and comes nearer no faster than who stands.
-  if (comes_mps > 0.0) return allowed_mps;
+  // It passes slowly beside people, and comes nearer no faster than who stands.
   return std::max(allowed_mps, std::min(params_.least_speed_mps, 0.5 * kStands_mps / share));
 }
 

@@ -282,7 +282,7 @@ bool RecentSight::isInPicture(const SeenThing& thing, const FloorPose& T_base_wo
 }
 
 void RecentSight::addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& base,
-                            double stamp_s) {
+                            double stamp_s, const std::vector<Vector2d>& steps) {
   if (!(stamp_s > points_s_)) return;
   points_s_ = stamp_s;
   const FloorPose T_base_world = base.inverse();
@@ -290,7 +290,8 @@ void RecentSight::addPoints(const std::vector<Eigen::Vector3f>& points, const Fl
   for (const Eigen::Vector3f& point : points) {
     const Eigen::Vector2f at = point.head<2>();
     const Eigen::Vector2d cell = at.cast<double>().array() / kCell_m + kCells / 2.0;
-    if (!((cell.array() >= 0.0).all() && (cell.array() < kCells).all())) continue;  // NaN too
+    const bool is_near = (cell.array() >= 0.0).all() && (cell.array() < kCells).all();
+    if (!is_near || !(point.z() > 0.0F)) continue;  // NaN too
     Cell& c =
         cells_[static_cast<std::size_t>(cell.y()) * kCells + static_cast<std::size_t>(cell.x())];
     if (c.points == 0 || at.norm() < c.nearest.norm()) c.nearest = at;
@@ -307,13 +308,18 @@ void RecentSight::addPoints(const std::vector<Eigen::Vector3f>& points, const Fl
   things_.erase(std::remove_if(things_.begin(), things_.end(),
                                [&](const SeenThing& thing) {
                                  return !thing.by_laser &&
-                                        (!thing.is_sure || isInPicture(thing, T_base_world));
+                                        (!thing.is_sure || thing.height_m == 0.0 ||
+                                         isInPicture(thing, T_base_world));
                                }),
                 things_.end());
   for (const Cell& cell : cells_) {
     if (cell.points < params_.min_points) continue;
     keep({placeOf(cell), static_cast<double>(cell.highest_m), stamp_s, false, cell.is_sure, false,
           false, Vector2d::Zero(), 0.0});
+  }
+  for (const Vector2d& step : steps) {
+    if (step.lpNorm<Eigen::Infinity>() > 0.5 * kCells * kCell_m) continue;
+    keep({base * step, 0.0, stamp_s, false, true, false, false, Vector2d::Zero(), 0.0});
   }
   layOut();
 }

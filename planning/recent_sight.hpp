@@ -35,7 +35,7 @@ struct RecentSightParams {
 /// A point of what was seen.
 struct SeenThing {
   Eigen::Vector2d place;
-  double height_m;  ///< Of the highest that a picture saw there; 0 by the laser.
+  double height_m;  ///< Of the highest that a picture saw there; 0 by the laser, and of a step.
   double seen_s;
   bool by_laser;
   bool is_sure;              ///< By the laser, or in two pictures one after the other.
@@ -68,9 +68,12 @@ class RecentSight {
   void addScan(const LaserScan& scan, const FloorPose& base, double stamp_s);
 
   /// What is out of the view of the next picture is known on if two pictures have seen it: one
-  /// alone may be an error of the stereo. All of a picture's points that are in the robot's way, in
-  /// the base frame of `stamp_s` [m].
-  void addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& base, double stamp_s);
+  /// alone may be an error of the stereo. All of a picture's points over the floor that are in the
+  /// robot's way, in the base frame of `stamp_s` [m].
+  /// @param steps  All that is known of where the floor ends, there: a robot is near a step long
+  ///               after it saw it.
+  void addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& base, double stamp_s,
+                 const std::vector<Eigen::Vector2d>& steps = {});
 
   /// Standard deviation of the laser's ranges, as far as it is known [m].
   double laserSigma() const { return sigma_m_; }

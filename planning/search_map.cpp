@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kNoShare = 1e-12;  // below this a share is none
+constexpr double kNever_s = std::numeric_limits<double>::infinity();
 constexpr double kNoChance = 1e-6;  // below this a cell is not worth a look
 
 void requirePositive(const SearchMapParams& p) {
@@ -37,7 +39,9 @@ SearchMap::SearchMap(const OccupancyGrid& floor, const OccupancyGrid& sight,
       floor_(floor, params.cell_size_m, params.body_radius_m, sight),
       shares_(index(floor_.cells()), Shares{}),
       next_(shares_),
-      belief_(shares_.size(), 0.0) {
+      belief_(shares_.size(), 0.0),
+      others_(shares_),
+      reached_s_(shares_.size(), kNever_s) {
   if (floor_.nearestFree(floor.origin_m()) < 0) {
     throw std::invalid_argument("no one can stand anywhere on this map");
   }
@@ -77,14 +81,27 @@ std::size_t SearchMap::visibleIndex(std::size_t view, int cell) const {
   return view * index(edge * edge) + index(y * edge + x);
 }
 
-void SearchMap::start(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity) {
+void SearchMap::start(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity,
+                      double ago_s, double probability) {
   if (!position.allFinite() || !velocity.allFinite()) {
     throw std::invalid_argument("a search starts at a place");
   }
-  since_seen_s_ = carried_s_ = 0.0;
+  if (!(probability >= 0.0 && probability <= 1.0)) {
+    throw std::invalid_argument("a probability is 0 to 1");
+  }
+  const bool is_first = walked_m_.empty();
   floor_.walkingDistances(floor_.nearestFree(position), walked_m_, open_);
+  // Never before they were there, and for the place's error they may have been a little further.
+  const double own_share = is_first ? 1.0 : probability;
+  const double then_s = clock_s_ - ago_s;
+  for (std::size_t c = 0; c < reached_s_.size(); ++c) {
+    const double way_m = static_cast<double>(walked_m_[c]) - 2.0 * params_.place_sigma_m;
+    const double reached_s = then_s + std::max(way_m, 0.0) / kFastestWalk_mps;
+    reached_s_[c] = own_share < 1.0 ? std::min(reached_s_[c], reached_s) : reached_s;
+  }
   const double speed = velocity.norm();
-  speed_mps_ = std::clamp(speed, params_.usual_speed_mps, kFastestWalk_mps);
+  speed_mps_ +=
+      own_share * (std::clamp(speed, params_.usual_speed_mps, kFastestWalk_mps) - speed_mps_);
   // The faster one walked, the surer one goes on that way.
   Shares ways{};
   const double sureness = 6.0 * speed;
@@ -92,12 +109,22 @@ void SearchMap::start(const Eigen::Vector2d& position, const Eigen::Vector2d& ve
   for (std::size_t way = 0; way < kHeadings; ++way) {
     ways[way] = std::exp(sureness * (std::cos(headingOf(way) - heading) - 1.0));
   }
+  shares_.swap(others_);
   std::fill(shares_.begin(), shares_.end(), Shares{});
   for (std::size_t c = 0; c < shares_.size(); ++c) {
     const double sigmas = static_cast<double>(walked_m_[c]) / params_.place_sigma_m;
     if (sigmas > 2.0) continue;
     for (std::size_t way = 0; way < kHeadings; ++way) {
       shares_[c][way] = std::exp(-0.5 * sigmas * sigmas) * ways[way];
+    }
+  }
+  sumUp();
+  clock_s_ = then_s;
+  carried_s_ = 0.0;
+  spread(ago_s);
+  for (std::size_t c = 0; c < shares_.size() && own_share < 1.0; ++c) {
+    for (std::size_t way = 0; way < kHeadings; ++way) {
+      shares_[c][way] = own_share * shares_[c][way] + (1.0 - own_share) * others_[c][way];
     }
   }
   sumUp();
@@ -110,7 +137,7 @@ void SearchMap::spread(double elapsed_s) {
   carried_s_ += elapsed_s;
   if (carried_s_ < step_s) return;
   for (; carried_s_ >= step_s; carried_s_ -= step_s) {
-    since_seen_s_ += step_s;
+    clock_s_ += step_s;
     turn();
     walk();
   }
@@ -130,7 +157,6 @@ void SearchMap::turn() {
 }
 
 void SearchMap::walk() {
-  const double furthest_m = kFastestWalk_mps * since_seen_s_ + 2.0 * params_.place_sigma_m;
   std::fill(next_.begin(), next_.end(), Shares{});
   for (std::size_t c = 0; c < shares_.size(); ++c) {
     for (std::size_t way = 0; way < kHeadings; ++way) {
@@ -143,7 +169,7 @@ void SearchMap::walk() {
         continue;
       }
       const double steps = way % 2 == 0 ? 1.0 : std::sqrt(0.5);
-      const bool is_too_far = static_cast<double>(walked_m_[index(to)]) > furthest_m;
+      const bool is_too_far = reached_s_[index(to)] > clock_s_;
       const double walks = is_too_far ? 0.0 : steps * speed_mps_ / kFastestWalk_mps;
       next_[index(to)][way] += walks * share;
       next_[c][way] += (1.0 - walks) * share;
@@ -152,8 +178,10 @@ void SearchMap::walk() {
   shares_.swap(next_);
 }
 
-void SearchMap::look(const FloorPose& camera, double elapsed_s) {
-  thin(elapsed_s, [&](const Eigen::Vector2d& place) { return isInView(camera, place); });
+void SearchMap::look(const FloorPose& camera, double elapsed_s,
+                     FunctionRef<bool(const Eigen::Vector2d&)> is_hidden) {
+  thin(elapsed_s,
+       [&](const Eigen::Vector2d& place) { return isInView(camera, place) && !is_hidden(place); });
 }
 
 void SearchMap::scan(const LaserScan& scan, const FloorPose& scanner, double elapsed_s) {
@@ -213,32 +241,42 @@ void SearchMap::sumUp() {
 }
 
 std::optional<SearchView> SearchMap::nextView(const FloorPose& camera,
-                                              FunctionRef<bool(const Eigen::Vector2d&)> is_open) {
+                                              FunctionRef<double(const Eigen::Vector2d&)> way_m) {
   if (walked_m_.empty()) return std::nullopt;
   floor_.walkingDistances(floor_.nearestFree(camera.position), way_m_, way_open_);
   // First the place, by all that is in view around it: who goes to a room looks all around in it.
   const double around_s = 2.0 * kPi / params_.limits.max_turn_radps + params_.look_s;
-  const auto way_s = [&](std::size_t view) {
-    return static_cast<double>(way_m_[index(view_cells_[view])]) / params_.limits.max_speed_mps;
+  const auto onMap_m = [&](std::size_t view) {
+    return static_cast<double>(way_m_[index(view_cells_[view])]);
   };
+  const auto toThere_s = [&](double on_way_m) { return on_way_m / params_.limits.max_speed_mps; };
+  chances_.assign(view_cells_.size(), 0.0);
   rates_.assign(view_cells_.size(), 0.0);
   by_rate_.clear();
   for (std::size_t view = 0; view < view_cells_.size(); ++view) {
-    if (!std::isfinite(way_s(view))) continue;
+    if (!std::isfinite(onMap_m(view))) continue;
     const Bearings around = chancesAround(view);
-    const double chance = std::accumulate(around.begin(), around.end(), 0.0);
-    rates_[view] = chance / (way_s(view) + around_s);
+    chances_[view] = std::accumulate(around.begin(), around.end(), 0.0);
+    rates_[view] = chances_[view] / (toThere_s(onMap_m(view)) + around_s);
     if (rates_[view] > 0.0) by_rate_.push_back(view);
   }
   if (by_rate_.empty()) return std::nullopt;
   std::sort(by_rate_.begin(), by_rate_.end(), [this](std::size_t a, std::size_t b) {
     return rates_[a] != rates_[b] ? rates_[a] > rates_[b] : a < b;
   });
-  const auto open = std::find_if(by_rate_.begin(), by_rate_.end(), [&](std::size_t view) {
-    return is_open(floor_.center(view_cells_[view]));
-  });
-  const std::size_t best = open == by_rate_.end() ? by_rate_.front() : *open;
-  return bestLook(best, way_s(best), camera.yaw_rad);
+  std::size_t best = by_rate_.front();
+  double best_s = toThere_s(onMap_m(best)), best_rate = 0.0;
+  for (const std::size_t view : by_rate_) {
+    if (rates_[view] <= best_rate) break;  // A way is never shorter than on the map.
+    const double there_s =
+        toThere_s(std::max(way_m(floor_.center(view_cells_[view])), onMap_m(view)));
+    const double rate = chances_[view] / (there_s + around_s);
+    if (!(rate > best_rate)) continue;
+    best = view;
+    best_s = there_s;
+    best_rate = rate;
+  }
+  return bestLook(best, best_s, camera.yaw_rad);
 }
 
 SearchMap::Bearings SearchMap::chancesAround(std::size_t view) const {

@@ -68,14 +68,21 @@ class SearchMap {
 
   const CoarseFloor& floor() const { return floor_; }
 
-  /// The person was last seen here, with this velocity [m/s], both in the map's frame.
-  void start(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity);
+  /// The person was last seen here, with this velocity [m/s], both in the map's frame, so long ago.
+  /// @param probability  That it was they; else they are where they were looked for before.
+  void start(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity, double ago_s = 0.0,
+             double probability = 1.0);
 
   /// Time goes by. Without a start() nothing happens.
   void spread(double elapsed_s);
 
   /// The camera has looked from here for a while, and the person was not found.
-  void look(const FloorPose& camera, double elapsed_s);
+  /// @param is_hidden  Whether something that the map does not show stands before a place.
+  void look(const FloorPose& camera, double elapsed_s,
+            FunctionRef<bool(const Eigen::Vector2d&)> is_hidden);
+  void look(const FloorPose& camera, double elapsed_s) {
+    look(camera, elapsed_s, [](const Eigen::Vector2d&) { return false; });
+  }
 
   /// The laser has scanned from here for a while: nobody is where its beams went through.
   void scan(const LaserScan& scan, const FloorPose& scanner, double elapsed_s);
@@ -86,12 +93,13 @@ class SearchMap {
   /// The place from which there is most to see per time, getting there and turning once around
   /// included, and the look from it that promises most. None before start(), or where no chance is
   /// left within reach. Ask again after each look.
-  /// @param is_open  Whether a way leads to a place now; places without one come last: what stands
-  ///                 in the way may be gone by then.
+  /// @param way_m  How long the way to a place is now, if it is longer than the map has it;
+  /// infinite
+  ///               where none leads. Such places come last: what is in the way may be gone by then.
   std::optional<SearchView> nextView(const FloorPose& camera,
-                                     FunctionRef<bool(const Eigen::Vector2d&)> is_open);
+                                     FunctionRef<double(const Eigen::Vector2d&)> way_m);
   std::optional<SearchView> nextView(const FloorPose& camera) {
-    return nextView(camera, [](const Eigen::Vector2d&) { return true; });
+    return nextView(camera, [](const Eigen::Vector2d&) { return 0.0; });
   }
 
  private:
@@ -117,17 +125,20 @@ class SearchMap {
   std::vector<Shares> shares_;
   std::vector<Shares> next_;
   std::vector<double> belief_;
-  std::vector<float> walked_m_;  ///< From where the person was last seen.
+  std::vector<Shares> others_;     ///< Memory of start(), as the next are.
+  std::vector<float> walked_m_;    ///< From where the person was last seen.
+  std::vector<double> reached_s_;  ///< On the clock: nobody can have walked there sooner.
   CoarseFloor::Open open_;
   double speed_mps_ = 0.0;
-  double since_seen_s_ = 0.0;
+  double clock_s_ = 0.0;
   double carried_s_ = 0.0;  ///< Time that has gone by but is less than a step.
 
   int reach_cells_ = 0;           ///< Half the edge of a window around a view.
   std::vector<int> view_cells_;   ///< Places to look from.
   std::vector<bool> is_visible_;  ///< Of the cells in the window around each view, row by row.
   std::vector<float> way_m_;      ///< Of the robot; memory of nextView(), as the next are.
-  std::vector<double> rates_;     ///< Chance per time, by view.
+  std::vector<double> chances_;   ///< By view, as the next,
+  std::vector<double> rates_;     ///< which is per time.
   std::vector<std::size_t> by_rate_;
   CoarseFloor::Open way_open_;
 };

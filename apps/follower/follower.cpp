@@ -22,12 +22,20 @@ constexpr double kDrives_mps = 0.1;
 constexpr double kMoves_mps = 0.02;
 constexpr double kStalls_s = 0.5;
 constexpr double kFeels_rad = 0.6;
-constexpr double kLegs_m = 0.12;  // So far from the middle of who stands are their legs.
+constexpr double kChiSquared99 = 9.21;  // of two degrees of freedom
+constexpr double kLegs_m = 0.12;        // So far from the middle of who stands are their legs.
 
 // Standard deviation of their velocity along the line to a place [m/s].
 double gaitOf(const MotionState& motion, const Vector2d& place) {
   const Vector2d along = (place - motion.position_m()).stableNormalized();
   return std::sqrt(along.dot(motion.covariance.bottomRightCorner<2, 2>() * along));
+}
+
+// Whether they move, as surely as 99 of 100.
+bool setsOff(const MotionState& motion) {
+  const Vector2d velocity = motion.velocity_mps();
+  const Eigen::Matrix2d covariance = motion.covariance.bottomRightCorner<2, 2>();
+  return velocity.dot(covariance.ldlt().solve(velocity)) > kChiSquared99;
 }
 
 OccupancyGrid openFloor(const Vector2d& middle) {
@@ -72,6 +80,7 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
       floor_(walls_ ? walls_->floorGrid({0.05, robot.height_m}) : openFloor(start_.position)),
       watch_(robot.camera, params_.watch),
       layer_(params_.obstacles),
+      things_(layer_.window()),
       obstacle_points_(robot.camera, params_.obstacle_points),
       legs_(params_.legs),
       learner_(std::in_place, robot.camera, params_.learn),
@@ -116,7 +125,7 @@ const FollowStep& Follower::step(const RobotReadings& readings, const StageDone&
   lookAround(usable);
   finished(FollowStage::kLookAround);
 
-  decide(usable);
+  decide();
   finished(FollowStage::kDecide);
 
   drive();
@@ -168,16 +177,18 @@ void Follower::localize(const RobotReadings& readings) {
   if (readings.scan != nullptr) {
     scan_s_ = std::max(scan_s_, steady_s_ - watch_.scanAge_s());
     last_gate_.addScan(*readings.scan, motion_.at(scan_s_), scan_s_);
-    const FloorPose from_motion = step_.robot.pose * motion_.pose().inverse();
-    findHidingPlaces(
-        *readings.scan, motion_.at(scan_s_) * robot_.T_base_scanner,
-        [&](const Vector2d& place) { return room_.clearance(from_motion * place); },
-        MovingPerson().radius_m, hiding_places_);
   }
   if (localization_) {
     findOnMap(readings.scan);
   } else {
     step_.robot.pose = start_ * motion_.pose();
+  }
+  if (readings.scan != nullptr) {
+    const FloorPose from_motion = step_.robot.pose * motion_.pose().inverse();
+    findHidingPlaces(
+        *readings.scan, motion_.at(scan_s_) * robot_.T_base_scanner,
+        [&](const Vector2d& place) { return room_.clearance(from_motion * place); },
+        MovingPerson().radius_m, hiding_places_);
   }
   const auto to_walls = [this](const Vector2d& p) {
     return localization_ ? localization_->field().distance_m(p) : kOpenFloor_m;
@@ -201,16 +212,23 @@ void Follower::lookAround(const RobotReadings& readings) {
   if (step_.target) own = FloorDisc{*step_.target, params_.target_radius_m};
   layOutPeople({});  // What is seen there may walk off.
   layer_.begin(steady_s_, pose, own, people_discs_);
+  if (search_) search_->wait(dt_s_);
   if (readings.scan != nullptr) {
-    layer_.addScan(*readings.scan, motion_.seenFromNow(scan_s_) * robot_.T_base_scanner,
+    const FloorPose T_base_scanner = motion_.seenFromNow(scan_s_) * robot_.T_base_scanner;
+    layer_.addScan(*readings.scan, T_base_scanner,
                    [this](const Vector2d& p) { return isMapped(p); });
+    if (search_) search_->scan(*readings.scan, pose * T_base_scanner, dt_s_);
   }
   feelAround();
   obstacles_age_s_ += dt_s_;
   if (readings.frame != nullptr && obstacles_age_s_ > params_.obstacles_every_s - 1e-6) {
     const std::vector<Eigen::Vector3f>& points = obstacle_points_.of(*readings.frame);
-    last_gate_.addPoints(points, motion_.at(frame_s_), frame_s_);
     const FloorPose T_base_then = motion_.seenFromNow(frame_s_);
+    steps_.clear();
+    for (const Vector2d& step : layer_.steps()) {
+      steps_.push_back((pose * T_base_then).inverse() * step);
+    }
+    last_gate_.addPoints(points, motion_.at(frame_s_), frame_s_, steps_);
     keepUnmapped(points, T_base_then);
     layer_.addPoints(unmapped_);
     layer_.clear([&, T_then_base = T_base_then.inverse()](const Eigen::Vector3f& point) {
@@ -218,12 +236,38 @@ void Follower::lookAround(const RobotReadings& readings) {
           (T_then_base * Vector2d(point.head<2>().cast<double>())).cast<float>();
       return obstacle_points_.seesThrough({then.x(), then.y(), point.z()});
     });
+    if (search_) {
+      const FloorPose then = pose * T_base_then;
+      search_->look(then, obstacles_age_s_, [&, T_then_world = then.inverse()](const Vector2d& p) {
+        return obstacle_points_.sight().at(T_then_world * p) == Sight::kHidden;
+      });
+    }
     obstacles_age_s_ = 0.0;
   }
   layer_.finish();
   notePeople();
-  planner_.setObstacles(unseen_.standing(), &layer_.window());
-  room_.setLayer({}, &layer_.window());
+  keepThings();
+  planner_.setObstacles(unseen_.standing(), &things_);
+  room_.setLayer({}, &things_);
+}
+
+// Of what was seen around, what is no part of people.
+void Follower::keepThings() {
+  things_ = layer_.window();
+  for (const MovingPerson& person : people_) {
+    const bool stands = person.velocity.norm() <= params_.stands_mps;
+    const double reach_m =
+        stands ? person.radius_m + params_.beside_people_m : params_.target_radius_m;
+    const GridCell low = things_.cellAt(person.position.array() - reach_m);
+    const GridCell high = things_.cellAt(person.position.array() + reach_m);
+    for (int y = std::max(low.y, 0); y <= std::min(high.y, things_.height() - 1); ++y) {
+      for (int x = std::max(low.x, 0); x <= std::min(high.x, things_.width() - 1); ++x) {
+        const GridCell cell{x, y};
+        if ((things_.center(cell) - person.position).norm() > reach_m) continue;
+        things_.at(cell) = Occupancy::kFree;
+      }
+    }
+  }
 }
 
 // Wheels that do not turn though they should are held by something that no sensor sees.
@@ -279,7 +323,8 @@ void Follower::notePeople() {
     if (who.sum() - who[kThing] < params_.surely_person) continue;
     MovingPerson& person = people_.emplace_back();
     person.position = track.motion.position_m();
-    if (identity.restsFor_s(track.id, steady_s_) < params_.walks_on_s) {
+    const bool rests = identity.restsFor_s(track.id, steady_s_) >= params_.walks_on_s;
+    if (!rests || setsOff(track.motion)) {
       person.velocity = track.motion.velocity_mps();
       person.gait_mps = gaitOf(track.motion, step_.robot.pose.position);
     }
@@ -347,7 +392,7 @@ void Follower::skipLearning(const AppearanceModel& whom) {
   if (walls_) params.gate = wallGate(walls_, params_.gate);
   perception_.emplace(robot_.camera, whom, params);
   last_.position = step_.robot.pose.position;  // for want of a better place
-  if (search_) search_->lose(last_, 0.0);
+  if (search_) search_->lose(last_, 0.0, 1.0);
   learner_.reset();
   step_.is_learning = false;
 }
@@ -385,27 +430,26 @@ void Follower::noteTarget() {
   }
   if (target_.status == TargetStatus::kFollowed) {
     last_ = *person_;
+    followed_id_ = target_.track_id;
     unseen_s_ = 0.0;
   }
-  if (was_known && !person_ && search_) search_->lose(last_, unseen_s_);
+  if (was_known && !person_ && search_) {
+    // As it seems now: it may be lost because it was somebody else.
+    const Evidence who = perception_->identity().probabilities(followed_id_);
+    search_->lose(last_, unseen_s_, who.sum() > 0.0 ? who[kTarget] / who.sum() : 1.0);
+  }
 }
 
 // The Petri net plan (section 3.4).
-void Follower::decide(const RobotReadings& readings) {
+void Follower::decide() {
   if (step_.is_learning) return;
-  if (!person_ && search_) {
-    search_->wait(dt_s_);
-    if (readings.frame != nullptr) search_->look(poseAt(frame_s_), dt_s_);
-    if (readings.scan != nullptr) {
-      search_->scan(*readings.scan, poseAt(scan_s_) * robot_.T_base_scanner, dt_s_);
-    }
-  }
   if (step_.is_paused) return;
   checkFacts();
   const PlanStep& now = runner_.step(facts_);
   step_.outcome = now.outcome;
   const FollowingAction action = currentAction(runner_);
-  if (action != action_) begin(action);
+  // A stop only holds what the robot does: it goes on with that after.
+  if (action != FollowingAction::kStop && action != begun_) begin(action);
   step_.action = action_ = action;
 }
 
@@ -430,12 +474,12 @@ void Follower::checkFacts() {
 }
 
 void Follower::begin(FollowingAction action) {
+  begun_ = action;
   local_planner_.reset();
   goal_chooser_.reset();
   has_arrived_ = false;
   if (search_) search_->restart();
   is_there_ = false;
-  if (action == FollowingAction::kStop) making_room_.reset();
   if (action == FollowingAction::kSeek) {
     turned_rad_ = 0.0;
     seek_side_ = sideOf(expected().position);

@@ -91,7 +91,6 @@ class Follower {
   struct MakingRoom {
     Eigen::Vector2d place;   // where it goes
     Eigen::Vector2d before;  // where it was then
-    Eigen::Vector2d person;  // and they
     bool is_for_target = false;
     double since_s = 0.0;
     double waited_s = 0.0;
@@ -107,7 +106,7 @@ class Follower {
   void learn(const Frame& frame);
   void see(const Frame* frame);
   void noteTarget();
-  void decide(const RobotReadings& readings);
+  void decide();
   void checkFacts();
   void begin(FollowingAction action);
   void drive();
@@ -115,6 +114,7 @@ class Follower {
   void feelAround();
   void noteComers();
   void notePeople();
+  void keepThings();
   void layOutPeople(const FloorPose& T_frame_world);
   bool isMapped(const Eigen::Vector2d& place) const;
   void keepUnmapped(const std::vector<Eigen::Vector3f>& points, const FloorPose& T_base_then);
@@ -125,7 +125,6 @@ class Follower {
   bool standsInDoorway() const;
   bool makesRoom();
   const MovingPerson* whoWantsPast();
-  bool hasPassed(const MovingPerson& person, const MakingRoom& room) const;
   bool isInTheWayOf(const MovingPerson& person) const;
   void goAside(const MovingPerson& person);
   void goToLastSeen();
@@ -149,12 +148,13 @@ class Follower {
   MotionHistory motion_;                      // by odometry, on the steady clock
   std::optional<Localization> localization_;  // on the map
   ObstacleLayer layer_;
+  OccupancyGrid things_;  // its window, people apart
   ObstaclePoints obstacle_points_;
   LaserBodies legs_;
   std::optional<PersonLearner> learner_;
   std::optional<Perception> perception_;
   PlanRunner runner_;
-  ClearanceMap room_;  // to what stands, people apart
+  ClearanceMap room_;  // to things
   GlobalPlanner planner_;
   LocalPlanner local_planner_;
   LastGate last_gate_;
@@ -172,13 +172,15 @@ class Follower {
   VelocityCommand speed_;        // by odometry
   double stalled_s_ = 0.0;       // so long the wheels have not turned, though they should
   TargetEstimate target_;
-  std::optional<MovingPerson> person_;  // the target, where it is known to be;
-  MovingPerson last_;                   // where it was when last seen,
-  double unseen_s_ = 0.0;               // so long ago
-  double tracked_s_ = 0.0;              // when the tracks were stepped last, on the steady clock
-  double scan_s_ = 0.0;                 // the newest scan's stamp, on the steady clock
+  std::optional<MovingPerson> person_;          // the target, where it is known to be;
+  MovingPerson last_;                           // where it was when last seen,
+  double unseen_s_ = 0.0;                       // so long ago,
+  int followed_id_ = TargetEstimate::kNoTrack;  // as this track
+  double tracked_s_ = 0.0;  // when the tracks were stepped last, on the steady clock
+  double scan_s_ = 0.0;     // the newest scan's stamp, on the steady clock
   FollowingFacts facts_;
   FollowingAction action_ = FollowingAction::kStop;
+  FollowingAction begun_ = FollowingAction::kStop;  // the last one but stops
   double obstacles_age_s_ = 0.0;
   double turned_rad_ = 0.0;   // in the present seek
   double seek_side_ = 1.0;    // +1: to the left
@@ -196,6 +198,7 @@ class Follower {
   std::vector<FloorDisc> people_discs_;  // all, in the frame last asked for
   UnseenPeople unseen_;
   std::vector<Eigen::Vector3f> unmapped_;  // points in the base frame
+  std::vector<Eigen::Vector2d> steps_;     // down, in the base frame of the last picture
 };
 
 }  // namespace heel

@@ -6,6 +6,7 @@
 #include <heel/apps/follower/follower.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -74,7 +75,8 @@ void Follower::noteProgress() {
   if ((here - stood_at_).norm() > robot_.drive.radius_m) {
     stood_at_ = here;
     stuck_s_ = 0.0;
-  } else if (step_.goal) {
+  } else if (step_.path != nullptr && !step_.path->empty() &&
+             (step_.path->back() - here).norm() > params_.drive.depart_m) {
     stuck_s_ += dt_s_;
   }
 }
@@ -155,11 +157,11 @@ void Follower::search() {
     step_.reason += (step_.reason.empty() ? "" : "; ") + std::string("waits: there is no map");
     return;
   }
-  const auto is_open = [this](const Vector2d& place) {
+  const auto way_m = [this](const Vector2d& place) {
     planner_.plan(step_.robot.pose.position, place, plan_);
-    return plan_.found();
+    return plan_.found() ? plan_.length_m : std::numeric_limits<double>::infinity();
   };
-  if (search_->choose(dt_s_, step_.robot.pose, is_there_, is_open)) local_planner_.reset();
+  if (search_->choose(dt_s_, step_.robot.pose, is_there_, way_m)) local_planner_.reset();
   is_there_ = false;
   const std::optional<SearchView>& view = search_->view();
   if (!view) return;
@@ -248,7 +250,7 @@ bool Follower::makesRoom() {
   const auto isThere = [&](const auto& person) {
     return (person.position - room.before).norm() < params_.far_m;
   };
-  const bool waits = room.is_for_target ? !person_ || !hasPassed(*person_, room)
+  const bool waits = room.is_for_target ? !person_ || isThere(*person_)
                                         : std::any_of(people_.begin(), people_.end(), isThere);
   if (!waits || room.since_s > params_.makes_room_s || room.waited_s > params_.waits_aside_s) {
     making_room_.reset();
@@ -274,13 +276,6 @@ const MovingPerson* Follower::whoWantsPast() {
   return waits == end ? nullptr : &*waits;
 }
 
-// They are beyond where it was, not beside where it is, and on their way.
-bool Follower::hasPassed(const MovingPerson& person, const MakingRoom& room) const {
-  const Vector2d from_robot = person.position - step_.robot.pose.position;
-  return (person.position - room.before).dot(room.person - room.before) < 0.0 &&
-         from_robot.norm() > params_.near_m && person.velocity.dot(from_robot) > 0.0;
-}
-
 bool Follower::isInTheWayOf(const MovingPerson& person) const {
   const Vector2d& here = step_.robot.pose.position;
   const Vector2d to_robot = here - person.position;
@@ -300,7 +295,7 @@ void Follower::goAside(const MovingPerson& person) {
     if (!plan_.found() || !is_near || (plan_.end - place).norm() > params_.wayside.apart_m) {
       continue;
     }
-    making_room_ = MakingRoom{place, here, person.position, person_ && &person == &*person_};
+    making_room_ = MakingRoom{place, here, person_ && &person == &*person_};
     local_planner_.reset();
     return;
   }
@@ -313,7 +308,7 @@ void Follower::driveTo(const Vector2d& goal) {
   if (!plan_.found()) {  // What is in the way may be gone by then: as the map has it.
     planner_.setObstacles({});
     planner_.plan(pose.position, goal, plan_);
-    planner_.setObstacles(unseen_.standing(), &layer_.window());
+    planner_.setObstacles(unseen_.standing(), &things_);
   }
   if (!plan_.found()) plan_.path.clear();
   step_.velocity = localCommand(looks_away_ ? std::nullopt : step_.target);

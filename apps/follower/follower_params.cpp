@@ -51,6 +51,7 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   check(params);
   requireNotNegative("RobotDescription", {robot.scan_latency_s, robot.wheels_latency_s});
   params.obstacles.max_height_m = params.obstacle_points.max_height_m = robot.height_m;
+  params.obstacles.min_height_m = 0.0;  // All that obstacle_points gives is something.
   params.obstacles.laser_height_m = robot.scanner_height_m;
   params.gate.eye_height_m = robot.camera.T_base_camera.translation().z();
   params.paths.robot_radius_m = robot.drive.radius_m;

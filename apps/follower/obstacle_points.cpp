@@ -89,12 +89,28 @@ bool ObstaclePoints::seesThrough(const Eigen::Vector3f& point) const {
   if (u < 1 || v < 1 || u + 1 >= depth_m_.cols || v + 1 >= depth_m_.rows || isBlank(v, u)) {
     return false;
   }
+  int through = 0, floor = 0;
   for (int y = v - 1; y <= v + 1; ++y) {
     for (int x = u - 1; x <= u + 1; ++x) {  // Not where it is not a number.
-      if (!(depth_m_.at<float>(y, x) > seen.z() + kBehind_m)) return false;
+      const float depth_m = depth_m_.at<float>(y, x);
+      through += depth_m > seen.z() + kBehind_m ? 1 : 0;
+      floor += std::abs(heightAt(y, x)) < deepAt(depth_m) ? 1 : 0;
     }
   }
-  return true;
+  return point.z() > 0.0F ? through == 9 : floor > 4;
+}
+
+// How far from the floor what is on it may seem: of an error in the depth d the height has eye / d.
+float ObstaclePoints::deepAt(float depth_m) const {
+  const auto least = static_cast<float>(params_.min_depth_m);
+  if (sensor_ != SensorKind::kStereo) return least;
+  const float error_per_m = 2.0F * static_cast<float>(depthErrorOf(camera_));
+  return std::max(least, depth_m * T_base_camera_.translation().z() * error_per_m);
+}
+
+float ObstaclePoints::heightAt(int v, int u) const {
+  const Eigen::Vector3f ray = rayOf(camera_.left, u, v).cast<float>();
+  return (T_base_camera_ * Eigen::Vector3f(depth_m_.at<float>(v, u) * ray)).z();
 }
 
 bool ObstaclePoints::isBlank(int v, int u) const {
@@ -116,20 +132,22 @@ void ObstaclePoints::collect() {
   const auto low = static_cast<float>(params_.min_height_m);
   const auto high = static_cast<float>(params_.max_height_m);
   const auto range = static_cast<float>(params_.max_range_m);
-  const auto least_deep = static_cast<float>(params_.min_depth_m);
-  // Of an error in the depth d the height has eye / d.
-  const float error_per_m =
-      sensor_ == SensorKind::kStereo ? 2.0F * static_cast<float>(depthErrorOf(camera_)) : 0.0F;
   for (int v = 0; v < depth_m_.rows; ++v) {
     const float* depth = depth_m_.ptr<float>(v);
     for (int u = 0; u < depth_m_.cols; ++u) {
       if (!(depth[u] > nearest && std::isfinite(depth[u]))) continue;  // NaN too
       if (isBlank(v, u)) continue;
       const Eigen::Vector3f seen = rayOf(camera, u, v).cast<float>() * depth[u];
-      Eigen::Vector3f point = T_base_camera_ * seen;
-      if (point.z() < -std::max(least_deep, depth[u] * eye.z() * error_per_m)) {
-        point = eye + eye.z() / (eye.z() - point.z()) * (point - eye);
-        points_.emplace_back(point.x(), point.y(), low);
+      const Eigen::Vector3f point = T_base_camera_ * seen;
+      if (point.z() < -deepAt(depth[u])) {
+        for (const double across : {-0.25, 0.25}) {
+          for (const double down : {-0.25, 0.25}) {
+            const Eigen::Vector3f ray =
+                T_base_camera_.linear() * rayOf(camera, u + across, v + down).cast<float>();
+            const Eigen::Vector3f there = eye - eye.z() / ray.z() * ray;
+            points_.emplace_back(there.x(), there.y(), 0.0F);
+          }
+        }
         continue;
       }
       if (point.z() < low || point.z() > high) continue;

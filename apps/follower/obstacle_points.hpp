@@ -6,6 +6,7 @@
 #pragma once
 
 #include <heel/apps/follower/camera_setup.hpp>
+#include <heel/apps/follower/depth_sight.hpp>
 #include <heel/apps/recording/frame.hpp>
 #include <heel/cloud/stereo_matcher.hpp>
 
@@ -39,16 +40,22 @@ class ObstaclePoints {
   ObstaclePoints(const CameraSetup& setup, const ObstaclePointsParams& params = {});
 
   /// Points in the base frame; valid until the next call. Of what is below the floor, where it is
-  /// seen through the floor.
+  /// seen through the floor, at height 0: four of each pixel, which is as long there as a cell.
   const std::vector<Eigen::Vector3f>& of(const Frame& frame);
 
   /// Whether the last frame shows what is behind a point in the base frame: all depths around it
-  /// are greater.
+  /// are greater. A step (at height 0) has gone when floor is seen there.
   bool seesThrough(const Eigen::Vector3f& point) const;
+  /// What the last frame shows of places in the base frame; valid until the next call of of().
+  DepthSight sight() const {
+    return {depth_m_, camera_.left, T_base_camera_.inverse().cast<double>()};
+  }
 
  private:
   void findTexture();
   bool isBlank(int v, int u) const;
+  float deepAt(float depth_m) const;
+  float heightAt(int v, int u) const;
   void collect();
 
   SensorKind sensor_;

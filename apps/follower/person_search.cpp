@@ -12,23 +12,23 @@ PersonSearch::PersonSearch(const OccupancyGrid& floor, const OccupancyGrid& sigh
   requireNotNegative("PersonSearchParams", {params.budget_s, params.new_view_s});
 }
 
-void PersonSearch::lose(const MovingPerson& last, double unseen_s) {
-  map_.start(last.position, last.velocity);
-  map_.spread(unseen_s);
+void PersonSearch::lose(const MovingPerson& last, double unseen_s, double probability) {
+  map_.start(last.position, last.velocity, unseen_s, probability);
   view_.reset();
   searched_s_ = 0.0;
   is_over_ = false;
 }
 
 bool PersonSearch::choose(double elapsed_s, const FloorPose& robot, bool is_there,
-                          FunctionRef<bool(const Eigen::Vector2d&)> is_open) {
+                          FunctionRef<double(const Eigen::Vector2d&)> way_m) {
   searched_s_ += elapsed_s;
   view_age_s_ += elapsed_s;
   if (view_ && !is_there && view_age_s_ <= params_.new_view_s) return false;
-  view_ = map_.nextView(robot, is_open);
+  const std::optional<SearchView> before = view_;
+  view_ = map_.nextView(robot, way_m);
   view_age_s_ = 0.0;
   is_over_ = !view_;
-  return true;
+  return !before || !view_ || view_->camera.position != before->camera.position;
 }
 
 }  // namespace heel

@@ -28,20 +28,24 @@ class PersonSearch {
                const PersonSearchParams& params = {});
 
   /// They are lost; a while ago they were here, and walked so.
-  void lose(const MovingPerson& last, double unseen_s);
+  /// @param probability  That it was they; else they are still where they were looked for before.
+  void lose(const MovingPerson& last, double unseen_s, double probability);
   /// Time goes by without them.
   void wait(double elapsed_s) { map_.spread(elapsed_s); }
-  /// They were not before the camera, which looked from here.
-  void look(const FloorPose& camera, double elapsed_s) { map_.look(camera, elapsed_s); }
+  /// They were not before the camera, which looked from here. @param is_hidden  See SearchMap.
+  void look(const FloorPose& camera, double elapsed_s,
+            FunctionRef<bool(const Eigen::Vector2d&)> is_hidden) {
+    map_.look(camera, elapsed_s, is_hidden);
+  }
   /// Nor where the laser's beams went through.
   void scan(const LaserScan& scan, const FloorPose& scanner, double elapsed_s) {
     map_.scan(scan, scanner, elapsed_s);
   }
 
   /// Chooses what to look at, if the last choice is old or the robot `is_there`; takes from the
-  /// budget. @param is_open  See SearchMap::nextView(). @return whether there is a new choice.
+  /// budget. @param way_m  See SearchMap::nextView(). @return whether it is another place.
   bool choose(double elapsed_s, const FloorPose& robot, bool is_there,
-              FunctionRef<bool(const Eigen::Vector2d&)> is_open);
+              FunctionRef<double(const Eigen::Vector2d&)> way_m);
   /// The choice; nothing if nothing is left to look at.
   const std::optional<SearchView>& view() const { return view_; }
   /// Another choice, next time.

@@ -22,6 +22,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -97,19 +98,19 @@ std::optional<double> searchedFor(std::uint64_t seed, bool& was_lost) {
     if (!was_lost) {
       if (unseen_s < kLost_s) continue;
       was_lost = true;
-      search.lose(last, unseen_s);
+      search.lose(last, unseen_s, 1.0);
     }
     searched_s += kStep_s;
     search.wait(kStep_s);
-    search.look(pose, kStep_s);
+    search.look(pose, kStep_s, [](const Vector2d&) { return false; });
     if (now.laser != nullptr) {
       search.scan(*now.laser, pose * heel::FloorPose{scene.robot.laser.at.head<2>(), 0.0}, kStep_s);
     }
-    const auto is_open = [&](const Vector2d& place) {
+    const auto way_m = [&](const Vector2d& place) {
       planner.plan(pose.position, place, plan);
-      return plan.found();
+      return plan.found() ? plan.length_m : std::numeric_limits<double>::infinity();
     };
-    search.choose(kStep_s, pose, is_there, is_open);
+    search.choose(kStep_s, pose, is_there, way_m);
     is_there = false;
     if (search.isOver()) return std::nullopt;
     const auto& view = search.view();

@@ -333,6 +333,21 @@ TEST(ObstacleLayer, WhatTheCameraSawStaysUntilItSeesThroughIt) {
   EXPECT_FALSE(occupied(layer, 0.82, 0.02)) << "not for ever: ten times as long as it was seen";
 }
 
+TEST(ObstacleLayer, TellsStepsFromThings) {
+  ObstacleLayerParams params;
+  params.min_height_m = 0.0;
+  ObstacleLayer layer(params);
+  auto points = thrice(1.02, 0.02, 0.0);
+  for (const Eigen::Vector3f& p : thrice(1.52, 0.02, 0.3)) points.push_back(p);
+  for (const Eigen::Vector3f& p : thrice(1.52, 0.02, 0.0)) points.push_back(p);
+  seePoints(layer, 0.0, points);
+  EXPECT_EQ(layer.obstacles().size(), 2U);
+  ASSERT_EQ(layer.steps().size(), 1U);
+  EXPECT_LT((layer.steps()[0] - Eigen::Vector2d(1.025, 0.025)).norm(), 1e-6);
+  seeNothing(layer, 1.0);
+  EXPECT_TRUE(layer.steps().empty());
+}
+
 TEST(ObstacleLayer, WhatIsTouchedIsKnownUntilItIsOld) {
   ObstacleLayer layer;
   layer.begin(0.0, {{1.0, 0.0}, 0.0});

@@ -526,6 +526,15 @@ TEST(LastGate, KnowsAChestThatIsBelowThePicture) {
   EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.2).reason, GateReason::kFree);
 }
 
+TEST(LastGate, StopsBeforeAStepThatIsKnownFromBefore) {
+  Gate at(9.0);
+  const DriveState near{{{0.25, 0.0}, 0.0}, {0.3, 0.0}};
+  at.gate.addPoints({}, near.pose, 10.0, {{0.35, 0.0}, {3.0, 0.0}});
+  EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.0).reason, GateReason::kThing);
+  at.gate.addPoints({}, near.pose, 10.1, {{3.0, 0.0}});  // Floor was seen there.
+  EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.1).reason, GateReason::kFree);
+}
+
 TEST(LastGate, StopsOnWhatIsNotANumber) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const GatedVelocity& out : {Gate(3.0).pass(nan, 0.0), Gate(3.0).pass(0.1, kInfinite),

@@ -8,11 +8,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
 namespace heel {
 namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 // clang-format off
 const std::vector<std::string> kThreeRooms = {  // cells of 0.2 m: 8.2 m x 4.2 m
@@ -159,6 +162,30 @@ TEST(SearchMap, WhatTheCameraLookedAtLosesItsShare) {
   EXPECT_GT(hidden_gain, 1.0);
 }
 
+TEST(SearchMap, WhoIsHiddenByWhatNoMapShowsMayBeThere) {
+  SearchMap looks = threeRooms();
+  looks.start(kMiddle, {0.0, 0.0});
+  looks.spread(10.0);
+  const std::vector<double> before = looks.belief();
+  looks.look({{2.71, 2.13}, 0.0}, 1.0, [](const Eigen::Vector2d&) { return true; });
+  for (std::size_t c = 0; c < before.size(); ++c) ASSERT_NEAR(looks.belief()[c], before[c], 1e-12);
+}
+
+TEST(SearchMap, WhatWasBelievedStaysAsFarAsItWasSomebodyElse) {
+  SearchMap map = threeRooms();
+  map.start({1.1, 2.1}, {0.0, 0.0});
+  map.spread(5.0);
+  const double before = leftRoom(map);
+  ASSERT_GT(before, 0.9);
+  map.start({8.0, 2.1}, {0.0, 0.0}, 1.0, 0.3);
+  EXPECT_NEAR(leftRoom(map), 0.7 * before, 1e-4);
+  EXPECT_NEAR(rightRoom(map), 0.3, 1e-4);
+  map.spread(3.0);
+  EXPECT_NEAR(rightRoom(map), 0.3, 0.05) << "who was there goes on from there";
+  map.start({8.0, 2.1}, {0.0, 0.0});
+  EXPECT_NEAR(leftRoom(map), 0.0, 1e-9);
+}
+
 TEST(SearchMap, WhoIsNotInViewIsElsewhere) {
   SearchMap map = threeRooms();
   map.start(kMiddle, {0.0, 0.0});
@@ -203,13 +230,27 @@ TEST(SearchMap, GoesWhereTheWayIsOpenFirst) {
   const auto likeliest = map.nextView(robot);
   ASSERT_TRUE(likeliest);
   const auto is_left = [](const Eigen::Vector2d& place) { return place.x() < kMiddle.x() - 1.0; };
-  const auto open = map.nextView(robot, is_left);
+  const auto open =
+      map.nextView(robot, [&](const Eigen::Vector2d& p) { return is_left(p) ? 0.0 : kInfinite; });
   ASSERT_TRUE(open);
   EXPECT_TRUE(is_left(open->camera.position));
   EXPECT_LT(open->chance, likeliest->chance);
-  const auto nothing_open = map.nextView(robot, [](const Eigen::Vector2d&) { return false; });
+  const auto nothing_open = map.nextView(robot, [](const Eigen::Vector2d&) { return kInfinite; });
   ASSERT_TRUE(nothing_open);
   EXPECT_EQ(nothing_open->camera.position, likeliest->camera.position);
+}
+
+TEST(SearchMap, GoesRatherWhereTheWayIsShort) {
+  SearchMap map = threeRooms();
+  map.start(kMiddle, {0.0, 0.0});
+  map.spread(10.0);
+  const auto is_left = [](const Eigen::Vector2d& p) { return p.x() < kMiddle.x(); };
+  for (const bool left : {true, false}) {  // Equal but for a detour of 30 m.
+    const auto view = map.nextView(
+        {kMiddle, 1.57}, [&](const Eigen::Vector2d& p) { return is_left(p) == left ? 0.0 : 30.0; });
+    ASSERT_TRUE(view);
+    EXPECT_EQ(is_left(view->camera.position), left);
+  }
 }
 
 TEST(SearchMap, FindsSomebodyWhoHidesByLookingWhereItSays) {

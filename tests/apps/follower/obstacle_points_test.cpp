@@ -101,6 +101,8 @@ TEST(ObstaclePoints, AStepDownIsWhereTheFloorIsSeenThrough) {
   const CameraSetup setup = setupOf(SensorKind::kStereo);
   ObstaclePoints obstacles(setup);
   EXPECT_LT(obstacles.of(frameOf(room(setup))).size(), 20U);
+  const Eigen::Vector3f step(2.9F, 0.02F, 0.0F);
+  EXPECT_TRUE(obstacles.seesThrough(step)) << "floor is seen there";
   const auto points =
       obstacles.of(frameOf(with(room(setup, kCamera_m + 0.3), level(setup, kCamera_m, 1.5, 2.6))));
   ASSERT_GT(points.size(), 200U);
@@ -110,6 +112,9 @@ TEST(ObstaclePoints, AStepDownIsWhereTheFloorIsSeenThrough) {
   const auto nearest = std::min_element(points.begin(), points.end(),
                                         [](auto& a, auto& b) { return a.x() < b.x(); });
   EXPECT_NEAR(nearest->x(), 2.65F, 0.15F);
+  const auto isStep = [](const Eigen::Vector3f& p) { return p.z() == 0.0F; };
+  EXPECT_TRUE(std::all_of(points.begin(), points.end(), isStep));
+  EXPECT_FALSE(obstacles.seesThrough(step)) << "nothing is seen there";
 }
 
 TEST(ObstaclePoints, SeesThroughWhereAllAroundIsFartherAway) {
