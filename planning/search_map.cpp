@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kNoShare = 1e-12;  // below this a share is none
-constexpr double kNever_s = std::numeric_limits<double>::infinity();
 constexpr double kNoChance = 1e-6;  // below this a cell is not worth a look
 
 void requirePositive(const SearchMapParams& p) {
@@ -41,7 +40,8 @@ SearchMap::SearchMap(const OccupancyGrid& floor, const OccupancyGrid& sight,
       next_(shares_),
       belief_(shares_.size(), 0.0),
       others_(shares_),
-      reached_s_(shares_.size(), kNever_s) {
+      reached_s_(shares_.size(), std::numeric_limits<double>::infinity()),
+      speed_mps_(params.usual_speed_mps) {
   if (floor_.nearestFree(floor.origin_m()) < 0) {
     throw std::invalid_argument("no one can stand anywhere on this map");
   }
@@ -89,19 +89,17 @@ void SearchMap::start(const Eigen::Vector2d& position, const Eigen::Vector2d& ve
   if (!(probability >= 0.0 && probability <= 1.0)) {
     throw std::invalid_argument("a probability is 0 to 1");
   }
-  const bool is_first = walked_m_.empty();
   floor_.walkingDistances(floor_.nearestFree(position), walked_m_, open_);
   // Never before they were there, and for the place's error they may have been a little further.
-  const double own_share = is_first ? 1.0 : probability;
   const double then_s = clock_s_ - ago_s;
   for (std::size_t c = 0; c < reached_s_.size(); ++c) {
     const double way_m = static_cast<double>(walked_m_[c]) - 2.0 * params_.place_sigma_m;
     const double reached_s = then_s + std::max(way_m, 0.0) / kFastestWalk_mps;
-    reached_s_[c] = own_share < 1.0 ? std::min(reached_s_[c], reached_s) : reached_s;
+    reached_s_[c] = probability < 1.0 ? std::min(reached_s_[c], reached_s) : reached_s;
   }
   const double speed = velocity.norm();
   speed_mps_ +=
-      own_share * (std::clamp(speed, params_.usual_speed_mps, kFastestWalk_mps) - speed_mps_);
+      probability * (std::clamp(speed, params_.usual_speed_mps, kFastestWalk_mps) - speed_mps_);
   // The faster one walked, the surer one goes on that way.
   Shares ways{};
   const double sureness = 6.0 * speed;
@@ -122,9 +120,9 @@ void SearchMap::start(const Eigen::Vector2d& position, const Eigen::Vector2d& ve
   clock_s_ = then_s;
   carried_s_ = 0.0;
   spread(ago_s);
-  for (std::size_t c = 0; c < shares_.size() && own_share < 1.0; ++c) {
+  for (std::size_t c = 0; c < shares_.size() && probability < 1.0; ++c) {
     for (std::size_t way = 0; way < kHeadings; ++way) {
-      shares_[c][way] = own_share * shares_[c][way] + (1.0 - own_share) * others_[c][way];
+      shares_[c][way] = probability * shares_[c][way] + (1.0 - probability) * others_[c][way];
     }
   }
   sumUp();

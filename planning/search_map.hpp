@@ -93,9 +93,8 @@ class SearchMap {
   /// The place from which there is most to see per time, getting there and turning once around
   /// included, and the look from it that promises most. None before start(), or where no chance is
   /// left within reach. Ask again after each look.
-  /// @param way_m  How long the way to a place is now, if it is longer than the map has it;
-  /// infinite
-  ///               where none leads. Such places come last: what is in the way may be gone by then.
+  /// @param way_m  How long the way to a place is now, if longer than on the map; infinite where
+  ///               none leads: such places come last, what is in the way may be gone by then.
   std::optional<SearchView> nextView(const FloorPose& camera,
                                      FunctionRef<double(const Eigen::Vector2d&)> way_m);
   std::optional<SearchView> nextView(const FloorPose& camera) {
@@ -129,7 +128,7 @@ class SearchMap {
   std::vector<float> walked_m_;    ///< From where the person was last seen.
   std::vector<double> reached_s_;  ///< On the clock: nobody can have walked there sooner.
   CoarseFloor::Open open_;
-  double speed_mps_ = 0.0;
+  double speed_mps_;
   double clock_s_ = 0.0;
   double carried_s_ = 0.0;  ///< Time that has gone by but is less than a step.
 

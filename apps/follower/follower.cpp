@@ -224,22 +224,21 @@ void Follower::lookAround(const RobotReadings& readings) {
   if (readings.frame != nullptr && obstacles_age_s_ > params_.obstacles_every_s - 1e-6) {
     const std::vector<Eigen::Vector3f>& points = obstacle_points_.of(*readings.frame);
     const FloorPose T_base_then = motion_.seenFromNow(frame_s_);
+    const FloorPose then = pose * T_base_then, T_then_world = then.inverse();
     steps_.clear();
-    for (const Vector2d& step : layer_.steps()) {
-      steps_.push_back((pose * T_base_then).inverse() * step);
-    }
+    for (const Vector2d& step : layer_.steps()) steps_.push_back(T_then_world * step);
     last_gate_.addPoints(points, motion_.at(frame_s_), frame_s_, steps_);
     keepUnmapped(points, T_base_then);
     layer_.addPoints(unmapped_);
     layer_.clear([&, T_then_base = T_base_then.inverse()](const Eigen::Vector3f& point) {
-      const Eigen::Vector2f then =
+      const Eigen::Vector2f seen =
           (T_then_base * Vector2d(point.head<2>().cast<double>())).cast<float>();
-      return obstacle_points_.seesThrough({then.x(), then.y(), point.z()});
+      return obstacle_points_.seesThrough({seen.x(), seen.y(), point.z()});
     });
     if (search_) {
-      const FloorPose then = pose * T_base_then;
-      search_->look(then, obstacles_age_s_, [&, T_then_world = then.inverse()](const Vector2d& p) {
-        return obstacle_points_.sight().at(T_then_world * p) == Sight::kHidden;
+      const DepthSight sight = obstacle_points_.sight();
+      search_->look(then, obstacles_age_s_, [&](const Vector2d& place) {
+        return sight.at(T_then_world * place) == Sight::kHidden;
       });
     }
     obstacles_age_s_ = 0.0;

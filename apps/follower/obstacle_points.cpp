@@ -55,6 +55,10 @@ ObstaclePoints::ObstaclePoints(const CameraSetup& setup, const ObstaclePointsPar
     : sensor_((check(params), setup.sensor)),
       camera_(shrunk(setup.camera, params.width_px)),
       T_base_camera_(setup.T_base_camera.cast<float>()),
+      deep_per_m_(sensor_ == SensorKind::kStereo
+                      ? 2.0F * static_cast<float>(depthErrorOf(camera_)) *
+                            T_base_camera_.translation().z()
+                      : 0.0F),
       params_(params),
       matcher_(matching(camera_, params.nearest_m)) {}
 
@@ -89,23 +93,22 @@ bool ObstaclePoints::seesThrough(const Eigen::Vector3f& point) const {
   if (u < 1 || v < 1 || u + 1 >= depth_m_.cols || v + 1 >= depth_m_.rows || isBlank(v, u)) {
     return false;
   }
-  int through = 0, floor = 0;
+  const bool is_step = !(point.z() > 0.0F);
+  int through = 0;
   for (int y = v - 1; y <= v + 1; ++y) {
     for (int x = u - 1; x <= u + 1; ++x) {  // Not where it is not a number.
       const float depth_m = depth_m_.at<float>(y, x);
-      through += depth_m > seen.z() + kBehind_m ? 1 : 0;
-      floor += std::abs(heightAt(y, x)) < deepAt(depth_m) ? 1 : 0;
+      const bool is_through =
+          is_step ? std::abs(heightAt(y, x)) < deepAt(depth_m) : depth_m > seen.z() + kBehind_m;
+      through += is_through ? 1 : 0;
     }
   }
-  return point.z() > 0.0F ? through == 9 : floor > 4;
+  return through >= (is_step ? 5 : 9);  // Floor has gaps in its depth.
 }
 
 // How far from the floor what is on it may seem: of an error in the depth d the height has eye / d.
 float ObstaclePoints::deepAt(float depth_m) const {
-  const auto least = static_cast<float>(params_.min_depth_m);
-  if (sensor_ != SensorKind::kStereo) return least;
-  const float error_per_m = 2.0F * static_cast<float>(depthErrorOf(camera_));
-  return std::max(least, depth_m * T_base_camera_.translation().z() * error_per_m);
+  return std::max(static_cast<float>(params_.min_depth_m), deep_per_m_ * depth_m);
 }
 
 float ObstaclePoints::heightAt(int v, int u) const {

@@ -61,6 +61,7 @@ class ObstaclePoints {
   SensorKind sensor_;
   StereoCamera camera_;  // of the small images
   Eigen::Isometry3f T_base_camera_;
+  float deep_per_m_;  // error of a height, for each metre of depth
   ObstaclePointsParams params_;
   StereoMatcher matcher_;
   cv::Mat left_, right_, disparity_, depth_m_;
