@@ -189,6 +189,21 @@ class DoorwaySearch {
 
 }  // namespace
 
+double inPassage(const DoorwayOnMap& doorway, const Eigen::Vector2d& point, double depth_m,
+                 double radius_m) {
+  const Eigen::Vector2d local = doorway.local(point).cwiseAbs();
+  const double across = 0.5 * doorway.width_m + radius_m;
+  if (local.x() >= depth_m || local.y() >= across) return 0.0;
+  return (1.0 - local.x() / depth_m) * std::min(1.0, 2.0 * (1.0 - local.y() / across));
+}
+
+bool isInPassage(const std::vector<DoorwayOnMap>& doorways, const Eigen::Vector2d& point,
+                 double depth_m, double radius_m) {
+  return std::any_of(doorways.begin(), doorways.end(), [&](const DoorwayOnMap& doorway) {
+    return inPassage(doorway, point, depth_m, radius_m) > 0.0;
+  });
+}
+
 std::vector<DoorwayOnMap> findDoorways(const OccupancyGrid& map, const DoorwayParams& params) {
   if (map.empty()) throw std::invalid_argument("a map without cells has no doorways");
   if (!(params.min_width_m > 0.0) || !(params.max_width_m > params.min_width_m) ||

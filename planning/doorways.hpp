@@ -40,6 +40,16 @@ struct DoorwayOnMap {
   }
 };
 
+/// How far inside a doorway's passage a point is: 1 in its middle line and plane, 0 outside.
+/// Whoever goes through is as wide as the doorway; so far before and behind it, a robot's edge is
+/// in there.
+double inPassage(const DoorwayOnMap& doorway, const Eigen::Vector2d& point, double depth_m,
+                 double radius_m);
+
+/// Whether it is in any of them.
+bool isInPassage(const std::vector<DoorwayOnMap>& doorways, const Eigen::Vector2d& point,
+                 double depth_m, double radius_m);
+
 /// The doorways of a map, the narrowest first. A doorway is a place whose free floor is narrow
 /// across for a short stretch, opens to a room on at least one side, and whose two sides are joined
 /// by no short way round it, so that a gap between a table and a wall is none. What is unknown

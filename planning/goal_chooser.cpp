@@ -27,79 +27,54 @@ GoalChooser::GoalChooser(const GoalChooserParams& params) : params_(params) {
   }
 }
 
-double inPassage(const DoorwayOnMap& doorway, const Vector2d& point, double depth_m,
-                 double radius_m) {
-  const Vector2d local = doorway.local(point).cwiseAbs();
-  // Whoever goes through is as wide as the doorway; the robot's edge must not be in there.
-  const double across = 0.5 * doorway.width_m + radius_m;
-  if (local.x() >= depth_m || local.y() >= across) return 0.0;
-  return (1.0 - local.x() / depth_m) * std::min(1.0, 2.0 * (1.0 - local.y() / across));
-}
-
-std::optional<StandPlace> GoalChooser::choose(const MovingPerson& target, const FloorPose& robot,
-                                              Clearance clearance, LineOfSight sees,
-                                              const std::vector<DoorwayOnMap>& doorways) {
+std::optional<Vector2d> GoalChooser::choose(const MovingPerson& target, const Vector2d& robot,
+                                            Clearance clearance, LineOfSight sees,
+                                            const std::vector<DoorwayOnMap>& doorways) {
   const GoalChooserParams& p = params_;
-  if (!target.position.allFinite() || !target.velocity.allFinite() || !robot.position.allFinite()) {
+  if (!target.position.allFinite() || !target.velocity.allFinite() || !robot.allFinite()) {
     last_.reset();
     return std::nullopt;
   }
   const Vector2d person = target.position + p.lead_s * target.velocity;
-  const double speed = target.velocity.norm();
   const double need = p.radius_m + p.margin_m;
 
-  const auto judge = [&](const Vector2d& at) -> StandPlace {
-    StandPlace out;
-    out.cost = kImpossible;
-    const Vector2d to = person - at;
-    const double off = to.norm();
+  const auto costOf = [&](const Vector2d& at) {
+    const double off = (person - at).norm();
     const double room = clearance(at);
-    if (off < p.least_standoff_m || off > p.most_standoff_m || !(room >= need)) return out;
-    const double way = (at - robot.position).norm();
+    if (off < p.least_standoff_m || off > p.most_standoff_m || !(room >= need)) return kImpossible;
+    const double way = (at - robot).norm();
     double passage = 0.0;
     for (const DoorwayOnMap& d : doorways) {
       passage = std::max(passage, inPassage(d, at, p.doorway_depth_m, p.radius_m));
     }
-    out.in_doorway = passage > 0.0;
-    out.in_view = sees(at, target.position);
-    out.pose = {at, std::atan2(to.y(), to.x())};
-    out.cost = p.way_cost * way + p.standoff_cost * std::abs(off - p.standoff_m) +
-               p.doorway_cost * passage + (out.in_view ? 0.0 : p.unseen_cost);
-    out.cost += p.narrow_cost * std::clamp(1.0 - (room - need) / 0.3, 0.0, 1.0);
-    if (speed > 0.1) {
-      const double ahead = -to.dot(target.velocity) / (off * speed);  // 1 = right before them.
-      out.cost += p.ahead_cost * std::max(ahead, 0.0) * std::min(speed, 1.0);
-    }
-    return out;
+    return p.way_cost * way + p.standoff_cost * std::abs(off - p.standoff_m) +
+           p.doorway_cost * passage + (sees(at, target.position) ? 0.0 : p.unseen_cost) +
+           p.narrow_cost * std::clamp(1.0 - (room - need) / 0.3, 0.0, 1.0);
   };
 
-  StandPlace best;
-  best.cost = kImpossible;
-  const Vector2d from = robot.position - person;
+  Vector2d best = robot;
+  double least = kImpossible;
+  const auto consider = [&](const Vector2d& place, double favour) {
+    const double cost = costOf(place) - favour;
+    if (cost >= least) return;
+    least = cost;
+    best = place;
+  };
+  const Vector2d from = robot - person;
   const double first = from.norm() > 1e-6 ? std::atan2(from.y(), from.x()) : 0.0;
   const double middle = 0.5 * (p.standoff_m + p.most_standoff_m);
   for (const double distance : {p.standoff_m, 0.5 * (p.standoff_m + p.least_standoff_m), middle,
                                 p.most_standoff_m - 1e-9}) {
     for (int i = 0; i < kBearings; ++i) {
       const double bearing = first + 2.0 * M_PI * i / kBearings;
-      const StandPlace place =
-          judge(person + distance * Vector2d(std::cos(bearing), std::sin(bearing)));
-      if (place.cost < best.cost) best = place;
+      consider(person + distance * Vector2d(std::cos(bearing), std::sin(bearing)), 0.0);
     }
   }
-  // Where it stands may do.
-  const StandPlace here = judge(robot.position);
-  if (here.cost < best.cost) best = here;
-  if (last_) {
-    const StandPlace kept = judge(*last_);
-    if (kept.cost < best.cost + p.keep_m * p.way_cost) best = kept;
-  }
-  if (best.cost == kImpossible) {
-    last_.reset();
-    return std::nullopt;
-  }
-  last_ = best.pose.position;
-  return best;
+  consider(robot, 0.0);  // Where it stands may do.
+  if (last_) consider(*last_, p.keep_m * p.way_cost);
+  last_.reset();
+  if (least < kImpossible) last_ = best;
+  return last_;
 }
 
 }  // namespace heel

@@ -5,7 +5,6 @@
 /// Where to stand to be with a person: near, in view, and in nobody's way.
 #pragma once
 
-#include <heel/mapping/floor_pose.hpp>
 #include <heel/planning/doorways.hpp>
 #include <heel/planning/surroundings.hpp>
 
@@ -31,16 +30,7 @@ struct GoalChooserParams {
   /// Cost of standing in the middle of a passage; less towards its rims.
   double doorway_cost = 2.0;
   double narrow_cost = 0.5;  ///< Cost of having no more room than needed; 0 with 0.3 m more.
-  double ahead_cost = 0.6;   ///< Cost of standing where a person is walking to at 1 m/s.
   double unseen_cost = 3.0;  ///< Cost of a place from which the person is not seen.
-};
-
-/// A place to stand, turned to the person.
-struct StandPlace {
-  FloorPose pose;
-  bool in_view = false;     ///< Whether the person is seen from there.
-  bool in_doorway = false;  ///< Whether that is in a passage.
-  double cost = 0.0;
 };
 
 /// Chooses among places on rings about the person; keeps the last choice unless another is clearly
@@ -53,11 +43,12 @@ class GoalChooser {
   /// @param target     Who to be with; nothing if that isn't finite.
   /// @param clearance  Distance to what stands, without the target.
   /// @param sees       Line of sight on the map.
-  /// @return  nothing if there is no place with room. Whether one can be reached is not asked: the
+  /// @return  a place [m, world], or nothing if none has room. Whether one can be reached is not
+  /// asked: the
   ///          way counts as the straight line.
-  std::optional<StandPlace> choose(const MovingPerson& target, const FloorPose& robot,
-                                   Clearance clearance, LineOfSight sees,
-                                   const std::vector<DoorwayOnMap>& doorways);
+  std::optional<Eigen::Vector2d> choose(const MovingPerson& target, const Eigen::Vector2d& robot,
+                                        Clearance clearance, LineOfSight sees,
+                                        const std::vector<DoorwayOnMap>& doorways);
 
   /// Forgets the last choice.
   void reset() { last_.reset(); }
@@ -68,9 +59,5 @@ class GoalChooser {
   GoalChooserParams params_;
   std::optional<Eigen::Vector2d> last_;
 };
-
-/// How far inside a doorway's passage a point is: 1 in its middle line and plane, 0 outside.
-double inPassage(const DoorwayOnMap& doorway, const Eigen::Vector2d& point, double depth_m,
-                 double radius_m);
 
 }  // namespace heel

@@ -57,7 +57,7 @@ const char* describe(DriveReason reason) {
   static constexpr std::array<const char*, 13> kTexts = {"on the way",
                                                          "turns to the path",
                                                          "at the goal",
-                                                         "turns to face the target",
+                                                         "turns to look",
                                                          "no path",
                                                          "gives way to a person",
                                                          "backs off to turn",

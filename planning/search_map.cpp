@@ -62,23 +62,31 @@ void SearchMap::findViews() {
   }
   const auto edge = index(2 * reach_cells_ + 1);
   is_visible_.assign(view_cells_.size() * edge * edge, false);
+  is_hidden_ = is_visible_;
+  hidden_s_.assign(view_cells_.size(), -std::numeric_limits<double>::infinity());
   for (std::size_t view = 0; view < view_cells_.size(); ++view) {
     const Eigen::Vector2d from = floor_.center(view_cells_[view]);
     for (int c = 0; c < floor_.cells(); ++c) {
       const Eigen::Vector2d to = floor_.center(c);
       const double range = (to - from).norm();
       if (!floor_.isFree(c) || range < params_.min_range_m || range > params_.max_range_m) continue;
-      is_visible_[visibleIndex(view, c)] = floor_.sees(from, to);
+      is_visible_[windowIndex(view, c)] = floor_.sees(from, to);
     }
   }
 }
 
-std::size_t SearchMap::visibleIndex(std::size_t view, int cell) const {
+std::size_t SearchMap::windowIndex(std::size_t view, int cell) const {
   const int from = view_cells_[view];
   const int edge = 2 * reach_cells_ + 1;
   const int x = cell % floor_.width() - from % floor_.width() + reach_cells_;
   const int y = cell / floor_.width() - from / floor_.width() + reach_cells_;
   return view * index(edge * edge) + index(y * edge + x);
+}
+
+bool SearchMap::isInWindow(std::size_t view, int cell) const {
+  const int from = view_cells_[view];
+  return std::abs(cell % floor_.width() - from % floor_.width()) <= reach_cells_ &&
+         std::abs(cell / floor_.width() - from / floor_.width()) <= reach_cells_;
 }
 
 void SearchMap::start(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity,
@@ -178,21 +186,44 @@ void SearchMap::walk() {
 
 void SearchMap::look(const FloorPose& camera, double elapsed_s,
                      FunctionRef<bool(const Eigen::Vector2d&)> is_hidden) {
-  thin(elapsed_s,
-       [&](const Eigen::Vector2d& place) { return isInView(camera, place) && !is_hidden(place); });
+  findViewsAt(camera.position);
+  thin(elapsed_s, [&](int cell) {
+    const Eigen::Vector2d place = floor_.center(cell);
+    if (!isInView(camera, place)) return false;
+    const bool hides = is_hidden(place);
+    for (const std::size_t view : views_here_) {
+      if (!isInWindow(view, cell)) continue;
+      is_hidden_[windowIndex(view, cell)] = hides;
+      if (hides) hidden_s_[view] = clock_s_;
+    }
+    return !hides;
+  });
 }
 
 void SearchMap::scan(const LaserScan& scan, const FloorPose& scanner, double elapsed_s) {
-  thin(elapsed_s,
-       [&](const Eigen::Vector2d& place) { return isSeenThrough(scan, scanner, place); });
+  thin(elapsed_s, [&](int cell) { return isSeenThrough(scan, scanner, floor_.center(cell)); });
 }
 
-void SearchMap::thin(double elapsed_s, FunctionRef<bool(const Eigen::Vector2d&)> is_empty) {
+// The views from which much the same is seen as from here. What hid something from them long ago is
+// forgotten.
+void SearchMap::findViewsAt(const Eigen::Vector2d& place) {
+  views_here_.clear();
+  for (std::size_t view = 0; view < view_cells_.size(); ++view) {
+    if ((floor_.center(view_cells_[view]) - place).norm() > params_.view_spacing_m) continue;
+    views_here_.push_back(view);
+    if (clock_s_ - hidden_s_[view] <= kStays_s) continue;
+    const std::size_t window = is_hidden_.size() / view_cells_.size();
+    const auto row = is_hidden_.begin() + static_cast<std::ptrdiff_t>(view * window);
+    std::fill(row, row + static_cast<std::ptrdiff_t>(window), false);
+  }
+}
+
+void SearchMap::thin(double elapsed_s, FunctionRef<bool(int cell)> is_empty) {
   if (!(elapsed_s >= 0.0)) throw std::invalid_argument("time does not go back");
   if (walked_m_.empty()) return;
   const double unnoticed = std::max(1e-6, std::exp(-elapsed_s / params_.notice_s));
   for (std::size_t c = 0; c < shares_.size(); ++c) {
-    if (belief_[c] < kNoShare || !is_empty(floor_.center(static_cast<int>(c)))) continue;
+    if (belief_[c] < kNoShare || !is_empty(static_cast<int>(c))) continue;
     for (double& share : shares_[c]) share *= unnoticed;
   }
   sumUp();
@@ -281,14 +312,20 @@ SearchMap::Bearings SearchMap::chancesAround(std::size_t view) const {
   Bearings chances{};
   const int cell = view_cells_[view];
   const int x0 = cell % floor_.width(), y0 = cell / floor_.width();
+  // Whoever hides something may have gone since.
+  const double hides = std::exp((hidden_s_[view] - clock_s_) / kStays_s);
+  const double shows = std::max(1.0 - hides, kNoChance);
   const int high_x = std::min(floor_.width() - 1, x0 + reach_cells_);
   const int high_y = std::min(floor_.height() - 1, y0 + reach_cells_);
   for (int y = std::max(0, y0 - reach_cells_); y <= high_y; ++y) {
     for (int x = std::max(0, x0 - reach_cells_); x <= high_x; ++x) {
       const int c = y * floor_.width() + x;
-      if (belief_[index(c)] < kNoChance || !is_visible_[visibleIndex(view, c)]) continue;
+      if (belief_[index(c)] < kNoChance) continue;
+      const std::size_t i = windowIndex(view, c);
+      if (!is_visible_[i]) continue;
       const double turns = std::atan2(y - y0, x - x0) / (2.0 * kPi) + 1.0;
-      chances[static_cast<std::size_t>(turns * kBearings) % kBearings] += belief_[index(c)];
+      chances[static_cast<std::size_t>(turns * kBearings) % kBearings] +=
+          (is_hidden_[i] ? shows : 1.0) * belief_[index(c)];
     }
   }
   return chances;

@@ -77,7 +77,8 @@ class SearchMap {
   void spread(double elapsed_s);
 
   /// The camera has looked from here for a while, and the person was not found.
-  /// @param is_hidden  Whether something that the map does not show stands before a place.
+  /// @param is_hidden  Whether something that the map does not show stands before a place. It is
+  ///                   taken to stay there for a while, and to hide the place from all around here.
   void look(const FloorPose& camera, double elapsed_s,
             FunctionRef<bool(const Eigen::Vector2d&)> is_hidden);
   void look(const FloorPose& camera, double elapsed_s) {
@@ -111,11 +112,13 @@ class SearchMap {
   void walk();
   void sumUp();
   void findViews();
-  void thin(double elapsed_s, FunctionRef<bool(const Eigen::Vector2d&)> is_empty);
+  void thin(double elapsed_s, FunctionRef<bool(int cell)> is_empty);
+  void findViewsAt(const Eigen::Vector2d& place);
   bool isSeenThrough(const LaserScan& scan, const FloorPose& scanner,
                      const Eigen::Vector2d& point) const;
   bool isInView(const FloorPose& camera, const Eigen::Vector2d& point) const;
-  std::size_t visibleIndex(std::size_t view, int cell) const;
+  std::size_t windowIndex(std::size_t view, int cell) const;
+  bool isInWindow(std::size_t view, int cell) const;
   Bearings chancesAround(std::size_t view) const;
   SearchView bestLook(std::size_t view, double way_s, double yaw_rad) const;
 
@@ -134,10 +137,13 @@ class SearchMap {
 
   int reach_cells_ = 0;           ///< Half the edge of a window around a view.
   std::vector<int> view_cells_;   ///< Places to look from.
-  std::vector<bool> is_visible_;  ///< Of the cells in the window around each view, row by row.
-  std::vector<float> way_m_;      ///< Of the robot; memory of nextView(), as the next are.
-  std::vector<double> chances_;   ///< By view, as the next,
-  std::vector<double> rates_;     ///< which is per time.
+  std::vector<bool> is_visible_;  ///< Of the cells in the window around each view, row by row,
+  std::vector<bool> is_hidden_;   ///< by something that the map does not show,
+  std::vector<double> hidden_s_;  ///< at this time on the clock, by view.
+  std::vector<std::size_t> views_here_;  ///< Memory of look().
+  std::vector<float> way_m_;             ///< Of the robot; memory of nextView(), as the next are.
+  std::vector<double> chances_;          ///< By view, as the next,
+  std::vector<double> rates_;            ///< which is per time.
   std::vector<std::size_t> by_rate_;
   CoarseFloor::Open way_open_;
 };

@@ -45,10 +45,7 @@ void findWaysides(const Vector2d& robot, const Vector2d& person, Clearance clear
     if ((place - person).norm() < params.away_m) return false;
     const Vector2d way = place - robot;
     if (way.dot(to_person) > kTowards * way.norm()) return false;
-    const auto leads = [&](const DoorwayOnMap& d) {
-      return inPassage(d, place, params.doorway_depth_m, params.radius_m) > 0.0;
-    };
-    return std::none_of(doorways.begin(), doorways.end(), leads) &&
+    return !isInPassage(doorways, place, params.doorway_depth_m, params.radius_m) &&
            leavesRoom(place, person, clearance, params);
   };
   for (double ring_m = kRing_m; ring_m <= params.reach_m; ring_m += kRing_m) {

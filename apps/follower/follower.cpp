@@ -14,7 +14,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kFullTurn_rad = 6.283185307179586;
 constexpr double kOpenFloor_m = 100.0;  // Without a map, so far across.
 // The robot has run into something if it is told to drive faster than kDrives_mps, and is slower
 // than kMoves_mps for kStalls_s. What it touches may be anywhere within kFeels_rad of its heading.
@@ -85,22 +84,32 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
       legs_(params_.legs),
       learner_(std::in_place, robot.camera, params_.learn),
       runner_(std::move(plan)),
-      room_(floor_, 1.0),
-      planner_(floor_, params_.paths),
-      local_planner_(params_.drive),
       last_gate_(params_.last_gate),
-      goal_chooser_(params_.goal),
-      doorways_(findDoorways(floor_)),
+      pilot_(floor_, params_.paths, params_.drive, params_.give_up_s),
+      make_room_(robot, params_, findDoorways(floor_)),
+      look_who_(params_),
       unseen_({params_.stands_mps, params_.walks_on_s, params_.beside_people_m,
                params_.target_radius_m}) {
   step_.robot.pose = start_;
   step_.robot.lost = false;
-  if (!walls_) return;
-  localization_.emplace(walls_->floorGrid(HeightBand::around(robot.scanner_height_m)),
-                        robot.T_base_scanner, params_.localization);
-  if (start) localization_->startAt(*start);
-  step_.robot = localization_->estimate();
-  search_.emplace(floor_, walls_->floorGrid({1.1, 1.4}), params_.search);
+  if (walls_) {
+    localization_.emplace(walls_->floorGrid(HeightBand::around(robot.scanner_height_m)),
+                          robot.T_base_scanner, params_.localization);
+    if (start) localization_->startAt(*start);
+    step_.robot = localization_->estimate();
+    search_.emplace(floor_, walls_->floorGrid({1.1, 1.4}), params_.search);
+  }
+  using Action = FollowingAction;
+  const std::vector<DoorwayOnMap> doorways = findDoorways(floor_);
+  exchange(Action::kFollow, std::make_unique<FollowTarget>(robot, params_, walls_, doorways));
+  exchange(Action::kFace, std::make_unique<FaceTarget>(robot, params_, walls_, doorways));
+  exchange(Action::kGoToLastSeen, std::make_unique<GoToLastSeen>(params_.near_m));
+  exchange(Action::kSeek, std::make_unique<SeekTarget>(params_.seek_radps, params_.walks_on_s));
+  exchange(Action::kSearch, std::make_unique<SearchForTarget>(search_ ? &*search_ : nullptr));
+}
+
+void Follower::exchange(FollowingAction action, std::unique_ptr<Behaviour> behaviour) {
+  behaviours_[static_cast<std::size_t>(action)] = std::move(behaviour);
 }
 
 const FollowStep& Follower::step(const RobotReadings& readings, const StageDone& done) {
@@ -136,7 +145,7 @@ const FollowStep& Follower::step(const RobotReadings& readings, const StageDone&
 
 // Where the clock jumps, none of the stages' time passes.
 void Follower::tellTime(double stamp_s) {
-  dt_s_ = watch_.elapsed_s();
+  now_.elapsed_s = watch_.elapsed_s();
   if (!watch_.timeJumped()) {
     steady_s_ = stamp_s + clock_offset_s_;
   } else if (std::isfinite(stamp_s)) {
@@ -187,13 +196,15 @@ void Follower::localize(const RobotReadings& readings) {
     const FloorPose from_motion = step_.robot.pose * motion_.pose().inverse();
     findHidingPlaces(
         *readings.scan, motion_.at(scan_s_) * robot_.T_base_scanner,
-        [&](const Vector2d& place) { return room_.clearance(from_motion * place); },
+        [&](const Vector2d& place) { return pilot_.room_m(from_motion * place); },
         MovingPerson().radius_m, hiding_places_);
   }
+  now_.robot = step_.robot.pose;
+  now_.turned_rad = watch_.increment().yaw_rad;
   const auto to_walls = [this](const Vector2d& p) {
     return localization_ ? localization_->field().distance_m(p) : kOpenFloor_m;
   };
-  legs_.step(readings.scan, poseAt(scan_s_) * robot_.T_base_scanner, to_walls, dt_s_);
+  legs_.step(readings.scan, poseAt(scan_s_) * robot_.T_base_scanner, to_walls, now_.elapsed_s);
 }
 
 void Follower::findOnMap(const LaserScan* scan) {
@@ -209,18 +220,18 @@ void Follower::lookAround(const RobotReadings& readings) {
   if (step_.is_learning) return;  // whoever is there now will be the one to follow
   const FloorPose& pose = step_.robot.pose;
   std::optional<FloorDisc> own;
-  if (step_.target) own = FloorDisc{*step_.target, params_.target_radius_m};
+  if (now_.target) own = FloorDisc{now_.target->position, params_.target_radius_m};
   layOutPeople({});  // What is seen there may walk off.
   layer_.begin(steady_s_, pose, own, people_discs_);
-  if (search_) search_->wait(dt_s_);
+  if (search_) search_->wait(now_.elapsed_s);
   if (readings.scan != nullptr) {
     const FloorPose T_base_scanner = motion_.seenFromNow(scan_s_) * robot_.T_base_scanner;
     layer_.addScan(*readings.scan, T_base_scanner,
                    [this](const Vector2d& p) { return isMapped(p); });
-    if (search_) search_->scan(*readings.scan, pose * T_base_scanner, dt_s_);
+    if (search_) search_->scan(*readings.scan, pose * T_base_scanner, now_.elapsed_s);
   }
   feelAround();
-  obstacles_age_s_ += dt_s_;
+  obstacles_age_s_ += now_.elapsed_s;
   if (readings.frame != nullptr && obstacles_age_s_ > params_.obstacles_every_s - 1e-6) {
     const std::vector<Eigen::Vector3f>& points = obstacle_points_.of(*readings.frame);
     const FloorPose T_base_then = motion_.seenFromNow(frame_s_);
@@ -246,14 +257,13 @@ void Follower::lookAround(const RobotReadings& readings) {
   layer_.finish();
   notePeople();
   keepThings();
-  planner_.setObstacles(unseen_.standing(), &things_);
-  room_.setLayer({}, &things_);
+  pilot_.setAround(things_, unseen_.standing());
 }
 
 // Of what was seen around, what is no part of people.
 void Follower::keepThings() {
   things_ = layer_.window();
-  for (const MovingPerson& person : people_) {
+  for (const MovingPerson& person : now_.people) {
     const bool stands = person.velocity.norm() <= params_.stands_mps;
     const double reach_m =
         stands ? person.radius_m + params_.beside_people_m : params_.target_radius_m;
@@ -274,7 +284,7 @@ void Follower::feelAround() {
   const double asked_mps = step_.velocity.forward_mps;
   const bool is_held =
       std::abs(asked_mps) > kDrives_mps && std::abs(speed_.forward_mps) < kMoves_mps;
-  stalled_s_ = is_held ? stalled_s_ + dt_s_ : 0.0;
+  stalled_s_ = is_held ? stalled_s_ + now_.elapsed_s : 0.0;
   if (stalled_s_ < kStalls_s + robot_.wheels_latency_s) return;
   stalled_s_ = 0.0;
   const DriveLimits& body = robot_.drive;
@@ -298,29 +308,30 @@ void Follower::noteComers() {
     const auto isNear = [&](const Vector2d& other) {
       return (other - place).norm() < params_.target_radius_m;
     };
-    if ((step_.target && isNear(*step_.target)) ||
-        std::any_of(people_.begin(), people_.end(),
+    if ((now_.target && isNear(now_.target->position)) ||
+        std::any_of(now_.people.begin(), now_.people.end(),
                     [&](const MovingPerson& person) { return isNear(person.position); }) ||
         !sight.isLeg(thing)) {
       continue;
     }
-    people_.push_back({place, turn * thing.velocity, MovingPerson().radius_m, thing.gait_mps});
+    now_.people.push_back({place, turn * thing.velocity, MovingPerson().radius_m, thing.gait_mps});
   }
 }
 
 // Who walks is left to the local planner; around who stands leads another way, but for the target:
 // the way leads to them.
 void Follower::notePeople() {
-  people_.clear();
+  now_.people.clear();
   const Identity& identity = perception_->identity();
   for (const Track& track : perception_->tracks()) {
     if (track.status == TrackStatus::kTentative) continue;
-    const bool is_target = step_.target && (track.motion.position_m() - *step_.target).norm() <
-                                               params_.target_radius_m;
+    const bool is_target =
+        now_.target &&
+        (track.motion.position_m() - now_.target->position).norm() < params_.target_radius_m;
     if (is_target) continue;  // their other leg, too
     const Evidence who = identity.probabilities(track.id);
     if (who.sum() - who[kThing] < params_.surely_person) continue;
-    MovingPerson& person = people_.emplace_back();
+    MovingPerson& person = now_.people.emplace_back();
     person.position = track.motion.position_m();
     const bool rests = identity.restsFor_s(track.id, steady_s_) >= params_.walks_on_s;
     if (!rests || setsOff(track.motion)) {
@@ -337,23 +348,23 @@ void Follower::notePeople() {
              identity.probabilities(track.id)[kThing] > params_.surely_person;
     };
     const std::vector<Track>& tracks = perception_->tracks();
-    return (step_.target && (*step_.target - place).norm() < params_.target_radius_m) ||
+    return (now_.target && (now_.target->position - place).norm() < params_.target_radius_m) ||
            std::any_of(tracks.begin(), tracks.end(), isThingThere) ||
            (place - step_.robot.pose.position).norm() > 0.5 * params_.obstacles.size_m ||
            last_gate_.sight().seesFree(to_motion * place, kLegs_m);
   };
-  seen_people_ = people_.size();
-  unseen_.step(steady_s_, people_, has_left);
-  if (person_) {
-    people_.push_back(*person_);
-  } else if (unseen_s_ < params_.walks_on_s) {  // passes where no sensor looks
-    people_.push_back(expected());
+  now_.seen_people = now_.people.size();
+  unseen_.step(steady_s_, now_.people, has_left);
+  if (now_.target) {
+    now_.people.push_back(*now_.target);
+  } else if (now_.unseen_s < params_.walks_on_s) {  // passes where no sensor looks
+    now_.people.push_back(now_.expected(params_.walks_on_s));
   }
 }
 
 void Follower::layOutPeople(const FloorPose& T_frame_world) {
   people_discs_.clear();
-  for (const MovingPerson& person : people_) {
+  for (const MovingPerson& person : now_.people) {
     people_discs_.push_back({T_frame_world * person.position, params_.target_radius_m});
   }
 }
@@ -383,15 +394,15 @@ void Follower::learn(const Frame& frame) {
   const Vector2d place = step_.robot.pose * learner_->result().last_place_m;
   skipLearning(learner_->learn());
   perception_->startAt(place);
-  last_.position = place;
+  now_.last.position = place;
 }
 
 void Follower::skipLearning(const AppearanceModel& whom) {
   PerceptionParams params = params_.perception;
   if (walls_) params.gate = wallGate(walls_, params_.gate);
   perception_.emplace(robot_.camera, whom, params);
-  last_.position = step_.robot.pose.position;  // for want of a better place
-  if (search_) search_->lose(last_, 0.0, 1.0);
+  now_.last.position = step_.robot.pose.position;  // for want of a better place
+  if (search_) search_->lose(now_.last, 0.0, 1.0);
   learner_.reset();
   step_.is_learning = false;
 }
@@ -416,26 +427,40 @@ void Follower::see(const Frame* frame) {
 }
 
 void Follower::noteTarget() {
-  const bool was_known = person_.has_value();
-  person_.reset();
+  const bool was_known = now_.target.has_value();
+  now_.target.reset();
   step_.target.reset();
-  unseen_s_ += dt_s_;
+  now_.unseen_s += now_.elapsed_s;
   if (target_.hasPlace()) {
-    person_ =
+    now_.target =
         MovingPerson{target_.motion.position_m(), target_.motion.velocity_mps(),
                      MovingPerson().radius_m, gaitOf(target_.motion, step_.robot.pose.position)};
-    step_.target = person_->position;
-    looked_s_ = 0.0;
+    step_.target = now_.target->position;
   }
   if (target_.status == TargetStatus::kFollowed) {
-    last_ = *person_;
+    now_.last = *now_.target;
     followed_id_ = target_.track_id;
-    unseen_s_ = 0.0;
+    now_.unseen_s = 0.0;
   }
-  if (was_known && !person_ && search_) {
+  if (was_known && !now_.target && search_) {
     // As it seems now: it may be lost because it was somebody else.
     const Evidence who = perception_->identity().probabilities(followed_id_);
-    search_->lose(last_, unseen_s_, who.sum() > 0.0 ? who[kTarget] / who.sum() : 1.0);
+    search_->lose(now_.last, now_.unseen_s, who.sum() > 0.0 ? who[kTarget] / who.sum() : 1.0);
+  }
+  noteSuspect();
+  look_who_.watch(now_);
+}
+
+// Who is likeliest to be the target, if anybody is worth a look.
+void Follower::noteSuspect() {
+  now_.suspect.reset();
+  double most = params_.worth_a_look;
+  for (const Track& track : perception_->tracks()) {
+    if (track.status == TrackStatus::kTentative) continue;
+    const double probability = perception_->identity().targetProbability(track.id);
+    if (probability <= most) continue;
+    most = probability;
+    now_.suspect = track.motion.position_m();
   }
 }
 
@@ -455,18 +480,21 @@ void Follower::decide() {
 void Follower::checkFacts() {
   using Fact = FollowingCondition;
   const FloorPose& pose = step_.robot.pose;
-  const double away_m = step_.target ? (*step_.target - pose.position).norm() : 0.0;
-  facts_[Fact::kTargetSeen] = step_.target.has_value();
-  const bool is_ahead = std::abs(bearingOf(pose, expected().position)) < params_.ahead_rad;
+  const double away_m = now_.target ? (now_.target->position - pose.position).norm() : 0.0;
+  facts_[Fact::kTargetSeen] = now_.target.has_value();
+  const bool is_ahead =
+      std::abs(bearingOf(pose, now_.expected(params_.walks_on_s).position)) < params_.ahead_rad;
   // Who is out of view because the way to them leads round something is not lost yet.
   const bool is_on_the_way = step_.path != nullptr && !has_arrived_;
   facts_[Fact::kTargetLost] =
-      !step_.target && unseen_s_ > params_.lost_after_s && (is_ahead || !is_on_the_way);
-  facts_[Fact::kNear] = step_.target && away_m < params_.near_m;
-  facts_[Fact::kFar] = step_.target && away_m > params_.far_m;
+      !now_.target && now_.unseen_s > params_.lost_after_s && (is_ahead || !is_on_the_way);
+  facts_[Fact::kNear] = now_.target && away_m < params_.near_m;
+  facts_[Fact::kFar] = now_.target && away_m > params_.far_m;
   facts_[Fact::kArrived] = has_arrived_;
-  facts_[Fact::kLookedAround] = turned_rad_ > kFullTurn_rad || (!suspect() && is_ahead);
-  facts_[Fact::kFullTurn] = turned_rad_ > kFullTurn_rad;
+  for (const auto& behaviour : behaviours_) {
+    if (behaviour) behaviour->tell(facts_);
+  }
+  facts_[Fact::kLookedAround] = facts_[Fact::kFullTurn] || (!look_who_.wants(now_) && is_ahead);
   facts_[Fact::kSearchOver] = search_ && search_->isOver();
   facts_[Fact::kBlind] = !watch_.blindness().empty() || step_.robot.lost;
   facts_[Fact::kDone] = false;
@@ -474,15 +502,9 @@ void Follower::checkFacts() {
 
 void Follower::begin(FollowingAction action) {
   begun_ = action;
-  local_planner_.reset();
-  goal_chooser_.reset();
+  pilot_.reset();
   has_arrived_ = false;
-  if (search_) search_->restart();
-  is_there_ = false;
-  if (action == FollowingAction::kSeek) {
-    turned_rad_ = 0.0;
-    seek_side_ = sideOf(expected().position);
-  }
+  if (Behaviour* behaviour = behaviourOf(action)) behaviour->begin(now_);
 }
 
 }  // namespace heel

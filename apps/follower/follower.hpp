@@ -5,14 +5,17 @@
 /// The robot's mind: readings in, a velocity out. The paper's system as one step.
 #pragma once
 
+#include <heel/apps/follower/behaviours.hpp>
 #include <heel/apps/follower/follower_params.hpp>
+#include <heel/apps/follower/make_room.hpp>
 #include <heel/apps/follower/motion_history.hpp>
+#include <heel/apps/follower/pilot.hpp>
 #include <heel/apps/follower/sensor_watch.hpp>
 #include <heel/apps/follower/unseen_people.hpp>
 #include <heel/mapping/wall_map.hpp>
-#include <heel/planning/clearance_map.hpp>
 #include <heel/planning/following_plan.hpp>
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -68,11 +71,17 @@ class Follower {
   Follower(const RobotDescription& robot, std::shared_ptr<const WallMap> walls, PetriPlan plan,
            const std::optional<FloorPose>& start, const FollowerParams& params = {});
 
+  Follower(const Follower&) = delete;
+  Follower& operator=(const Follower&) = delete;
+
   /// Ends phase 1 before its time: follows whom the model tells, wherever they are.
   void skipLearning(const AppearanceModel& whom);
 
   /// While it is paused the robot stands. It goes on to look, in phase 1 to learn; the plan waits.
   void pause(bool is_paused) { step_.is_paused = is_paused; }
+
+  /// From now on the robot does this where the plan says `action`; null: it stands.
+  void exchange(FollowingAction action, std::unique_ptr<Behaviour> behaviour);
 
   /// @throws NobodyLearned  if nobody entered in phase 1, or several did together.
   const FollowStep& step(const RobotReadings& readings, const StageDone& done = {});
@@ -87,15 +96,6 @@ class Follower {
   const Perception* perception() const { return perception_ ? &*perception_ : nullptr; }
 
  private:
-  /// Somebody wants to get past the robot, which goes aside.
-  struct MakingRoom {
-    Eigen::Vector2d place;   // where it goes
-    Eigen::Vector2d before;  // where it was then
-    bool is_for_target = false;
-    double since_s = 0.0;
-    double waited_s = 0.0;
-  };
-
   void tellTime(double stamp_s);
   RobotReadings stamped(const RobotReadings& readings) const;
   Frame onSteadyClock(const Frame& frame);
@@ -106,11 +106,11 @@ class Follower {
   void learn(const Frame& frame);
   void see(const Frame* frame);
   void noteTarget();
+  void noteSuspect();
   void decide();
   void checkFacts();
   void begin(FollowingAction action);
   void drive();
-  void noteProgress();
   void feelAround();
   void noteComers();
   void notePeople();
@@ -118,24 +118,11 @@ class Follower {
   void layOutPeople(const FloorPose& T_frame_world);
   bool isMapped(const Eigen::Vector2d& place) const;
   void keepUnmapped(const std::vector<Eigen::Vector3f>& points, const FloorPose& T_base_then);
-  void driveTo(const Eigen::Vector2d& goal);
-  VelocityCommand localCommand(const std::optional<Eigen::Vector2d>& face);
-  void follow();
-  void face();
-  bool standsInDoorway() const;
-  bool makesRoom();
-  const MovingPerson* whoWantsPast();
-  bool isInTheWayOf(const MovingPerson& person) const;
-  void goAside(const MovingPerson& person);
-  void goToLastSeen();
-  bool looksAtSuspect();
-  const Track* suspect() const;
-  MovingPerson expected() const;
-  void seek();
-  void search();
-  void lookAt(const Eigen::Vector2d& place);
-  Eigen::Vector2d turningPlace() const;
-  double sideOf(const Eigen::Vector2d& place) const;
+  void behave();
+  Behaviour* behaviourOf(FollowingAction action) const {
+    return behaviours_[static_cast<std::size_t>(action)].get();
+  }
+  IntentOutcome carryOut(const Intent& intent);
   void passLastGate();
 
   RobotDescription robot_;
@@ -154,47 +141,31 @@ class Follower {
   std::optional<PersonLearner> learner_;
   std::optional<Perception> perception_;
   PlanRunner runner_;
-  ClearanceMap room_;  // to things
-  GlobalPlanner planner_;
-  LocalPlanner local_planner_;
   LastGate last_gate_;
   std::vector<Eigen::Vector2d> hiding_places_;  // in the odometry's frame
   std::vector<Eigen::Vector2d> hidden_;         // there, on the map
-  GoalChooser goal_chooser_;
-  std::optional<PersonSearch> search_;  // the same
-  std::vector<DoorwayOnMap> doorways_;
+  std::optional<PersonSearch> search_;          // the same
+  Pilot pilot_;
+  MakeRoom make_room_;
+  LookWhoThatIs look_who_;
+  std::array<std::unique_ptr<Behaviour>, kFollowingActions> behaviours_;
 
   FollowStep step_;
-  double dt_s_ = 0.0;
+  Situation now_;
   double steady_s_ = 0.0;        // a clock that does not jump,
   double clock_offset_s_ = 0.0;  // what it is ahead of the readings',
   double frame_s_ = 0.0;         // and the newest frame's stamp on it
   VelocityCommand speed_;        // by odometry
   double stalled_s_ = 0.0;       // so long the wheels have not turned, though they should
   TargetEstimate target_;
-  std::optional<MovingPerson> person_;          // the target, where it is known to be;
-  MovingPerson last_;                           // where it was when last seen,
-  double unseen_s_ = 0.0;                       // so long ago,
-  int followed_id_ = TargetEstimate::kNoTrack;  // as this track
+  int followed_id_ = TargetEstimate::kNoTrack;  // the track that was the target last
   double tracked_s_ = 0.0;  // when the tracks were stepped last, on the steady clock
   double scan_s_ = 0.0;     // the newest scan's stamp, on the steady clock
   FollowingFacts facts_;
   FollowingAction action_ = FollowingAction::kStop;
   FollowingAction begun_ = FollowingAction::kStop;  // the last one but stops
   double obstacles_age_s_ = 0.0;
-  double turned_rad_ = 0.0;   // in the present seek
-  double seek_side_ = 1.0;    // +1: to the left
-  double looked_s_ = 0.0;     // at suspects, since then
-  bool is_there_ = false;     // at the search's view, and turned to it
-  bool has_arrived_ = false;  // where the last driveTo() went, or as near as can be
-  bool looks_away_ = false;   // from the target, in this step
-  Eigen::Vector2d stood_at_ = Eigen::Vector2d::Zero();  // and has not left since,
-  double stuck_s_ = 0.0;                                // though it wanted to for so long
-  std::optional<MakingRoom> making_room_;
-  std::vector<Eigen::Vector2d> waysides_;
-  GlobalPlan plan_;
-  std::vector<MovingPerson> people_;
-  std::size_t seen_people_ = 0;          // the first ones, who are seen, and not the target
+  bool has_arrived_ = false;             // where the last intent led, or as near as can be
   std::vector<FloorDisc> people_discs_;  // all, in the frame last asked for
   UnseenPeople unseen_;
   std::vector<Eigen::Vector3f> unmapped_;  // points in the base frame

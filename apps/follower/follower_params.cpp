@@ -33,7 +33,6 @@ void check(const FollowerParams& p) {
 FollowerParams::FollowerParams() {
   paths.bend_room_m = 0.12;  // round a corner with some room one sees further behind it
   paths.safety_m = 0.08;  // more than the local planner's margin, or it stops where the path goes
-  goal.ahead_cost = 0.0;  // people who are followed turn and stop; round them is out of their view
   goal.lead_s = 0.2;      // they turn often
   goal.most_standoff_m = 1.25;  // who is followed wants company, even behind a doorway
   goal.doorway_depth_m = 0.95;  // somebody who comes out of it must get past the robot

@@ -171,6 +171,38 @@ TEST(SearchMap, WhoIsHiddenByWhatNoMapShowsMayBeThere) {
   for (std::size_t c = 0; c < before.size(); ++c) ASSERT_NEAR(looks.belief()[c], before[c], 1e-12);
 }
 
+TEST(SearchMap, LooksFromElsewhereAtWhatIsHidden) {
+  SearchMap map = threeRooms();
+  map.start({7.5, 3.7}, {0.0, 0.0});
+  map.spread(0.5);
+  const FloorPose robot = map.nextView({kMiddle, 0.0})->camera;
+  const auto is_hidden = [](const Eigen::Vector2d&) { return true; };
+  map.look(robot, 1.0, is_hidden);
+  const auto next = map.nextView(robot);
+  ASSERT_TRUE(next);
+  EXPECT_GT((next->camera.position - robot.position).norm(), 0.6);
+  EXPECT_GT(next->camera.position.x(), kRightDoor - 1.0) << "who is hidden is still looked for";
+  EXPECT_GT(next->chance, 0.5);
+
+  map.look(robot, 1.0);
+  EXPECT_LT((map.nextView(robot)->camera.position - robot.position).norm(), 0.61)
+      << "nothing hides them any more";
+}
+
+TEST(SearchMap, WhatIsHiddenFromEverywhereIsLookedForAllTheSame) {
+  SearchMap map = threeRooms();
+  map.start({7.5, 3.7}, {0.0, 0.0});
+  map.spread(0.5);
+  for (double x = 0.5; x < 8.0; x += 0.5) {
+    for (double y = 0.5; y < 4.0; y += 0.5) {
+      for (double yaw = -3.0; yaw < 3.0; yaw += 0.5) {
+        map.look({{x, y}, yaw}, 0.1, [](const Eigen::Vector2d&) { return true; });
+      }
+    }
+  }
+  EXPECT_TRUE(map.nextView({kMiddle, 0.0}));
+}
+
 TEST(SearchMap, WhatWasBelievedStaysAsFarAsItWasSomebodyElse) {
   SearchMap map = threeRooms();
   map.start({1.1, 2.1}, {0.0, 0.0});

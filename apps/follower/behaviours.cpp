@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <heel/apps/follower/behaviours.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace heel {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kFullTurn_rad = 6.283185307179586;
+constexpr double kHalfBody_m = 0.25;
+constexpr double kAhead_m = 2.0;  // Any place ahead of a view.
+
+std::optional<Vector2d> placeOf(const std::optional<MovingPerson>& person) {
+  return person ? std::optional(person->position) : std::nullopt;
+}
+
+}  // namespace
+
+MovingPerson Situation::expected(double walks_on_s) const {
+  MovingPerson person = last;
+  person.position += std::min(unseen_s, walks_on_s) * person.velocity;
+  return person;
+}
+
+FollowTarget::FollowTarget(const RobotDescription& robot, const FollowerParams& params,
+                           std::shared_ptr<const WallMap> walls, std::vector<DoorwayOnMap> doorways)
+    : eye_m_(robot.camera.T_base_camera.translation().z()),
+      places_(params.goal),
+      walls_(std::move(walls)),
+      doorways_(std::move(doorways)) {}
+
+std::optional<Intent> FollowTarget::step(const Situation& now, const Ways& ways) {
+  Intent intent;
+  intent.keep_in_view = placeOf(now.target);
+  if (!now.target) {
+    intent.go_to = now.last.position;
+    return intent;
+  }
+  const auto sees = [this](const Vector2d& from, const Vector2d& to) {
+    return !walls_ ||
+           walls_->lineOfSight({from.x(), from.y(), eye_m_}, {to.x(), to.y(), eye_m_}, kHalfBody_m);
+  };
+  const auto place = places_.choose(*now.target, now.robot.position, ways.free, sees, doorways_);
+  intent.go_to = place.value_or(now.target->position);
+  return intent;
+}
+
+FaceTarget::FaceTarget(const RobotDescription& robot, const FollowerParams& params,
+                       std::shared_ptr<const WallMap> walls, std::vector<DoorwayOnMap> doorways)
+    : goal_(params.goal),
+      beside_m_(params.beside_m),
+      doorways_(doorways),
+      aside_(robot, params, std::move(walls), std::move(doorways)) {}
+
+std::optional<Intent> FaceTarget::step(const Situation& now, const Ways& ways) {
+  Intent intent;
+  intent.look_at = placeOf(now.target);
+  const Vector2d& here = now.robot.position;
+  if (!isInPassage(doorways_, here, goal_.doorway_depth_m, goal_.radius_m)) return intent;
+  // Close by they leave no room to drive, and will be in view when they have gone past.
+  if (now.target && (now.target->position - here).norm() < beside_m_) return intent;
+  std::optional<Intent> aside = aside_.step(now, ways);
+  aside->keep_in_view.reset();  // They wait: to make room goes before.
+  return aside;
+}
+
+std::optional<Intent> GoToLastSeen::step(const Situation& now, const Ways&) {
+  Intent intent;
+  intent.go_to = now.last.position;
+  intent.near_enough_m = near_m_;
+  intent.keep_in_view = placeOf(now.target);
+  return intent;
+}
+
+void SeekTarget::begin(const Situation& now) {
+  turned_rad_ = 0.0;
+  side_ = bearingOf(now.robot, now.expected(walks_on_s_).position) < 0.0 ? -1.0 : 1.0;
+}
+
+std::optional<Intent> SeekTarget::step(const Situation& now, const Ways&) {
+  turned_rad_ += std::abs(now.turned_rad);
+  Intent intent;
+  intent.look_at = now.robot * Vector2d(0.0, side_);
+  intent.most_turn_radps = most_turn_radps_;
+  return intent;
+}
+
+void SeekTarget::tell(FollowingFacts& facts) const {
+  facts[FollowingCondition::kFullTurn] = turned_rad_ > kFullTurn_rad;
+}
+
+void SearchForTarget::begin(const Situation&) {
+  if (search_ != nullptr) search_->restart();
+  is_there_ = false;
+}
+
+std::optional<Intent> SearchForTarget::step(const Situation& now, const Ways& ways) {
+  Intent intent;
+  if (search_ == nullptr) {
+    intent.reason = "waits: there is no map";
+    return intent;
+  }
+  const auto way_m = [&](const Vector2d& place) {
+    const GlobalPlan& plan = ways.plan(now.robot.position, place);
+    return plan.found() ? plan.length_m : std::numeric_limits<double>::infinity();
+  };
+  intent.is_new = search_->choose(now.elapsed_s, now.robot, std::exchange(is_there_, false), way_m);
+  if (const std::optional<SearchView>& view = search_->view()) {
+    intent.go_to = view->camera.position;
+    intent.look_at = view->camera * Vector2d(kAhead_m, 0.0);
+    intent.keep_in_view = placeOf(now.target);
+  }
+  return intent;
+}
+
+void SearchForTarget::note(const IntentOutcome& outcome) {
+  is_there_ = outcome.has_arrived && outcome.stands;
+}
+
+LookWhoThatIs::LookWhoThatIs(const FollowerParams& params)
+    : first_looks_s_(params.first_looks_s),
+      look_share_(params.look_share),
+      ahead_rad_(params.ahead_rad),
+      far_m_(params.far_m) {}
+
+void LookWhoThatIs::watch(const Situation& now) {
+  if (now.target) looked_s_ = 0.0;
+}
+
+bool LookWhoThatIs::wants(const Situation& now) const {
+  return now.suspect && looked_s_ <= first_looks_s_ + look_share_ * now.unseen_s;
+}
+
+std::optional<Intent> LookWhoThatIs::step(const Situation& now, const Ways&) {
+  if (!wants(now)) return std::nullopt;
+  looked_s_ += now.elapsed_s;
+  Intent intent;
+  intent.reason = "looks who that is";
+  const Vector2d& place = *now.suspect;
+  const bool is_ahead = std::abs(bearingOf(now.robot, place)) < ahead_rad_;
+  const bool is_far = (place - now.robot.position).norm() > far_m_;
+  if (is_ahead && is_far) {  // From nearer more is seen.
+    intent.go_to = place;
+    intent.keep_in_view = placeOf(now.target);
+  } else {
+    intent.look_at = place;
+  }
+  return intent;
+}
+
+}  // namespace heel

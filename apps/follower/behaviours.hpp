@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// What the plan's actions do, each by itself (section 3.3 of the paper).
+#pragma once
+
+#include <heel/apps/follower/behaviour.hpp>
+#include <heel/apps/follower/follower_params.hpp>
+#include <heel/mapping/wall_map.hpp>
+#include <heel/planning/doorways.hpp>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace heel {
+
+/// Goes where it is with the person: near, in view and in nobody's way.
+class FollowTarget : public Behaviour {
+ public:
+  /// @param walls  Null: nothing hides anybody.
+  FollowTarget(const RobotDescription& robot, const FollowerParams& params,
+               std::shared_ptr<const WallMap> walls, std::vector<DoorwayOnMap> doorways);
+
+  void begin(const Situation&) override { places_.reset(); }
+  std::optional<Intent> step(const Situation& now, const Ways& ways) override;
+
+ private:
+  double eye_m_;
+  GoalChooser places_;
+  std::shared_ptr<const WallMap> walls_;
+  std::vector<DoorwayOnMap> doorways_;
+};
+
+/// Stands and turns to the person; leaves a doorway first, for nobody waits where it stands in one.
+class FaceTarget : public Behaviour {
+ public:
+  FaceTarget(const RobotDescription& robot, const FollowerParams& params,
+             std::shared_ptr<const WallMap> walls, std::vector<DoorwayOnMap> doorways);
+
+  void begin(const Situation& now) override { aside_.begin(now); }
+  std::optional<Intent> step(const Situation& now, const Ways& ways) override;
+
+ private:
+  GoalChooserParams goal_;
+  double beside_m_;
+  std::vector<DoorwayOnMap> doorways_;
+  FollowTarget aside_;
+};
+
+/// Goes to where the person was seen last.
+class GoToLastSeen : public Behaviour {
+ public:
+  /// @param near_m  From so far off somebody who stood there would be seen: no need to go on.
+  explicit GoToLastSeen(double near_m) : near_m_(near_m) {}
+
+  std::optional<Intent> step(const Situation& now, const Ways& ways) override;
+
+ private:
+  double near_m_;
+};
+
+/// Turns on the spot, towards the side where the person was last seen.
+class SeekTarget : public Behaviour {
+ public:
+  SeekTarget(double most_turn_radps, double walks_on_s)
+      : most_turn_radps_(most_turn_radps), walks_on_s_(walks_on_s) {}
+
+  void begin(const Situation& now) override;
+  std::optional<Intent> step(const Situation& now, const Ways& ways) override;
+  void tell(FollowingFacts& facts) const override;
+
+ private:
+  double most_turn_radps_;
+  double walks_on_s_;
+  double turned_rad_ = 0.0;
+  double side_ = 1.0;  // +1: to the left
+};
+
+/// Goes where the chance to see the person is best, and looks there.
+class SearchForTarget : public Behaviour {
+ public:
+  /// @param search  Must outlive this. Null: there is no map, and it waits.
+  explicit SearchForTarget(PersonSearch* search) : search_(search) {}
+
+  void begin(const Situation& now) override;
+  std::optional<Intent> step(const Situation& now, const Ways& ways) override;
+  void note(const IntentOutcome& outcome) override;
+
+ private:
+  PersonSearch* search_;
+  bool is_there_ = false;  // at the view, and turned to it
+};
+
+/// Looks at somebody who may be the person who is lost, before anything else.
+class LookWhoThatIs : public Behaviour {
+ public:
+  explicit LookWhoThatIs(const FollowerParams& params);
+
+  /// To be told of each step.
+  void watch(const Situation& now);
+  /// Whether somebody is worth a look, and there is time left for looks.
+  bool wants(const Situation& now) const;
+  std::optional<Intent> step(const Situation& now, const Ways& ways) override;
+
+ private:
+  double first_looks_s_, look_share_, ahead_rad_, far_m_;
+  double looked_s_ = 0.0;  // since the person was lost
+};
+
+}  // namespace heel

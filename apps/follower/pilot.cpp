@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <heel/apps/follower/pilot.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace heel {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kRings_m = 0.1;         // Between rings on which room to turn is looked for,
+constexpr double kFurthestTurn_m = 1.5;  // up to so far off.
+constexpr double kTurn_rad = 0.1;        // In such steps is looked whether it can turn.
+
+}  // namespace
+
+Pilot::Pilot(const OccupancyGrid& floor, const GlobalPlannerParams& paths,
+             const LocalPlannerParams& drive, double give_up_s)
+    : drive_(drive),
+      give_up_s_(give_up_s),
+      room_(floor, 1.0),
+      planner_(floor, paths),
+      local_planner_(drive) {}
+
+void Pilot::setAround(const OccupancyGrid& things, const std::vector<FloorDisc>& people) {
+  things_ = &things;
+  standing_ = &people;
+  planner_.setObstacles(people, &things);
+  room_.setLayer({}, &things);
+}
+
+void Pilot::reset() {
+  local_planner_.reset();
+  arrival_.reset();
+}
+
+const GlobalPlan& Pilot::plan(const Vector2d& from, const Vector2d& to) {
+  planner_.plan(from, to, plan_);
+  return plan_;
+}
+
+PilotStep Pilot::step(const Intent& intent, const DriveState& robot,
+                      const std::vector<MovingPerson>& people, Clearance sensed,
+                      Permission permits) {
+  const Vector2d& here = robot.pose.position;
+  const auto room = [&](const Vector2d& p) { return std::min(room_.clearance(p), sensed(p)); };
+  if (intent.is_new) reset();
+  const bool was_there = arrival_ && intent.go_to &&
+                         (arrival_->place - here).norm() < drive_.depart_m &&
+                         (arrival_->goal - *intent.go_to).norm() < drive_.depart_m;
+  const bool goes = intent.go_to && !(was_there && intent.look_at);
+  const std::optional<Vector2d>& face = goes ? intent.keep_in_view : intent.look_at;
+  std::optional<Vector2d> goal;
+  if (goes) {
+    goal = intent.go_to;
+  } else if (face && !canTurnTo(*face, robot, room)) {
+    goal = turningPlace(robot.pose);
+  }
+  const bool has_way = goal && findWay(here, *goal);
+  if (!has_way) plan_.path.clear();
+
+  PilotStep out;
+  const LocalPlan now =
+      local_planner_.step(robot.pose, robot.speed, plan_.path, room, people, face, permits);
+  out.velocity = now.command;
+  if (goal) out.path = &plan_.path;
+  if (goal || now.reason != DriveReason::kNoPath) out.reason = describe(now.reason);
+  if (!goal) {
+    out.velocity.turn_radps =
+        std::clamp(now.command.turn_radps, -intent.most_turn_radps, intent.most_turn_radps);
+  }
+  if (goes) {
+    const bool is_there = !has_way || now.status == DriveStatus::kArrived ||
+                          now.blocked_s > give_up_s_ ||
+                          (*intent.go_to - here).norm() < intent.near_enough_m;
+    arrival_.reset();
+    if (is_there) arrival_ = Arrival{*intent.go_to, here};
+  } else if (!was_there) {
+    arrival_.reset();
+  }
+  const bool stands = now.command.forward_mps == 0.0 && now.command.turn_radps == 0.0;
+  out.outcome = {arrival_.has_value(), was_there && stands};
+  return out;
+}
+
+// Around people and things; else, for they may be gone by then, as the map has it.
+bool Pilot::findWay(const Vector2d& from, const Vector2d& to) {
+  if (plan(from, to).found() || things_ == nullptr) return plan_.found();
+  planner_.setObstacles({});
+  plan(from, to);
+  planner_.setObstacles(*standing_, things_);
+  return plan_.found();
+}
+
+// A round robot touches nothing by turning.
+bool Pilot::canTurnTo(const Vector2d& place, const DriveState& robot, Clearance room) const {
+  const DriveLimits& drive = drive_.limits;
+  if (axisReach(drive) == 0.0 || turnToFace(drive, robot, place, drive_.facing) == 0.0) return true;
+  const double need_m = std::min(drive_.margin_m, roomAround(drive, robot.pose, room));
+  const double turn_rad = bearingOf(robot.pose, place);
+  const int turns = static_cast<int>(std::ceil(std::abs(turn_rad) / kTurn_rad));
+  for (int i = 1; i <= turns; ++i) {
+    const FloorPose turned{robot.pose.position, robot.pose.yaw_rad + turn_rad * i / turns};
+    if (!(roomAround(drive, turned, room) >= need_m)) return false;
+  }
+  return true;
+}
+
+// The nearest with room to turn, in rings about the robot; else that with the most room.
+Vector2d Pilot::turningPlace(const FloorPose& pose) const {
+  const double need_m = turningRadius(drive_.limits) + drive_.margin_m;
+  Vector2d best = pose.position;
+  double most_m = room_.clearance(best);
+  for (double away_m = kRings_m; away_m < kFurthestTurn_m && most_m < need_m; away_m += kRings_m) {
+    for (int i = 0; i < 16; ++i) {
+      const double angle = M_PI + M_PI / 8.0 * i;  // behind it first: from there it came
+      const Vector2d place = pose * Vector2d(away_m * Vector2d(std::cos(angle), std::sin(angle)));
+      const double room_m = room_.clearance(place);
+      if (room_m <= most_m) continue;
+      most_m = room_m;
+      best = place;
+    }
+  }
+  return best;
+}
+
+}  // namespace heel

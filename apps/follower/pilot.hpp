@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// From an intent to a velocity: along a path, touching nothing.
+#pragma once
+
+#include <heel/apps/follower/behaviour.hpp>
+#include <heel/planning/clearance_map.hpp>
+#include <heel/planning/global_planner.hpp>
+#include <heel/planning/local_planner.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace heel {
+
+/// What the pilot makes of an intent.
+struct PilotStep {
+  VelocityCommand velocity;
+  IntentOutcome outcome;
+  const FloorPath* path = nullptr;  ///< The way it takes, if any; valid until the next step.
+  std::string reason;               ///< In a few words, or empty.
+};
+
+/// Plans a way around what the map and the moment show, and drives along it.
+class Pilot {
+ public:
+  /// @param give_up_s  Who was blocked for so long is as near as can be.
+  /// @throws std::invalid_argument  if a parameter is out of its range.
+  Pilot(const OccupancyGrid& floor, const GlobalPlannerParams& paths,
+        const LocalPlannerParams& drive, double give_up_s);
+
+  /// What stands around the robot: things, and people. Both must outlive the steps until the next
+  /// call.
+  void setAround(const OccupancyGrid& things, const std::vector<FloorDisc>& people);
+  /// Where somebody may come out whom nobody sees.
+  void expect(const std::vector<Eigen::Vector2d>& hidden) { local_planner_.expect(hidden); }
+  /// Forgets how it drove before.
+  void reset();
+
+  /// Distance to things, as LocalPlanner takes it,
+  double room_m(const Eigen::Vector2d& place) const { return room_.clearance(place); }
+  /// and to things and people who stand.
+  double free_m(const Eigen::Vector2d& place) const {
+    return planner_.clearance().clearance(place);
+  }
+  /// The way from one place to another; valid until the next plan.
+  const GlobalPlan& plan(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
+
+  /// @param people   Who walks and who stands.
+  /// @param sensed   Distance to what the sensors have seen of late.
+  /// @param permits  As LocalPlanner's.
+  PilotStep step(const Intent& intent, const DriveState& robot,
+                 const std::vector<MovingPerson>& people, Clearance sensed, Permission permits);
+
+ private:
+  /// Where it was when it was as near to a goal as can be.
+  struct Arrival {
+    Eigen::Vector2d goal, place;
+  };
+
+  bool findWay(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
+  bool canTurnTo(const Eigen::Vector2d& place, const DriveState& robot, Clearance room) const;
+  Eigen::Vector2d turningPlace(const FloorPose& pose) const;
+
+  LocalPlannerParams drive_;
+  double give_up_s_;
+  ClearanceMap room_;  // to things
+  GlobalPlanner planner_;
+  LocalPlanner local_planner_;
+  const OccupancyGrid* things_ = nullptr;
+  const std::vector<FloorDisc>* standing_ = nullptr;
+  GlobalPlan plan_;
+  std::optional<Arrival> arrival_;
+};
+
+}  // namespace heel
