@@ -15,27 +15,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kOpenFloor_m = 100.0;  // Without a map, so far across.
-// The robot has run into something if it is told to drive faster than kDrives_mps, and is slower
-// than kMoves_mps for kStalls_s. What it touches may be anywhere within kFeels_rad of its heading.
-constexpr double kDrives_mps = 0.1;
-constexpr double kMoves_mps = 0.02;
-constexpr double kStalls_s = 0.5;
-constexpr double kFeels_rad = 0.6;
-constexpr double kChiSquared99 = 9.21;  // of two degrees of freedom
-constexpr double kLegs_m = 0.12;        // So far from the middle of who stands are their legs.
-
-// Standard deviation of their velocity along the line to a place [m/s].
-double gaitOf(const MotionState& motion, const Vector2d& place) {
-  const Vector2d along = (place - motion.position_m()).stableNormalized();
-  return std::sqrt(along.dot(motion.covariance.bottomRightCorner<2, 2>() * along));
-}
-
-// Whether they move, as surely as 99 of 100.
-bool setsOff(const MotionState& motion) {
-  const Vector2d velocity = motion.velocity_mps();
-  const Eigen::Matrix2d covariance = motion.covariance.bottomRightCorner<2, 2>();
-  return velocity.dot(covariance.ldlt().solve(velocity)) > kChiSquared99;
-}
 
 OccupancyGrid openFloor(const Vector2d& middle) {
   constexpr double kCell_m = 0.1;
@@ -78,18 +57,15 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
       start_(start.value_or(FloorPose{})),
       floor_(walls_ ? walls_->floorGrid({0.05, robot.height_m}) : openFloor(start_.position)),
       watch_(robot.camera, params_.watch),
-      layer_(params_.obstacles),
-      things_(layer_.window()),
-      obstacle_points_(robot.camera, params_.obstacle_points),
+      things_(robot, params_, floor_),
+      people_(params_),
       legs_(params_.legs),
       learner_(std::in_place, robot.camera, params_.learn),
       runner_(std::move(plan)),
       last_gate_(params_.last_gate),
       pilot_(floor_, params_.paths, params_.drive, params_.give_up_s),
       make_room_(robot, params_, findDoorways(floor_)),
-      look_who_(params_),
-      unseen_({params_.stands_mps, params_.walks_on_s, params_.beside_people_m,
-               params_.target_radius_m}) {
+      look_who_(params_) {
   step_.robot.pose = start_;
   step_.robot.lost = false;
   if (walls_) {
@@ -209,8 +185,9 @@ void Follower::localize(const RobotReadings& readings) {
 
 void Follower::findOnMap(const LaserScan* scan) {
   if (scan != nullptr) {
-    layOutPeople(localization_->estimate().pose.inverse());
-    localization_->update(*scan, people_discs_, motion_.seenFromNow(scan_s_));
+    localization_->update(*scan,
+                          people_.discs(now_.people, localization_->estimate().pose.inverse()),
+                          motion_.seenFromNow(scan_s_));
   }
   step_.robot = localization_->estimate();
 }
@@ -221,167 +198,33 @@ void Follower::lookAround(const RobotReadings& readings) {
   const FloorPose& pose = step_.robot.pose;
   std::optional<FloorDisc> own;
   if (now_.target) own = FloorDisc{now_.target->position, params_.target_radius_m};
-  layOutPeople({});  // What is seen there may walk off.
-  layer_.begin(steady_s_, pose, own, people_discs_);
+  // What is seen where people are may walk off.
+  things_.begin(steady_s_, pose, own, people_.discs(now_.people, {}));
   if (search_) search_->wait(now_.elapsed_s);
   if (readings.scan != nullptr) {
     const FloorPose T_base_scanner = motion_.seenFromNow(scan_s_) * robot_.T_base_scanner;
-    layer_.addScan(*readings.scan, T_base_scanner,
-                   [this](const Vector2d& p) { return isMapped(p); });
+    things_.addScan(*readings.scan, T_base_scanner);
     if (search_) search_->scan(*readings.scan, pose * T_base_scanner, now_.elapsed_s);
   }
-  feelAround();
+  things_.feel(step_.velocity, speed_, now_.elapsed_s);
   obstacles_age_s_ += now_.elapsed_s;
   if (readings.frame != nullptr && obstacles_age_s_ > params_.obstacles_every_s - 1e-6) {
-    const std::vector<Eigen::Vector3f>& points = obstacle_points_.of(*readings.frame);
+    const std::vector<Eigen::Vector3f>& points = things_.look(*readings.frame);
     const FloorPose T_base_then = motion_.seenFromNow(frame_s_);
-    const FloorPose then = pose * T_base_then, T_then_world = then.inverse();
-    steps_.clear();
-    for (const Vector2d& step : layer_.steps()) steps_.push_back(T_then_world * step);
-    last_gate_.addPoints(points, motion_.at(frame_s_), frame_s_, steps_);
-    keepUnmapped(points, T_base_then);
-    layer_.addPoints(unmapped_);
-    layer_.clear([&, T_then_base = T_base_then.inverse()](const Eigen::Vector3f& point) {
-      const Eigen::Vector2f seen =
-          (T_then_base * Vector2d(point.head<2>().cast<double>())).cast<float>();
-      return obstacle_points_.seesThrough({seen.x(), seen.y(), point.z()});
-    });
+    const FloorPose then = pose * T_base_then;
+    last_gate_.addPoints(points, motion_.at(frame_s_), frame_s_, things_.stepsFrom(then));
+    things_.addPoints(points, T_base_then);
     if (search_) {
-      const DepthSight sight = obstacle_points_.sight();
-      search_->look(then, obstacles_age_s_, [&](const Vector2d& place) {
-        return sight.at(T_then_world * place) == Sight::kHidden;
-      });
+      search_->look(then, obstacles_age_s_,
+                    [sight = things_.sight(), T_then_world = then.inverse()](const Vector2d& p) {
+                      return sight.at(T_then_world * p) == Sight::kHidden;
+                    });
     }
     obstacles_age_s_ = 0.0;
   }
-  layer_.finish();
-  notePeople();
-  keepThings();
-  pilot_.setAround(things_, unseen_.standing());
-}
-
-// Of what was seen around, what is no part of people.
-void Follower::keepThings() {
-  things_ = layer_.window();
-  for (const MovingPerson& person : now_.people) {
-    const bool stands = person.velocity.norm() <= params_.stands_mps;
-    const double reach_m =
-        stands ? person.radius_m + params_.beside_people_m : params_.target_radius_m;
-    const GridCell low = things_.cellAt(person.position.array() - reach_m);
-    const GridCell high = things_.cellAt(person.position.array() + reach_m);
-    for (int y = std::max(low.y, 0); y <= std::min(high.y, things_.height() - 1); ++y) {
-      for (int x = std::max(low.x, 0); x <= std::min(high.x, things_.width() - 1); ++x) {
-        const GridCell cell{x, y};
-        if ((things_.center(cell) - person.position).norm() > reach_m) continue;
-        things_.at(cell) = Occupancy::kFree;
-      }
-    }
-  }
-}
-
-// Wheels that do not turn though they should are held by something that no sensor sees.
-void Follower::feelAround() {
-  const double asked_mps = step_.velocity.forward_mps;
-  const bool is_held =
-      std::abs(asked_mps) > kDrives_mps && std::abs(speed_.forward_mps) < kMoves_mps;
-  stalled_s_ = is_held ? stalled_s_ + now_.elapsed_s : 0.0;
-  if (stalled_s_ < kStalls_s + robot_.wheels_latency_s) return;
-  stalled_s_ = 0.0;
-  const DriveLimits& body = robot_.drive;
-  const double reach_m = body.radius_m + params_.obstacles.cell_size_m;
-  for (double angle = -kFeels_rad; angle <= kFeels_rad; angle += 0.1) {
-    const Vector2d rim = reach_m * Vector2d(std::cos(angle), std::sin(angle));
-    layer_.touch(asked_mps > 0.0 ? Vector2d(body.front_m + rim.x(), rim.y())
-                                 : Vector2d(body.back_m - rim.x(), rim.y()));
-  }
-}
-
-// Who came of late to where the laser had seen nothing, and is no track: who stands close before
-// the robot is no person to the camera.
-void Follower::noteComers() {
-  const FloorPose from_motion = step_.robot.pose * motion_.pose().inverse();
-  const Eigen::Rotation2Dd turn(from_motion.yaw_rad);
-  const RecentSight& sight = last_gate_.sight();
-  for (const SeenThing& thing : sight.things()) {
-    if (!thing.is_somebody) continue;
-    const Vector2d place = from_motion * thing.place;
-    const auto isNear = [&](const Vector2d& other) {
-      return (other - place).norm() < params_.target_radius_m;
-    };
-    if ((now_.target && isNear(now_.target->position)) ||
-        std::any_of(now_.people.begin(), now_.people.end(),
-                    [&](const MovingPerson& person) { return isNear(person.position); }) ||
-        !sight.isLeg(thing)) {
-      continue;
-    }
-    now_.people.push_back({place, turn * thing.velocity, MovingPerson().radius_m, thing.gait_mps});
-  }
-}
-
-// Who walks is left to the local planner; around who stands leads another way, but for the target:
-// the way leads to them.
-void Follower::notePeople() {
-  now_.people.clear();
-  const Identity& identity = perception_->identity();
-  for (const Track& track : perception_->tracks()) {
-    if (track.status == TrackStatus::kTentative) continue;
-    const bool is_target =
-        now_.target &&
-        (track.motion.position_m() - now_.target->position).norm() < params_.target_radius_m;
-    if (is_target) continue;  // their other leg, too
-    const Evidence who = identity.probabilities(track.id);
-    if (who.sum() - who[kThing] < params_.surely_person) continue;
-    MovingPerson& person = now_.people.emplace_back();
-    person.position = track.motion.position_m();
-    const bool rests = identity.restsFor_s(track.id, steady_s_) >= params_.walks_on_s;
-    if (!rests || setsOff(track.motion)) {
-      person.velocity = track.motion.velocity_mps();
-      person.gait_mps = gaitOf(track.motion, step_.robot.pose.position);
-    }
-  }
-  noteComers();
-  const auto has_left = [&, to_motion = motion_.pose() *
-                                        step_.robot.pose.inverse()](const Vector2d& place) {
-    const auto isThingThere = [&](const Track& track) {
-      return track.observation != Track::kUnseen &&
-             (track.motion.position_m() - place).norm() < params_.target_radius_m &&
-             identity.probabilities(track.id)[kThing] > params_.surely_person;
-    };
-    const std::vector<Track>& tracks = perception_->tracks();
-    return (now_.target && (now_.target->position - place).norm() < params_.target_radius_m) ||
-           std::any_of(tracks.begin(), tracks.end(), isThingThere) ||
-           (place - step_.robot.pose.position).norm() > 0.5 * params_.obstacles.size_m ||
-           last_gate_.sight().seesFree(to_motion * place, kLegs_m);
-  };
-  now_.seen_people = now_.people.size();
-  unseen_.step(steady_s_, now_.people, has_left);
-  if (now_.target) {
-    now_.people.push_back(*now_.target);
-  } else if (now_.unseen_s < params_.walks_on_s) {  // passes where no sensor looks
-    now_.people.push_back(now_.expected(params_.walks_on_s));
-  }
-}
-
-void Follower::layOutPeople(const FloorPose& T_frame_world) {
-  people_discs_.clear();
-  for (const MovingPerson& person : now_.people) {
-    people_discs_.push_back({T_frame_world * person.position, params_.target_radius_m});
-  }
-}
-
-bool Follower::isMapped(const Vector2d& place) const {
-  return floor_.isOccupiedWithin(place, params_.mapped_within_m);
-}
-
-void Follower::keepUnmapped(const std::vector<Eigen::Vector3f>& points,
-                            const FloorPose& T_base_then) {
-  unmapped_.clear();
-  for (const Eigen::Vector3f& point : points) {
-    const Vector2d seen = T_base_then * Vector2d(point.head<2>().cast<double>());
-    const Vector2d place = step_.robot.pose * seen;
-    if (isMapped(place)) continue;
-    unmapped_.emplace_back(static_cast<float>(seen.x()), static_cast<float>(seen.y()), point.z());
-  }
+  things_.finish();
+  people_.step(steady_s_, *perception_, last_gate_.sight(), motion_.pose() * pose.inverse(), now_);
+  pilot_.setAround(things_.apartFrom(now_.people), people_.standing());
 }
 
 // Phase 1 (section 2).

@@ -9,9 +9,10 @@
 #include <heel/apps/follower/follower_params.hpp>
 #include <heel/apps/follower/make_room.hpp>
 #include <heel/apps/follower/motion_history.hpp>
+#include <heel/apps/follower/people_around.hpp>
 #include <heel/apps/follower/pilot.hpp>
 #include <heel/apps/follower/sensor_watch.hpp>
-#include <heel/apps/follower/unseen_people.hpp>
+#include <heel/apps/follower/things_around.hpp>
 #include <heel/mapping/wall_map.hpp>
 #include <heel/planning/following_plan.hpp>
 
@@ -87,7 +88,7 @@ class Follower {
   const FollowStep& step(const RobotReadings& readings, const StageDone& done = {});
 
   const RobotDescription& robot() const { return robot_; }
-  const ObstacleLayer& obstacles() const { return layer_; }
+  const ObstacleLayer& obstacles() const { return things_.layer(); }
   const OccupancyGrid& floor() const { return floor_; }
   const TargetEstimate& target() const { return target_; }
   /// Why the readings do not let the robot move; empty if they do.
@@ -111,13 +112,6 @@ class Follower {
   void checkFacts();
   void begin(FollowingAction action);
   void drive();
-  void feelAround();
-  void noteComers();
-  void notePeople();
-  void keepThings();
-  void layOutPeople(const FloorPose& T_frame_world);
-  bool isMapped(const Eigen::Vector2d& place) const;
-  void keepUnmapped(const std::vector<Eigen::Vector3f>& points, const FloorPose& T_base_then);
   void behave();
   Behaviour* behaviourOf(FollowingAction action) const {
     return behaviours_[static_cast<std::size_t>(action)].get();
@@ -134,9 +128,8 @@ class Follower {
   SensorWatch watch_;
   MotionHistory motion_;                      // by odometry, on the steady clock
   std::optional<Localization> localization_;  // on the map
-  ObstacleLayer layer_;
-  OccupancyGrid things_;  // its window, people apart
-  ObstaclePoints obstacle_points_;
+  ThingsAround things_;
+  PeopleAround people_;
   LaserBodies legs_;
   std::optional<PersonLearner> learner_;
   std::optional<Perception> perception_;
@@ -156,7 +149,6 @@ class Follower {
   double clock_offset_s_ = 0.0;  // what it is ahead of the readings',
   double frame_s_ = 0.0;         // and the newest frame's stamp on it
   VelocityCommand speed_;        // by odometry
-  double stalled_s_ = 0.0;       // so long the wheels have not turned, though they should
   TargetEstimate target_;
   int followed_id_ = TargetEstimate::kNoTrack;  // the track that was the target last
   double tracked_s_ = 0.0;  // when the tracks were stepped last, on the steady clock
@@ -165,11 +157,7 @@ class Follower {
   FollowingAction action_ = FollowingAction::kStop;
   FollowingAction begun_ = FollowingAction::kStop;  // the last one but stops
   double obstacles_age_s_ = 0.0;
-  bool has_arrived_ = false;             // where the last intent led, or as near as can be
-  std::vector<FloorDisc> people_discs_;  // all, in the frame last asked for
-  UnseenPeople unseen_;
-  std::vector<Eigen::Vector3f> unmapped_;  // points in the base frame
-  std::vector<Eigen::Vector2d> steps_;     // down, in the base frame of the last picture
+  bool has_arrived_ = false;  // where the last intent led, or as near as can be
 };
 
 }  // namespace heel

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <heel/apps/follower/people_around.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace heel {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kChiSquared99 = 9.21;  // of two degrees of freedom
+constexpr double kLegs_m = 0.12;        // So far from the middle of who stands are their legs.
+
+// Whether they move, as surely as 99 of 100.
+bool setsOff(const MotionState& motion) {
+  const Vector2d velocity = motion.velocity_mps();
+  const Eigen::Matrix2d covariance = motion.covariance.bottomRightCorner<2, 2>();
+  return velocity.dot(covariance.ldlt().solve(velocity)) > kChiSquared99;
+}
+
+}  // namespace
+
+double gaitOf(const MotionState& motion, const Vector2d& place) {
+  const Vector2d along = (place - motion.position_m()).stableNormalized();
+  return std::sqrt(along.dot(motion.covariance.bottomRightCorner<2, 2>() * along));
+}
+
+PeopleAround::PeopleAround(const FollowerParams& params)
+    : surely_person_(params.surely_person),
+      walks_on_s_(params.walks_on_s),
+      person_m_(params.target_radius_m),
+      known_within_m_(0.5 * params.obstacles.size_m),
+      unseen_(
+          {params.stands_mps, params.walks_on_s, params.beside_people_m, params.target_radius_m}) {}
+
+void PeopleAround::step(double stamp_s, const Perception& perception, const RecentSight& sight,
+                        const FloorPose& T_frame_world, Situation& now) {
+  now.people.clear();
+  addTracks(stamp_s, perception, now);
+  addComers(sight, T_frame_world.inverse(), now);
+  now.seen_people = now.people.size();
+  const auto hasLeft = [&](const Vector2d& place) {
+    const auto isThingThere = [&](const Track& track) {
+      return track.observation != Track::kUnseen &&
+             (track.motion.position_m() - place).norm() < person_m_ &&
+             perception.identity().probabilities(track.id)[kThing] > surely_person_;
+    };
+    const std::vector<Track>& tracks = perception.tracks();
+    return isNear(place, now.target) || std::any_of(tracks.begin(), tracks.end(), isThingThere) ||
+           (place - now.robot.position).norm() > known_within_m_ ||
+           sight.seesFree(T_frame_world * place, kLegs_m);
+  };
+  unseen_.step(stamp_s, now.people, hasLeft);
+  if (now.target) {
+    now.people.push_back(*now.target);
+  } else if (now.unseen_s < walks_on_s_) {  // passes where no sensor looks
+    now.people.push_back(now.expected(walks_on_s_));
+  }
+}
+
+// Who walks is left to the local planner; around who stands leads another way, but for the target:
+// the way leads to them.
+void PeopleAround::addTracks(double stamp_s, const Perception& perception, Situation& now) const {
+  const Identity& identity = perception.identity();
+  for (const Track& track : perception.tracks()) {
+    if (track.status == TrackStatus::kTentative) continue;
+    if (isNear(track.motion.position_m(), now.target)) continue;  // their other leg, too
+    const Evidence who = identity.probabilities(track.id);
+    if (who.sum() - who[kThing] < surely_person_) continue;
+    MovingPerson& person = now.people.emplace_back();
+    person.position = track.motion.position_m();
+    const bool rests = identity.restsFor_s(track.id, stamp_s) >= walks_on_s_;
+    if (!rests || setsOff(track.motion)) {
+      person.velocity = track.motion.velocity_mps();
+      person.gait_mps = gaitOf(track.motion, now.robot.position);
+    }
+  }
+}
+
+// Who came of late to where the laser had seen nothing, and is no track: who stands close before
+// the robot is no person to the camera.
+void PeopleAround::addComers(const RecentSight& sight, const FloorPose& T_world_frame,
+                             Situation& now) const {
+  const Eigen::Rotation2Dd turn(T_world_frame.yaw_rad);
+  for (const SeenThing& thing : sight.things()) {
+    if (!thing.is_somebody) continue;
+    const Vector2d place = T_world_frame * thing.place;
+    if (isNear(place, now.target) ||
+        std::any_of(now.people.begin(), now.people.end(),
+                    [&](const MovingPerson& person) { return isNear(place, person); }) ||
+        !sight.isLeg(thing)) {
+      continue;
+    }
+    now.people.push_back({place, turn * thing.velocity, MovingPerson().radius_m, thing.gait_mps});
+  }
+}
+
+bool PeopleAround::isNear(const Vector2d& place, const std::optional<MovingPerson>& person) const {
+  return person && (person->position - place).norm() < person_m_;
+}
+
+const std::vector<FloorDisc>& PeopleAround::discs(const std::vector<MovingPerson>& people,
+                                                  const FloorPose& T_frame_world) {
+  discs_.clear();
+  for (const MovingPerson& person : people) {
+    discs_.push_back({T_frame_world * person.position, person_m_});
+  }
+  return discs_;
+}
+
+}  // namespace heel

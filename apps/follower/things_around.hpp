@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+/// @file
+/// What stands around the robot that no map shows: seen by laser and camera, or felt.
+#pragma once
+
+#include <heel/apps/follower/follower_params.hpp>
+#include <heel/mapping/obstacle_layer.hpp>
+#include <heel/mapping/occupancy_grid.hpp>
+#include <heel/planning/surroundings.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace heel {
+
+/// An ObstacleLayer of what is not on the map. One step is begin(), what there is of addScan(),
+/// feel(), look() and addPoints(), then finish() and apartFrom().
+class ThingsAround {
+ public:
+  /// @param floor  The map; must outlive this.
+  ThingsAround(const RobotDescription& robot, const FollowerParams& params,
+               const OccupancyGrid& floor);
+
+  /// As ObstacleLayer::begin().
+  void begin(double stamp_s, const FloorPose& robot, const std::optional<FloorDisc>& target,
+             const std::vector<FloorDisc>& people);
+  void addScan(const LaserScan& scan, const FloorPose& T_base_scanner);
+  /// Wheels that do not turn though they should are held by something that no sensor sees.
+  void feel(const VelocityCommand& asked, const VelocityCommand& measured, double elapsed_s);
+
+  /// What a picture shows: points in the base frame of then; valid until the next call.
+  const std::vector<Eigen::Vector3f>& look(const Frame& frame) { return picture_.of(frame); }
+  /// The steps down that are known, in that frame.
+  const std::vector<Eigen::Vector2d>& stepsFrom(const FloorPose& then);
+  /// Takes in those points, and what the picture sees through.
+  /// @param T_base_then  The base frame of then, in that of now.
+  void addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& T_base_then);
+  /// What the last picture shows of places in its base frame.
+  DepthSight sight() const { return picture_.sight(); }
+
+  void finish() { layer_.finish(); }
+  /// What is no part of these people; valid until the next call.
+  const OccupancyGrid& apartFrom(const std::vector<MovingPerson>& people);
+
+  const ObstacleLayer& layer() const { return layer_; }
+
+ private:
+  bool isMapped(const Eigen::Vector2d& place) const;
+
+  DriveLimits body_;
+  double wheels_latency_s_, mapped_within_m_, stands_mps_, beside_people_m_, person_m_;
+  const OccupancyGrid& floor_;
+  ObstacleLayer layer_;
+  ObstaclePoints picture_;
+  FloorPose robot_;
+  OccupancyGrid apart_;                    // the layer's window, people apart
+  double stalled_s_ = 0.0;                 // so long the wheels have not turned, though they should
+  std::vector<Eigen::Vector3f> unmapped_;  // points in the base frame
+  std::vector<Eigen::Vector2d> steps_;
+};
+
+}  // namespace heel

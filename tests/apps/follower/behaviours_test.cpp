@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tests/planning/drawn_map.hpp"
+#include <heel/apps/follower/behaviours.hpp>
+#include <heel/apps/follower/make_room.hpp>
+
+#include <gtest/gtest.h>
+
+
+namespace heel {
+namespace {
+
+using Eigen::Vector2d;
+
+const MovingPerson kPerson{{3.0, 0.0}, {0.0, 0.0}, 0.25};
+const std::vector<DoorwayOnMap> kDoorway = {{{0.0, 0.0}, {1.0, 0.0}, 0.9}};  // through along X
+
+/// Open floor, but for what a test says.
+struct Floor {
+  GlobalPlan straight;
+  double room_m = 10.0;
+
+  std::optional<Intent> ask(Behaviour& behaviour, const Situation& now) {
+    const auto room = [this](const Vector2d&) { return room_m; };
+    const auto plan = [this](const Vector2d& from, const Vector2d& to) -> const GlobalPlan& {
+      straight.status = PlanStatus::kFound;
+      straight.path = {from, to};
+      straight.length_m = (to - from).norm();
+      straight.end = to;
+      return straight;
+    };
+    return behaviour.step(now, {room, room, plan});
+  }
+};
+
+RobotDescription robotOf() {
+  RobotDescription robot;
+  robot.camera.T_base_camera.translation().z() = 1.0;
+  return robot;
+}
+
+struct BehavioursTest : testing::Test {
+  BehavioursTest() : params(fittedTo(robotOf(), {})) {
+    now.elapsed_s = 0.1;
+    now.last = kPerson;
+  }
+  FollowerParams params;
+  Situation now;
+  Floor floor;
+};
+
+TEST_F(BehavioursTest, FollowsToAMetreOffAndKeepsThePersonInView) {
+  FollowTarget follow(robotOf(), params, nullptr, {});
+  now.target = kPerson;
+  const auto intent = floor.ask(follow, now);
+  ASSERT_TRUE(intent && intent->go_to && intent->keep_in_view);
+  EXPECT_LT((*intent->go_to - Vector2d(2.0, 0.0)).norm(), 0.05);
+  EXPECT_EQ(*intent->keep_in_view, kPerson.position);
+  now.target.reset();
+  EXPECT_EQ(*floor.ask(follow, now)->go_to, kPerson.position) << "where they were";
+}
+
+TEST_F(BehavioursTest, FacesThePersonWhereItStands) {
+  FaceTarget face(robotOf(), params, nullptr, {});
+  now.target = kPerson;
+  const auto intent = floor.ask(face, now);
+  EXPECT_FALSE(intent->go_to);
+  EXPECT_EQ(*intent->look_at, kPerson.position);
+}
+
+TEST_F(BehavioursTest, LeavesADoorwayBeforeItFacesThePerson) {
+  FaceTarget face(robotOf(), params, nullptr, kDoorway);
+  now.target = kPerson;
+  now.target->position.x() = 2.0;
+  const auto intent = floor.ask(face, now);
+  ASSERT_TRUE(intent->go_to);
+  EXPECT_FALSE(isInPassage(kDoorway, *intent->go_to, params.goal.doorway_depth_m, 0.26));
+  EXPECT_FALSE(intent->keep_in_view) << "they wait";
+  now.target->position.x() = 0.6;
+  EXPECT_FALSE(floor.ask(face, now)->go_to) << "they leave no room to drive";
+}
+
+TEST_F(BehavioursTest, TurnsToTheSideWhereThePersonWentAndKnowsAFullTurn) {
+  SeekTarget seek(0.9, 2.0);
+  now.last.position = {1.0, 0.1};
+  now.last.velocity = {0.0, -1.0};
+  now.unseen_s = 0.5;
+  seek.begin(now);
+  const auto intent = floor.ask(seek, now);
+  EXPECT_LT(bearingOf(now.robot, *intent->look_at), 0.0) << "they walked to the right";
+  EXPECT_EQ(intent->most_turn_radps, 0.9);
+  FollowingFacts facts;
+  now.turned_rad = -0.1;
+  for (int i = 0; i < 62; ++i) floor.ask(seek, now);
+  seek.tell(facts);
+  EXPECT_FALSE(facts[FollowingCondition::kFullTurn]);
+  floor.ask(seek, now);
+  seek.tell(facts);
+  EXPECT_TRUE(facts[FollowingCondition::kFullTurn]);
+}
+
+TEST_F(BehavioursTest, LooksAtWhoMayBeThePersonButNotForever) {
+  LookWhoThatIs look(params);
+  EXPECT_FALSE(floor.ask(look, now)) << "nobody may be";
+  now.suspect = Vector2d(0.0, 3.0);
+  EXPECT_EQ(*floor.ask(look, now)->look_at, *now.suspect);
+  now.suspect = Vector2d(3.0, 0.0);
+  EXPECT_EQ(*floor.ask(look, now)->go_to, *now.suspect) << "ahead: from nearer more is seen";
+  double looked_s = 0.0;
+  for (; floor.ask(look, now) && looked_s < 100.0; looked_s += 0.1) now.unseen_s += 0.1;
+  EXPECT_NEAR(looked_s, params.first_looks_s / (1.0 - params.look_share), 0.3);
+  now.target = kPerson;
+  look.watch(now);
+  now.target.reset();
+  EXPECT_TRUE(look.wants(now)) << "they were found, and are lost again";
+}
+
+TEST_F(BehavioursTest, WithoutAMapThereIsNoSearch) {
+  SearchForTarget search(nullptr);
+  const auto intent = floor.ask(search, now);
+  EXPECT_FALSE(intent->go_to || intent->look_at);
+  EXPECT_EQ(intent->reason, "waits: there is no map");
+}
+
+TEST_F(BehavioursTest, LooksFromAPlaceThenGoesOn) {
+  const OccupancyGrid map = test::DrawnMap{{8.0, 4.0}, 0.1, {{{4.0, 0.0}, {4.1, 2.5}}}}.grid();
+  PersonSearch search(map, map);
+  search.lose({{6.0, 1.0}, {0.0, 0.0}}, 1.0, 1.0);
+  SearchForTarget behaviour(&search);
+  now.robot.position = {2.0, 2.0};
+  behaviour.begin(now);
+  const Intent first = *floor.ask(behaviour, now);
+  ASSERT_TRUE(first.go_to && first.look_at);
+  EXPECT_TRUE(first.is_new);
+  behaviour.note({true, false});  // there, and still turning
+  EXPECT_FALSE(floor.ask(behaviour, now)->is_new) << "it looks";
+  behaviour.note({true, true});
+  now.robot = {*first.go_to, 0.0};
+  search.look({now.robot.position, 0.0}, 10.0, [](const Vector2d&) { return false; });
+  const Intent next = *floor.ask(behaviour, now);
+  EXPECT_EQ(next.is_new, *next.go_to != *first.go_to) << "the same view is no new beginning";
+}
+
+struct MakeRoomTest : BehavioursTest {
+  MakeRoom make_room{robotOf(), params, kDoorway};
+
+  std::optional<Intent> step() {
+    make_room.watch(now);
+    return floor.ask(make_room, now);
+  }
+};
+
+TEST_F(MakeRoomTest, LeavesADoorwayForThePersonWhoComesThroughIt) {
+  now.target = MovingPerson{{1.1, 0.0}, {-0.5, 0.0}, 0.25};
+  const auto intent = step();
+  ASSERT_TRUE(intent && intent->go_to);
+  EXPECT_FALSE(isInPassage(kDoorway, *intent->go_to, params.wayside.doorway_depth_m, 0.26));
+  EXPECT_LT(intent->go_to->x(), 0.3) << "not towards them";
+  EXPECT_EQ(*intent->look_at, now.target->position);
+  EXPECT_TRUE(intent->is_new);
+  EXPECT_FALSE(step()->is_new);
+  now.target->position = {-2.0, 0.0};
+  EXPECT_FALSE(step()) << "they have gone past";
+}
+
+TEST_F(MakeRoomTest, StaysWhereThereIsRoomForTwo) {
+  now.robot.position = {-3.0, 0.0};
+  now.target = MovingPerson{{-2.0, 0.0}, {-0.5, 0.0}, 0.25};
+  EXPECT_FALSE(step());
+}
+
+TEST_F(MakeRoomTest, WaitsAsideForAWhileOnly) {
+  now.target = MovingPerson{{1.1, 0.0}, {-0.5, 0.0}, 0.25};
+  ASSERT_TRUE(step());
+  now.target->velocity.setZero();
+  double waited_s = 0.0;
+  for (; step() && waited_s < 100.0; waited_s += now.elapsed_s) make_room.note({true, true});
+  EXPECT_NEAR(waited_s, params.waits_aside_s, 0.25);
+}
+
+TEST_F(MakeRoomTest, GoesAsideForOthersOnlyWhileItGetsNowhere) {
+  now.people = {{{0.6, 0.0}, {0.0, 0.0}, 0.25}};
+  now.seen_people = 1;
+  for (double t = 0.0; t < 2.0 * params.give_up_s; t += now.elapsed_s) {
+    ASSERT_FALSE(step()) << "it wants to go nowhere";
+  }
+  now.way_to = Vector2d(0.1, 0.0);
+  for (double t = 0.0; t < 2.0 * params.give_up_s; t += now.elapsed_s) {
+    ASSERT_FALSE(step()) << "it is at the end of its way";
+  }
+  now.way_to = Vector2d(3.0, 0.0);
+  double stuck_s = 0.0;
+  for (; !step() && stuck_s < 100.0; stuck_s += now.elapsed_s) {
+  }
+  EXPECT_NEAR(stuck_s, params.give_up_s, 0.25);
+}
+
+}  // namespace
+}  // namespace heel

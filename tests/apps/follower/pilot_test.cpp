@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tests/planning/drawn_map.hpp"
+#include <heel/apps/follower/follower_params.hpp>
+#include <heel/apps/follower/pilot.hpp>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace heel {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr auto kFarFromAll = [](const Vector2d&) {
+  return std::numeric_limits<double>::infinity();
+};
+
+/// A robot on a floor of 8 m by 4 m that does at once what it is told.
+struct Drive {
+  RobotDescription robot;
+  DriveState state{{{1.0, 2.0}, 0.0}, {}};
+  std::vector<MovingPerson> people;
+  std::vector<FloorDisc> standing;
+  std::vector<test::Box> walls;
+  OccupancyGrid things;
+  std::optional<Pilot> pilot;
+  PilotStep last;
+
+  void begin() {
+    const FollowerParams params = fittedTo(robot, {});
+    floor = test::DrawnMap{{8.0, 4.0}, 0.05, walls}.grid();
+    things = OccupancyGrid({0.0, 0.0}, 0.05, floor.width(), floor.height());
+    pilot.emplace(floor, params.paths, params.drive, params.give_up_s);
+    pilot->setAround(things, standing);
+  }
+  void step(const Intent& intent) {
+    last = pilot->step(intent, state, people, kFarFromAll, kAnyCommand);
+    state = driven(robot.drive, state, last.velocity, robot.drive.period_s);
+  }
+  /// @return after how many steps it neither drives nor turns where it should be.
+  int drive(const Intent& intent, int most = 600) {
+    for (int i = 0; i < most; ++i) {
+      step(intent);
+      if (last.outcome.has_arrived && last.outcome.stands) return i;
+    }
+    return most;
+  }
+
+ private:
+  OccupancyGrid floor;
+};
+
+Intent goTo(const Vector2d& place) {
+  Intent intent;
+  intent.go_to = place;
+  return intent;
+}
+
+TEST(Pilot, GoesAroundAWallAndThenLooks) {
+  Drive drive;
+  drive.walls = {{{3.0, 1.0}, {3.2, 4.0}}};
+  drive.begin();
+  Intent intent = goTo({5.0, 3.0});
+  intent.look_at = Vector2d(5.0, 0.0);
+  ASSERT_LT(drive.drive(intent), 600);
+  EXPECT_LT((drive.state.pose.position - Vector2d(5.0, 3.0)).norm(), 0.2);
+  EXPECT_LT(std::abs(bearingOf(drive.state.pose, *intent.look_at)), 0.15);
+  EXPECT_EQ(drive.last.path, nullptr) << "it is on no way any more";
+}
+
+TEST(Pilot, LooksNoFasterThanItIsTold) {
+  Drive drive;
+  drive.begin();
+  Intent intent;
+  intent.look_at = Vector2d(1.0, 4.0);
+  intent.most_turn_radps = 0.3;
+  for (int i = 0; i < 100; ++i) {
+    drive.step(intent);
+    EXPECT_LE(std::abs(drive.last.velocity.turn_radps), 0.3);
+    EXPECT_EQ(drive.last.velocity.forward_mps, 0.0);
+    EXPECT_FALSE(drive.last.outcome.has_arrived);
+  }
+  EXPECT_LT(std::abs(bearingOf(drive.state.pose, *intent.look_at)), 0.15);
+}
+
+TEST(Pilot, HasArrivedNearEnough) {
+  Drive drive;
+  drive.begin();
+  Intent intent = goTo({5.0, 2.0});
+  intent.near_enough_m = 1.0;
+  while (!drive.last.outcome.has_arrived) drive.step(intent);
+  EXPECT_NEAR(drive.state.pose.position.x(), 4.0, 0.1);
+}
+
+TEST(Pilot, HasArrivedWhereNothingLeadsOn) {
+  Drive drive;
+  drive.walls = {{{3.0, 0.0}, {3.2, 4.0}}};
+  drive.begin();
+  drive.step(goTo({5.0, 2.0}));
+  EXPECT_TRUE(drive.last.outcome.has_arrived);
+}
+
+// What is in the way may have gone when the robot is there.
+TEST(Pilot, GoesToWhereTheMapLeadsIfThingsBarTheWay) {
+  Drive drive;
+  drive.begin();
+  for (int y = 0; y < drive.things.height(); ++y) {
+    drive.things.at(GridCell{60, y}) = Occupancy::kOccupied;
+  }
+  drive.pilot->setAround(drive.things, drive.standing);
+  drive.step(goTo({5.0, 2.0}));
+  EXPECT_FALSE(drive.last.outcome.has_arrived);
+  EXPECT_GT(drive.last.velocity.forward_mps, 0.0);
+  for (int i = 0; i < 200; ++i) drive.step(goTo({5.0, 2.0}));
+  EXPECT_LT(drive.state.pose.position.x(), 3.0 - drive.robot.drive.radius_m);
+  EXPECT_TRUE(drive.last.outcome.has_arrived) << "as near as can be";
+}
+
+TEST(Pilot, PathsLeadAroundWhoStandsAndThroughWhoWalks) {
+  Drive drive;
+  drive.people = {{{3.0, 2.0}, {0.0, 0.5}, 0.25}};
+  drive.begin();
+  drive.step(goTo({5.0, 2.0}));
+  EXPECT_EQ(drive.last.path->size(), 2U) << "straight on";
+  drive.standing = {{{3.0, 2.0}, 0.3}};
+  drive.pilot->setAround(drive.things, drive.standing);
+  drive.step(goTo({5.0, 2.0}));
+  EXPECT_GT(drive.last.path->size(), 2U);
+}
+
+TEST(Pilot, MakesRoomForWhoWalksAtItWhileItLooks) {
+  Drive drive;
+  drive.people = {{{1.7, 2.0}, {-0.5, 0.0}, 0.25}};
+  drive.begin();
+  Intent intent;
+  intent.look_at = Vector2d(3.0, 2.0);
+  drive.step(intent);
+  EXPECT_LT(drive.last.velocity.forward_mps, 0.0);
+}
+
+TEST(Pilot, ALongRobotGoesToWhereItCanTurn) {
+  Drive drive;
+  drive.robot.drive.radius_m = 0.2;
+  drive.robot.drive.front_m = 0.3;
+  drive.robot.drive.back_m = -0.3;
+  drive.walls = {{{0.0, 2.3}, {3.0, 4.0}}, {{0.0, 0.0}, {3.0, 1.7}}};  // a passage 0.6 m wide
+  drive.state.pose.position = {2.2, 2.0};
+  drive.begin();
+  Intent intent;
+  intent.look_at = Vector2d(0.0, 2.0);
+  for (int i = 0; i < 600 && std::abs(bearingOf(drive.state.pose, *intent.look_at)) > 0.15; ++i) {
+    drive.step(intent);
+    const double room_m = roomAround(drive.robot.drive, drive.state.pose,
+                                     [&](const Vector2d& p) { return drive.pilot->room_m(p); });
+    ASSERT_GT(room_m, 0.0);
+  }
+  EXPECT_LT(std::abs(bearingOf(drive.state.pose, *intent.look_at)), 0.15);
+  EXPECT_GT(drive.state.pose.position.x(), 3.0) << "out of the passage";
+}
+
+TEST(Pilot, ForgetsWhatBarredTheLastWay) {
+  Drive drive;
+  drive.walls = {{{3.0, 0.0}, {3.2, 4.0}}};
+  drive.begin();
+  Intent intent = goTo({5.0, 2.0});
+  intent.look_at = Vector2d(5.0, 2.0);
+  drive.step(intent);
+  ASSERT_TRUE(drive.last.outcome.has_arrived);
+  intent.go_to = Vector2d(2.0, 2.0);
+  intent.is_new = true;
+  drive.step(intent);
+  EXPECT_FALSE(drive.last.outcome.has_arrived);
+  EXPECT_GT(drive.last.velocity.forward_mps, 0.0);
+}
+
+}  // namespace
+}  // namespace heel
