@@ -60,7 +60,7 @@ const char* describe(DriveReason reason) {
                                                          "turns to look",
                                                          "no path",
                                                          "gives way to a person",
-                                                         "backs off to turn",
+                                                         "backs off",
                                                          "a person is in the way",
                                                          "an obstacle is in the way",
                                                          "pose or speed is not finite",
@@ -254,7 +254,9 @@ void LocalPlanner::layOut(const DriveScene& scene, bool threatened, bool backs) 
       addHeld(limits, scene.now, {0.0, turn * limits.max_turn_radps}, futures_);
     }
   }
-  if (threatened || backs) {
+  const bool is_short =
+      !path_.empty() && scene.start.left_m < limits.max_reverse_mps * params_.horizon_s;
+  if (threatened || backs || is_short) {
     for (const double turn : {0.0, -0.3, 0.3, -0.7, 0.7}) {
       addHeld(limits, scene.now, {-limits.max_reverse_mps, turn * limits.max_turn_radps}, futures_);
     }

@@ -54,7 +54,7 @@ enum class DriveReason {
   kFaces,
   kNoPath,
   kGivesWay,     ///< Backs off before a person,
-  kBacksOff,     ///< or to where a long body can turn.
+  kBacksOff,     ///< to where a long body can turn, or to a place close behind it.
   kPersonInWay,  ///< A person comes too near to go on.
   kObstacleInWay,
   kBadPose,      ///< Pose or speed isn't finite.
@@ -82,8 +82,9 @@ struct LocalPlan {
 };
 
 /// Chooses among futures: the path pursued at several speeds and on either side of it, arcs, turns
-/// on the spot, a stop, and backing off from somebody who comes too near. A long body that has
-/// found no way to go backs off as far as it is long, to where it can turn.
+/// on the spot, a stop, and backing off: from somebody who comes too near, or where what is left of
+/// the path is short enough. A long body that has found no way to go backs off as far as it is
+/// long, to where it can turn.
 ///
 /// A future is admissible if the robot, having held its first command for `reacts_s` and then
 /// braked, still has its margins to all that stands and to where people can be by then; or if it

@@ -43,13 +43,17 @@ std::optional<Intent> FollowTarget::step(const Situation& now, const Ways& ways)
     intent.go_to = now.last.position;
     return intent;
   }
+  intent.go_to = placeBy(*now.target, now, ways);
+  return intent;
+}
+
+Vector2d FollowTarget::placeBy(const MovingPerson& person, const Situation& now, const Ways& ways) {
   const auto sees = [this](const Vector2d& from, const Vector2d& to) {
     return !walls_ ||
            walls_->lineOfSight({from.x(), from.y(), eye_m_}, {to.x(), to.y(), eye_m_}, kHalfBody_m);
   };
-  const auto place = places_.choose(*now.target, now.robot.position, ways.free, sees, doorways_);
-  intent.go_to = place.value_or(now.target->position);
-  return intent;
+  return places_.choose(person, now.robot.position, ways.free, sees, doorways_)
+      .value_or(person.position);
 }
 
 FaceTarget::FaceTarget(const RobotDescription& robot, const FollowerParams& params,
@@ -124,33 +128,40 @@ void SearchForTarget::note(const IntentOutcome& outcome) {
   is_there_ = outcome.has_arrived && outcome.stands;
 }
 
-LookWhoThatIs::LookWhoThatIs(const FollowerParams& params)
+LookWhoThatIs::LookWhoThatIs(const RobotDescription& robot, const FollowerParams& params,
+                             std::shared_ptr<const WallMap> walls,
+                             std::vector<DoorwayOnMap> doorways)
     : first_looks_s_(params.first_looks_s),
       look_share_(params.look_share),
       ahead_rad_(params.ahead_rad),
-      far_m_(params.far_m) {}
+      near_m_(params.goal.least_standoff_m),
+      far_m_(params.far_m),
+      nearer_(robot, params, std::move(walls), std::move(doorways)) {}
 
 void LookWhoThatIs::watch(const Situation& now) {
-  if (now.target) looked_s_ = 0.0;
+  if (!now.target) return;
+  looked_s_ = 0.0;
+  nearer_.begin(now);
 }
 
 bool LookWhoThatIs::wants(const Situation& now) const {
   return now.suspect && looked_s_ <= first_looks_s_ + look_share_ * now.unseen_s;
 }
 
-std::optional<Intent> LookWhoThatIs::step(const Situation& now, const Ways&) {
+std::optional<Intent> LookWhoThatIs::step(const Situation& now, const Ways& ways) {
   if (!wants(now)) return std::nullopt;
   looked_s_ += now.elapsed_s;
   Intent intent;
   intent.reason = "looks who that is";
   const Vector2d& place = *now.suspect;
   const bool is_ahead = std::abs(bearingOf(now.robot, place)) < ahead_rad_;
-  const bool is_far = (place - now.robot.position).norm() > far_m_;
-  if (is_ahead && is_far) {  // From nearer more is seen.
-    intent.go_to = place;
-    intent.keep_in_view = placeOf(now.target);
-  } else {
-    intent.look_at = place;
+  const double off_m = (place - now.robot.position).norm();
+  intent.look_at = place;
+  if (off_m < near_m_ || (is_ahead && off_m > far_m_)) {
+    MovingPerson person;
+    person.position = place;
+    intent.go_to = nearer_.placeBy(person, now, ways);
+    intent.keep_in_view = place;
   }
   return intent;
 }

@@ -26,6 +26,9 @@ class FollowTarget : public Behaviour {
   void begin(const Situation&) override { places_.reset(); }
   std::optional<Intent> step(const Situation& now, const Ways& ways) override;
 
+  /// The place to be with somebody; where they are, if there is none.
+  Eigen::Vector2d placeBy(const MovingPerson& person, const Situation& now, const Ways& ways);
+
  private:
   double eye_m_;
   GoalChooser places_;
@@ -93,10 +96,12 @@ class SearchForTarget : public Behaviour {
   bool is_there_ = false;  // at the view, and turned to it
 };
 
-/// Looks at somebody who may be the person who is lost, before anything else.
+/// Looks at somebody who may be the person who is lost, before anything else: from where all of
+/// them is in view, for who stands close before the camera is a piece of cloth to it.
 class LookWhoThatIs : public Behaviour {
  public:
-  explicit LookWhoThatIs(const FollowerParams& params);
+  LookWhoThatIs(const RobotDescription& robot, const FollowerParams& params,
+                std::shared_ptr<const WallMap> walls, std::vector<DoorwayOnMap> doorways);
 
   /// To be told of each step.
   void watch(const Situation& now);
@@ -105,7 +110,8 @@ class LookWhoThatIs : public Behaviour {
   std::optional<Intent> step(const Situation& now, const Ways& ways) override;
 
  private:
-  double first_looks_s_, look_share_, ahead_rad_, far_m_;
+  double first_looks_s_, look_share_, ahead_rad_, near_m_, far_m_;
+  FollowTarget nearer_;
   double looked_s_ = 0.0;  // since the person was lost
 };
 

@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "tests/apps/follower/acted_scene.hpp"
-#include "tests/segmentation/painted_person.hpp"
+#include "tests/apps/follower/colored_stage.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/target_scene.hpp"
-#include <heel/apps/follower/depth_images.hpp>
 #include <heel/apps/follower/perception.hpp>
 #include <heel/segmentation/height_crop.hpp>
 
@@ -19,58 +17,11 @@
 namespace heel {
 namespace {
 
-using test::kFloor;
+using test::ColoredStage;
 using test::kRed;
-using test::kSkin;
 
 constexpr Bgr kGreen{40, 150, 40};
-constexpr Bgr kTrousers{90, 60, 30};
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-
-/// The small stage, in colours; people are rounded towards the camera, as bodies are.
-struct ColoredStage : test::ActedScene {
-  ColoredStage() { image.setTo(cv::Scalar(kFloor.b, kFloor.g, kFloor.r)); }
-
-  /// Draws what stands at (x, y), from one height to another.
-  ColoredStage& part(double x, double y, double half_width_m, double low_m, double high_m,
-                     Bgr color) {
-    const auto column = [&](double left) { return camera.cx - camera.fx * left / x; };
-    const auto row = [&](double z) { return camera.cy - camera.fy * (z - 1.0) / x; };
-    for (int v = 0; v < image.rows; ++v) {
-      for (int u = 0; u < image.cols; ++u) {
-        if (v <= row(high_m) || v > row(low_m)) continue;
-        const double across = 2.0 * (u - column(y)) / (column(y - 1.0) - column(y + 1.0));
-        if (std::abs(across) > half_width_m) continue;
-        image.at<cv::Vec3b>(v, u) = {color.b, color.g, color.r};
-        const double off = across / half_width_m;
-        depth.at<float>(v, u) = static_cast<float>(x + 0.2 * (off * off - 1.0 / 3.0));
-      }
-    }
-    return *this;
-  }
-
-  ColoredStage& person(double x, double y, Bgr jumper) {
-    part(x, y, 0.2, 0.0, 0.9, kTrousers);
-    part(x, y, 0.2, 0.9, 1.45, jumper);
-    return part(x, y, 0.1, 1.45, 1.75, kSkin);
-  }
-
-  ColoredStage& person(double x, double y) { return person(x, y, kRed); }
-
-  Frame frame(double stamp_s) const {
-    Frame frame;
-    frame.stamp_s = stamp_s;
-    frame.image_bgr = image;
-    frame.depth_m = depth;
-    return frame;
-  }
-
-  ColorCloud::Ptr cloud() const {
-    ColorCloud::Ptr cloud(new ColorCloud);
-    makeColorCloud(depth, image, camera, Eigen::Isometry3d::Identity(), *cloud);
-    return cloud;
-  }
-};
 
 CameraSetup cameraSetupOf(SensorKind sensor) {
   CameraSetup setup;

@@ -141,6 +141,17 @@ TEST(Pilot, MakesRoomForWhoWalksAtItWhileItLooks) {
   EXPECT_LT(drive.last.velocity.forward_mps, 0.0);
 }
 
+TEST(Pilot, BacksOffFromWhomItLooksAt) {
+  Drive drive;
+  drive.people = {{{1.6, 2.0}, {0.0, 0.0}, 0.25}};
+  drive.begin();
+  Intent intent = goTo({0.7, 2.0});
+  intent.look_at = intent.keep_in_view = drive.people[0].position;
+  ASSERT_LT(drive.drive(intent), 100);
+  EXPECT_NEAR(drive.state.pose.position.x(), 0.7, 0.1);
+  EXPECT_LT(std::abs(drive.state.pose.yaw_rad), 0.2) << "it never turned its back to them";
+}
+
 TEST(Pilot, ALongRobotGoesToWhereItCanTurn) {
   Drive drive;
   drive.robot.drive.radius_m = 0.2;
