@@ -9,6 +9,17 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
+
+//! [behaviour]
+struct Wait : heel::Behaviour {
+  std::optional<heel::Intent> step(const heel::Situation& now, const heel::Ways&) override {
+    heel::Intent intent;
+    intent.look_at = now.last.position;  // where the person was seen last
+    return intent;
+  }
+};
+//! [behaviour]
 
 /// The follower on a robot of one's own: in a square room of 4 m, nobody there, no camera frame
 /// yet. It must stand, in phase 1, and know where it is.
@@ -30,6 +41,9 @@ int main() {
                           heel::loadPlan(PLANS "/search.pnml", heel::followingVocabulary()),
                           heel::FloorPose{});
   //! [robot]
+  //! [exchange]
+  follower.exchange(heel::FollowingAction::kSearch, std::make_unique<Wait>());
+  //! [exchange]
 
   heel::LaserScan scan;
   scan.first_rad = -M_PI / 2.0;
