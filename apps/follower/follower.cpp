@@ -263,8 +263,7 @@ void Follower::see(const Frame* frame) {
     target_ = step_.perception->target;
   } else if (legs != nullptr && steady_s_ - tracked_s_ > params_.no_frame_s) {
     tracked_s_ = steady_s_;
-    frame_s_ = std::max(frame_s_, scan_s_);  // tracks only go on
-    target_ = perception_->step(frame_s_, placeAt(frame_s_), *legs).target;
+    target_ = perception_->step(scan_s_, placeAt(scan_s_), *legs).target;
   }
   noteTarget();
 }
