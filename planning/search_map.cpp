@@ -63,7 +63,8 @@ void SearchMap::findViews() {
   const auto edge = index(2 * reach_cells_ + 1);
   is_visible_.assign(view_cells_.size() * edge * edge, false);
   is_hidden_ = is_visible_;
-  hidden_s_.assign(view_cells_.size(), -std::numeric_limits<double>::infinity());
+  hidden_s_.assign(view_cells_.size(), 0.0);
+  hidden_since_s_.assign(view_cells_.size(), -1.0);
   for (std::size_t view = 0; view < view_cells_.size(); ++view) {
     const Eigen::Vector2d from = floor_.center(view_cells_[view]);
     for (int c = 0; c < floor_.cells(); ++c) {
@@ -194,7 +195,9 @@ void SearchMap::look(const FloorPose& camera, double elapsed_s,
     for (const std::size_t view : views_here_) {
       if (!isInWindow(view, cell)) continue;
       is_hidden_[windowIndex(view, cell)] = hides;
-      if (hides) hidden_s_[view] = clock_s_;
+      if (!hides) continue;
+      if (hidden_since_s_[view] < 0.0) hidden_since_s_[view] = clock_s_;
+      hidden_s_[view] = clock_s_;
     }
     return !hides;
   });
@@ -211,7 +214,8 @@ void SearchMap::findViewsAt(const Eigen::Vector2d& place) {
   for (std::size_t view = 0; view < view_cells_.size(); ++view) {
     if ((floor_.center(view_cells_[view]) - place).norm() > params_.view_spacing_m) continue;
     views_here_.push_back(view);
-    if (clock_s_ - hidden_s_[view] <= kStays_s) continue;
+    if (hidden_since_s_[view] < 0.0 || clock_s_ - hidden_s_[view] <= kStays_s) continue;
+    hidden_since_s_[view] = -1.0;
     const std::size_t window = is_hidden_.size() / view_cells_.size();
     const auto row = is_hidden_.begin() + static_cast<std::ptrdiff_t>(view * window);
     std::fill(row, row + static_cast<std::ptrdiff_t>(window), false);
@@ -284,7 +288,7 @@ std::optional<SearchView> SearchMap::nextView(const FloorPose& camera,
   by_rate_.clear();
   for (std::size_t view = 0; view < view_cells_.size(); ++view) {
     if (!std::isfinite(onMap_m(view))) continue;
-    const Bearings around = chancesAround(view);
+    const Bearings around = chancesAround(view, toThere_s(onMap_m(view)) + params_.look_s);
     chances_[view] = std::accumulate(around.begin(), around.end(), 0.0);
     rates_[view] = chances_[view] / (toThere_s(onMap_m(view)) + around_s);
     if (rates_[view] > 0.0) by_rate_.push_back(view);
@@ -308,13 +312,14 @@ std::optional<SearchView> SearchMap::nextView(const FloorPose& camera,
   return bestLook(best, best_s, camera.yaw_rad);
 }
 
-SearchMap::Bearings SearchMap::chancesAround(std::size_t view) const {
+SearchMap::Bearings SearchMap::chancesAround(std::size_t view, double in_s) const {
   Bearings chances{};
   const int cell = view_cells_[view];
   const int x0 = cell % floor_.width(), y0 = cell / floor_.width();
-  // Whoever hides something may have gone since.
-  const double hides = std::exp((hidden_s_[view] - clock_s_) / kStays_s);
-  const double shows = std::max(1.0 - hides, kNoChance);
+  // What has hidden something for a time will go on for that time: it has gone by the half.
+  const double since_s = std::max(clock_s_ - hidden_s_[view], 0.0) + in_s;
+  const double stood_s = std::max(hidden_s_[view] - hidden_since_s_[view], 0.0);
+  const double shows = since_s / (since_s + stood_s + params_.look_s);
   const int high_x = std::min(floor_.width() - 1, x0 + reach_cells_);
   const int high_y = std::min(floor_.height() - 1, y0 + reach_cells_);
   for (int y = std::max(0, y0 - reach_cells_); y <= high_y; ++y) {
@@ -332,7 +337,7 @@ SearchMap::Bearings SearchMap::chancesAround(std::size_t view) const {
 }
 
 SearchView SearchMap::bestLook(std::size_t view, double way_s, double yaw_rad) const {
-  const Bearings around = chancesAround(view);
+  const Bearings around = chancesAround(view, way_s + params_.look_s);
   const auto in_view = static_cast<std::size_t>(
       std::clamp(params_.field_of_view_rad / (2.0 * kPi) * kBearings, 1.0, 1.0 * kBearings));
   SearchView best;

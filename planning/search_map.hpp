@@ -78,7 +78,7 @@ class SearchMap {
 
   /// The camera has looked from here for a while, and the person was not found.
   /// @param is_hidden  Whether something that the map does not show stands before a place. It is
-  ///                   taken to stay there for a while, and to hide the place from all around here.
+  ///                   taken to hide it from all around here for as long again as it has till then.
   void look(const FloorPose& camera, double elapsed_s,
             FunctionRef<bool(const Eigen::Vector2d&)> is_hidden);
   void look(const FloorPose& camera, double elapsed_s) {
@@ -119,7 +119,7 @@ class SearchMap {
   bool isInView(const FloorPose& camera, const Eigen::Vector2d& point) const;
   std::size_t windowIndex(std::size_t view, int cell) const;
   bool isInWindow(std::size_t view, int cell) const;
-  Bearings chancesAround(std::size_t view) const;
+  Bearings chancesAround(std::size_t view, double in_s) const;
   SearchView bestLook(std::size_t view, double way_s, double yaw_rad) const;
 
   SearchMapParams params_;
@@ -139,7 +139,8 @@ class SearchMap {
   std::vector<int> view_cells_;   ///< Places to look from.
   std::vector<bool> is_visible_;  ///< Of the cells in the window around each view, row by row,
   std::vector<bool> is_hidden_;   ///< by something that the map does not show,
-  std::vector<double> hidden_s_;  ///< at this time on the clock, by view.
+  std::vector<double> hidden_s_;  ///< at this time on the clock, by view,
+  std::vector<double> hidden_since_s_;   ///< and first at this one; below 0: not at all.
   std::vector<std::size_t> views_here_;  ///< Memory of look().
   std::vector<float> way_m_;             ///< Of the robot; memory of nextView(), as the next are.
   std::vector<double> chances_;          ///< By view, as the next,

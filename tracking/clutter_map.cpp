@@ -73,9 +73,9 @@ void ClutterMap::look(const Eigen::Vector2d& from_m, const SightOf& sight_of, do
   }
 }
 
-void ClutterMap::add(const Eigen::Vector2d& place_m, double probability, double time_s) {
+void ClutterMap::add(const Eigen::Vector2d& place_m, double thing_s, double time_s) {
   forCorners(place_m, [&](std::size_t i, double weight) {
-    cells_[i].occupied_s += static_cast<float>(weight * probability * time_s);
+    cells_[i].occupied_s += static_cast<float>(weight * thing_s);
     cells_[i].seen_s += static_cast<float>(weight * time_s);
   });
 }

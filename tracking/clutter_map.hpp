@@ -47,8 +47,9 @@ class ClutterMap {
   /// Counts time in which the places around were seen through.
   void look(const Eigen::Vector2d& from_m, const SightOf& sight_of, double time_s);
 
-  /// Counts an observation there that is a thing with this probability.
-  void add(const Eigen::Vector2d& place_m, double probability, double time_s);
+  /// Counts a time in which something was observed there, and of it that in which it was a thing;
+  /// below 0 where that shall not have been.
+  void add(const Eigen::Vector2d& place_m, double thing_s, double time_s);
 
  private:
   struct Cell {

@@ -126,6 +126,23 @@ Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s) const
   return weight.max(1e-12).log() + (weight > 0.0).select(Evidence::Zero(), -kInfinity);
 }
 
+/// The same of something else than what is there: what is there is no evidence of its own.
+Evidence Identity::priorOfAnother(const Belief& here, const Eigen::Vector2d& place_m,
+                                  double stamp_s) {
+  clutter_.add(here.place_m, -here.counted_thing_s, -here.counted_s);
+  const Evidence prior = priorOf(place_m, stamp_s);
+  clutter_.add(here.place_m, here.counted_thing_s, here.counted_s);
+  return prior;
+}
+
+/// Where it rests: that it is on its way through a place does not say that things come there.
+void Identity::count(Belief& belief, double time_s) {
+  const double thing_s = time_s * belief.probability[kThing];
+  clutter_.add(belief.place_m, thing_s, time_s);
+  belief.counted_s += time_s;
+  belief.counted_thing_s += thing_s;
+}
+
 double Identity::newsOf(double elapsed_s, double way_m) const {
   return -std::expm1(-std::max(elapsed_s, 0.0) / params_.still_look_s - way_m / params_.look_way_m);
 }
@@ -156,13 +173,14 @@ Identity::Belief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, 
   }
   Belief& belief = beliefs_.emplace_back();
   if (same != left_.end()) {
+    const Evidence another = priorOfAnother(*same, place_m, stamp_s);
     const Evidence log_others = logOthers(*same);
     for (Belief& other : beliefs_) {  // They are together again.
       if (other.born_s <= same->seen_s) other.log_free = (other.log_free - log_others).min(0.0);
     }
     belief = std::move(*same);
     left_.erase(same);
-    mixIn(belief, {prior, prior}, newcomers_per_m2 / (newcomers_per_m2 + most_per_m2));
+    mixIn(belief, {another, another}, newcomers_per_m2 / (newcomers_per_m2 + most_per_m2));
     belief.is_alive = true;
     belief.present = 1.0;
   } else {
@@ -192,7 +210,7 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
   const double missed = 1.0 - belief.present + belief.present * kMissed * news;
   if (missed > 0.0) {
     const double same = (1.0 - missed) * track.density_per_m2;
-    const Evidence prior = priorOf(seen.position_m, stamp_s);
+    const Evidence prior = priorOfAnother(belief, seen.position_m, stamp_s);
     const double other = missed * prior.exp().sum();
     mixIn(belief, {prior, prior}, other / (same + other));
   }
@@ -205,6 +223,7 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
   if (has_moved) {
     belief.place_m = seen.position_m;
     belief.since_s = stamp_s;
+    belief.counted_s = belief.counted_thing_s = 0.0;
   }
 }
 
@@ -275,12 +294,11 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const ObservationUse& use = report.uses[i];
     if (use.fate == ObservationFate::kFragment || use.verdict != GateVerdict::kAccepted) continue;
-    if (const Belief* belief = find(use.track_id)) {
-      // Where it rests: that it is on its way through a place does not say that things come there.
-      clutter_.add(belief->place_m, belief->probability[kThing], time_s);
+    if (Belief* belief = find(use.track_id)) {
+      count(*belief, time_s);
     } else {
       const Evidence prior = relative(priorOf(observations[i].position_m, stamp_s));
-      clutter_.add(observations[i].position_m, prior[kThing] / prior.sum(), time_s);
+      clutter_.add(observations[i].position_m, time_s * prior[kThing] / prior.sum(), time_s);
     }
   }
 }

@@ -653,6 +653,28 @@ TEST(Identity, WhoStandsIsNotAThingForThat) {
   EXPECT_GT(home.target(1), 0.95) << "after ten minutes";
 }
 
+// Bug: who stood half taken for a thing, and was not seen for a second, was a thing after that: for
+// things had been seen there, which were they.
+TEST(Identity, WhoStandsIsNoEvidenceThatThingsAreThere) {
+  Home home;
+  for (int i = 0; i < 40; ++i) home.see({{1, {3, 0}, nullptr}});
+  const double before = home.probability(1, kThing);
+  ASSERT_GT(before, 0.3);
+  ASSERT_LT(before, 0.7);
+  for (int i = 0; i < 10; ++i) home.see({{1, {3, 0}, nullptr, false}});
+  home.see({{1, {3, 0}, nullptr}});
+  EXPECT_NEAR(home.probability(1, kThing), before, 0.05);
+}
+
+TEST(Identity, WhatWasThereBeforeIsEvidenceThatThingsAreThere) {
+  Home home;
+  for (int i = 0; i < 40; ++i) home.see({{1, {3, 0}, nullptr}});
+  const double before = home.probability(1, kThing);
+  home.walk({1, {3, 0}, nullptr}, 3.0);  // It leaves; what was counted there stays.
+  home.see({{2, {3, 0}, nullptr}, {1, {6, 0}, nullptr}});
+  EXPECT_GT(home.probability(2, kThing), before + 0.1);
+}
+
 TEST(Identity, WhoLeavesATrackMayBeAnother) {
   Home home;
   home.walk({1, {0, 0}, &kRed}, 2.0);
