@@ -53,8 +53,6 @@ class GoalChooser {
   /// Forgets the last choice.
   void reset() { last_.reset(); }
 
-  const GoalChooserParams& params() const { return params_; }
-
  private:
   GoalChooserParams params_;
   std::optional<Eigen::Vector2d> last_;

@@ -40,6 +40,7 @@ SearchMap::SearchMap(const OccupancyGrid& floor, const OccupancyGrid& sight,
       next_(shares_),
       belief_(shares_.size(), 0.0),
       others_(shares_),
+      hidings_(shares_.size()),
       reached_s_(shares_.size(), std::numeric_limits<double>::infinity()),
       speed_mps_(params.usual_speed_mps) {
   if (floor_.nearestFree(floor.origin_m()) < 0) {
@@ -62,32 +63,23 @@ void SearchMap::findViews() {
   }
   const auto edge = index(2 * reach_cells_ + 1);
   is_visible_.assign(view_cells_.size() * edge * edge, false);
-  is_hidden_ = is_visible_;
-  hidden_s_.assign(view_cells_.size(), 0.0);
-  hidden_since_s_.assign(view_cells_.size(), -1.0);
   for (std::size_t view = 0; view < view_cells_.size(); ++view) {
     const Eigen::Vector2d from = floor_.center(view_cells_[view]);
     for (int c = 0; c < floor_.cells(); ++c) {
       const Eigen::Vector2d to = floor_.center(c);
       const double range = (to - from).norm();
       if (!floor_.isFree(c) || range < params_.min_range_m || range > params_.max_range_m) continue;
-      is_visible_[windowIndex(view, c)] = floor_.sees(from, to);
+      is_visible_[visibleIndex(view, c)] = floor_.sees(from, to);
     }
   }
 }
 
-std::size_t SearchMap::windowIndex(std::size_t view, int cell) const {
+std::size_t SearchMap::visibleIndex(std::size_t view, int cell) const {
   const int from = view_cells_[view];
   const int edge = 2 * reach_cells_ + 1;
   const int x = cell % floor_.width() - from % floor_.width() + reach_cells_;
   const int y = cell / floor_.width() - from / floor_.width() + reach_cells_;
   return view * index(edge * edge) + index(y * edge + x);
-}
-
-bool SearchMap::isInWindow(std::size_t view, int cell) const {
-  const int from = view_cells_[view];
-  return std::abs(cell % floor_.width() - from % floor_.width()) <= reach_cells_ &&
-         std::abs(cell / floor_.width() - from / floor_.width()) <= reach_cells_;
 }
 
 void SearchMap::start(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity,
@@ -187,39 +179,22 @@ void SearchMap::walk() {
 
 void SearchMap::look(const FloorPose& camera, double elapsed_s,
                      FunctionRef<bool(const Eigen::Vector2d&)> is_hidden) {
-  findViewsAt(camera.position);
   thin(elapsed_s, [&](int cell) {
     const Eigen::Vector2d place = floor_.center(cell);
     if (!isInView(camera, place)) return false;
+    Hiding& hiding = hidings_[index(cell)];
     const bool hides = is_hidden(place);
-    for (const std::size_t view : views_here_) {
-      if (!isInWindow(view, cell)) continue;
-      is_hidden_[windowIndex(view, cell)] = hides;
-      if (!hides) continue;
-      if (hidden_since_s_[view] < 0.0) hidden_since_s_[view] = clock_s_;
-      hidden_s_[view] = clock_s_;
+    if (!hides || !hiding.isFrom(camera.position, params_.view_spacing_m) ||
+        clock_s_ - hiding.last_s > kStays_s) {
+      hiding = {hides, camera.position.cast<float>(), clock_s_, clock_s_};
     }
+    hiding.last_s = clock_s_;
     return !hides;
   });
 }
 
 void SearchMap::scan(const LaserScan& scan, const FloorPose& scanner, double elapsed_s) {
   thin(elapsed_s, [&](int cell) { return isSeenThrough(scan, scanner, floor_.center(cell)); });
-}
-
-// The views from which much the same is seen as from here. What hid something from them long ago is
-// forgotten.
-void SearchMap::findViewsAt(const Eigen::Vector2d& place) {
-  views_here_.clear();
-  for (std::size_t view = 0; view < view_cells_.size(); ++view) {
-    if ((floor_.center(view_cells_[view]) - place).norm() > params_.view_spacing_m) continue;
-    views_here_.push_back(view);
-    if (hidden_since_s_[view] < 0.0 || clock_s_ - hidden_s_[view] <= kStays_s) continue;
-    hidden_since_s_[view] = -1.0;
-    const std::size_t window = is_hidden_.size() / view_cells_.size();
-    const auto row = is_hidden_.begin() + static_cast<std::ptrdiff_t>(view * window);
-    std::fill(row, row + static_cast<std::ptrdiff_t>(window), false);
-  }
 }
 
 void SearchMap::thin(double elapsed_s, FunctionRef<bool(int cell)> is_empty) {
@@ -316,21 +291,22 @@ SearchMap::Bearings SearchMap::chancesAround(std::size_t view, double in_s) cons
   Bearings chances{};
   const int cell = view_cells_[view];
   const int x0 = cell % floor_.width(), y0 = cell / floor_.width();
-  // What has hidden something for a time will go on for that time: it has gone by the half.
-  const double since_s = std::max(clock_s_ - hidden_s_[view], 0.0) + in_s;
-  const double stood_s = std::max(hidden_s_[view] - hidden_since_s_[view], 0.0);
-  const double shows = since_s / (since_s + stood_s + params_.look_s);
+  const Eigen::Vector2d from = floor_.center(cell);
+  // What has hidden a place for a time goes on for that time: it has gone by then by the half.
+  const auto shows = [&](const Hiding& hiding) {
+    if (!hiding.isFrom(from, params_.view_spacing_m)) return 1.0;
+    const double since_s = clock_s_ - hiding.last_s + in_s;
+    return since_s / (since_s + hiding.last_s - hiding.first_s + params_.look_s);
+  };
   const int high_x = std::min(floor_.width() - 1, x0 + reach_cells_);
   const int high_y = std::min(floor_.height() - 1, y0 + reach_cells_);
   for (int y = std::max(0, y0 - reach_cells_); y <= high_y; ++y) {
     for (int x = std::max(0, x0 - reach_cells_); x <= high_x; ++x) {
       const int c = y * floor_.width() + x;
-      if (belief_[index(c)] < kNoChance) continue;
-      const std::size_t i = windowIndex(view, c);
-      if (!is_visible_[i]) continue;
+      if (belief_[index(c)] < kNoChance || !is_visible_[visibleIndex(view, c)]) continue;
       const double turns = std::atan2(y - y0, x - x0) / (2.0 * kPi) + 1.0;
       chances[static_cast<std::size_t>(turns * kBearings) % kBearings] +=
-          (is_hidden_[i] ? shows : 1.0) * belief_[index(c)];
+          shows(hidings_[index(c)]) * belief_[index(c)];
     }
   }
   return chances;

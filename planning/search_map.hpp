@@ -108,17 +108,26 @@ class SearchMap {
   using Shares = std::array<double, kHeadings>;    ///< Of one cell, by way.
   using Bearings = std::array<double, kBearings>;  ///< Of what is in view, to the left from +X.
 
+  /// Something that the map does not show stood before a cell.
+  struct Hiding {
+    bool hides = false;
+    Eigen::Vector2f from = Eigen::Vector2f::Zero();  ///< As seen from here,
+    double first_s = 0.0, last_s = 0.0;              ///< on the clock.
+
+    bool isFrom(const Eigen::Vector2d& place, double within_m) const {
+      return hides && (place - from.cast<double>()).norm() <= within_m;
+    }
+  };
+
   void turn();
   void walk();
   void sumUp();
   void findViews();
   void thin(double elapsed_s, FunctionRef<bool(int cell)> is_empty);
-  void findViewsAt(const Eigen::Vector2d& place);
   bool isSeenThrough(const LaserScan& scan, const FloorPose& scanner,
                      const Eigen::Vector2d& point) const;
   bool isInView(const FloorPose& camera, const Eigen::Vector2d& point) const;
-  std::size_t windowIndex(std::size_t view, int cell) const;
-  bool isInWindow(std::size_t view, int cell) const;
+  std::size_t visibleIndex(std::size_t view, int cell) const;
   Bearings chancesAround(std::size_t view, double in_s) const;
   SearchView bestLook(std::size_t view, double way_s, double yaw_rad) const;
 
@@ -128,6 +137,7 @@ class SearchMap {
   std::vector<Shares> next_;
   std::vector<double> belief_;
   std::vector<Shares> others_;     ///< Memory of start(), as the next are.
+  std::vector<Hiding> hidings_;    ///< By cell.
   std::vector<float> walked_m_;    ///< From where the person was last seen.
   std::vector<double> reached_s_;  ///< On the clock: nobody can have walked there sooner.
   CoarseFloor::Open open_;
@@ -137,14 +147,10 @@ class SearchMap {
 
   int reach_cells_ = 0;           ///< Half the edge of a window around a view.
   std::vector<int> view_cells_;   ///< Places to look from.
-  std::vector<bool> is_visible_;  ///< Of the cells in the window around each view, row by row,
-  std::vector<bool> is_hidden_;   ///< by something that the map does not show,
-  std::vector<double> hidden_s_;  ///< at this time on the clock, by view,
-  std::vector<double> hidden_since_s_;   ///< and first at this one; below 0: not at all.
-  std::vector<std::size_t> views_here_;  ///< Memory of look().
-  std::vector<float> way_m_;             ///< Of the robot; memory of nextView(), as the next are.
-  std::vector<double> chances_;          ///< By view, as the next,
-  std::vector<double> rates_;            ///< which is per time.
+  std::vector<bool> is_visible_;  ///< Of the cells in the window around each view, row by row.
+  std::vector<float> way_m_;      ///< Of the robot; memory of nextView(), as the next are.
+  std::vector<double> chances_;   ///< By view, as the next,
+  std::vector<double> rates_;     ///< which is per time.
   std::vector<std::size_t> by_rate_;
   CoarseFloor::Open way_open_;
 };

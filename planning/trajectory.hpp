@@ -28,7 +28,8 @@ struct DriveLimits {
   double front_m = 0.0;        ///< The axis ends here, ahead of the base's origin,
   double back_m = 0.0;         ///< and begins here; both are 0 for a round robot.
   double max_speed_mps = 0.3;  ///< Greatest speed forwards.
-  /// Greatest speed backwards: to make room for somebody, and of a long body for itself.
+  /// Greatest speed backwards: to make room for somebody, to a place close behind it, and of a long
+  /// body to where it can turn.
   double max_reverse_mps = 0.15;
   double max_turn_radps = 1.0;                ///< Greatest speed of turning.
   double max_acceleration_mps2 = 0.5;         ///< Greatest acceleration, and deceleration.

@@ -32,6 +32,13 @@ struct ClutterMapParams {
   double prior_s = 1.0;
 };
 
+/// What was counted of one body.
+struct ClutterCount {
+  Eigen::Vector2d place_m = Eigen::Vector2d::Zero();
+  double time_s = 0.0;   ///< In which it was observed there,
+  double thing_s = 0.0;  ///< and of it that in which it was a thing.
+};
+
 /// Remembers, for each place, how much of the time in which it was seen a thing was observed there.
 /// Things stay: where nothing was, somebody who is there now came; where something always was,
 /// it is no person, however alike. A torus of cells of 0.25 m, 40 m around: what is further apart
@@ -41,15 +48,13 @@ class ClutterMap {
   /// @throws std::invalid_argument  if a parameter is out of its range.
   explicit ClutterMap(const ClutterMapParams& params = {});
 
-  /// Things a square metre that are observed there, in a look.
-  double density_per_m2(const Eigen::Vector2d& place_m) const;
+  /// Things a square metre that are observed there, in a look. @param but  Without this.
+  double density_per_m2(const Eigen::Vector2d& place_m, const ClutterCount& but = {}) const;
 
   /// Counts time in which the places around were seen through.
   void look(const Eigen::Vector2d& from_m, const SightOf& sight_of, double time_s);
 
-  /// Counts a time in which something was observed there, and of it that in which it was a thing;
-  /// below 0 where that shall not have been.
-  void add(const Eigen::Vector2d& place_m, double thing_s, double time_s);
+  void add(const ClutterCount& count);
 
  private:
   struct Cell {

@@ -101,9 +101,11 @@ double Identity::logLikelihood(int track_id, int observation) const {
 }
 
 /// What is believed of somebody who appears at a place, before a look at them.
-Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s) const {
+/// @param but  Of what else is there: it is no evidence for another thing.
+Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s,
+                           const ClutterCount& but) const {
   Evidence weight = Evidence::Zero();
-  weight[kThing] = clutter_.density_per_m2(place_m);
+  weight[kThing] = clutter_.density_per_m2(place_m, but);
   weight[kStranger] = params_.newcomer_density_per_m2;
   for (int h = kTarget; h < kHypotheses; ++h) {
     if (h != kTarget && !gallery_.isKnown(h)) continue;
@@ -126,21 +128,12 @@ Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s) const
   return weight.max(1e-12).log() + (weight > 0.0).select(Evidence::Zero(), -kInfinity);
 }
 
-/// The same of something else than what is there: what is there is no evidence of its own.
-Evidence Identity::priorOfAnother(const Belief& here, const Eigen::Vector2d& place_m,
-                                  double stamp_s) {
-  clutter_.add(here.place_m, -here.counted_thing_s, -here.counted_s);
-  const Evidence prior = priorOf(place_m, stamp_s);
-  clutter_.add(here.place_m, here.counted_thing_s, here.counted_s);
-  return prior;
-}
-
 /// Where it rests: that it is on its way through a place does not say that things come there.
 void Identity::count(Belief& belief, double time_s) {
   const double thing_s = time_s * belief.probability[kThing];
-  clutter_.add(belief.place_m, thing_s, time_s);
-  belief.counted_s += time_s;
-  belief.counted_thing_s += thing_s;
+  clutter_.add({belief.place_m, time_s, thing_s});
+  belief.counted = {belief.place_m, belief.counted.time_s + time_s,
+                    belief.counted.thing_s + thing_s};
 }
 
 double Identity::newsOf(double elapsed_s, double way_m) const {
@@ -173,7 +166,7 @@ Identity::Belief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, 
   }
   Belief& belief = beliefs_.emplace_back();
   if (same != left_.end()) {
-    const Evidence another = priorOfAnother(*same, place_m, stamp_s);
+    const Evidence another = priorOf(place_m, stamp_s, same->counted);
     const Evidence log_others = logOthers(*same);
     for (Belief& other : beliefs_) {  // They are together again.
       if (other.born_s <= same->seen_s) other.log_free = (other.log_free - log_others).min(0.0);
@@ -201,7 +194,7 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
   const double elapsed_s = std::max(stamp_s - belief.seen_s, 0.0);
   const double news = newsOf(elapsed_s, has_moved ? off_m : 0.0);
   const double there = kTwoPi * kPlaceSigma_m * kPlaceSigma_m;
-  const double clutter = clutter_.density_per_m2(seen.position_m);
+  const double clutter = clutter_.density_per_m2(seen.position_m, belief.counted);
   const double stood_s = params_.stands_s + std::max(belief.seen_s - belief.since_s, 0.0);
   const double stands = std::log1p(elapsed_s / stood_s);  // -log P(stays | person)
   belief.log_place[kThing] += has_moved ? news * std::log(clutter * there) : stands;
@@ -210,7 +203,7 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
   const double missed = 1.0 - belief.present + belief.present * kMissed * news;
   if (missed > 0.0) {
     const double same = (1.0 - missed) * track.density_per_m2;
-    const Evidence prior = priorOfAnother(belief, seen.position_m, stamp_s);
+    const Evidence prior = priorOf(seen.position_m, stamp_s, belief.counted);
     const double other = missed * prior.exp().sum();
     mixIn(belief, {prior, prior}, other / (same + other));
   }
@@ -223,7 +216,7 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
   if (has_moved) {
     belief.place_m = seen.position_m;
     belief.since_s = stamp_s;
-    belief.counted_s = belief.counted_thing_s = 0.0;
+    belief.counted = {};
   }
 }
 
@@ -298,7 +291,7 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
       count(*belief, time_s);
     } else {
       const Evidence prior = relative(priorOf(observations[i].position_m, stamp_s));
-      clutter_.add(observations[i].position_m, time_s * prior[kThing] / prior.sum(), time_s);
+      clutter_.add({observations[i].position_m, time_s, time_s * prior[kThing] / prior.sum()});
     }
   }
 }

@@ -110,10 +110,9 @@ class Identity {
     Evidence probability = Evidence::Zero();            ///< With who is in view now, too.
     Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  ///< Where it rests, or was lately,
     double since_s = 0.0;                               ///< since then;
-    double counted_s = 0.0;        ///< so long it was counted as clutter there,
-    double counted_thing_s = 0.0;  ///< as far as it is a thing.
-    double born_s = 0.0;           ///< Seen first,
-    double seen_s = 0.0;           ///< and last.
+    ClutterCount counted;                               ///< of it there, in that time.
+    double born_s = 0.0;                                ///< Seen first,
+    double seen_s = 0.0;                                ///< and last.
     View view;
     double looks = 0.0;   ///< Independent ones, and the sum of all, since it was surely
     Eigen::ArrayXXf sum;  ///< the same body.
@@ -136,8 +135,8 @@ class Identity {
   const Belief* find(int track_id) const;
   Belief& begin(int track_id, const Eigen::Vector2d& place_m, double stamp_s);
   double newsOf(double elapsed_s, double way_m) const;
-  Evidence priorOf(const Eigen::Vector2d& place_m, double stamp_s) const;
-  Evidence priorOfAnother(const Belief& here, const Eigen::Vector2d& place_m, double stamp_s);
+  Evidence priorOf(const Eigen::Vector2d& place_m, double stamp_s,
+                   const ClutterCount& but = {}) const;
   void count(Belief& belief, double time_s);
   void takePlace(Belief& belief, const Track& track, const Observation& seen, double stamp_s);
   void takeLook(Belief& belief, const Observation& seen, std::size_t look,

@@ -12,7 +12,6 @@
 
 #include <limits>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace heel {
@@ -52,13 +51,13 @@ struct Intent {
   bool is_new =
       false;  ///< To another place than before, so that what barred that way is forgotten.
   double most_turn_radps = std::numeric_limits<double>::infinity();  ///< While it looks.
-  std::string reason;                                                ///< In a few words, or empty.
+  const char* reason = "";                                           ///< In a few words, or empty.
 };
 
 /// What came of an intent.
 struct IntentOutcome {
   bool has_arrived = false;  ///< Where it was to go, or as near as can be.
-  bool stands = false;       ///< It neither drives nor turns.
+  bool has_looked = false;   ///< It stands, turned to what it was to look at.
 };
 
 /// One thing that the robot can do. To have it do that in another way, write another one, and give
@@ -76,7 +75,7 @@ class Behaviour {
   virtual std::optional<Intent> step(const Situation& now, const Ways& ways) = 0;
   /// What came of the last intent.
   virtual void note(const IntentOutcome&) {}
-  /// Tells the plan what it knows.
+  /// Tells the plan what only it knows: kFullTurn and kSearchOver.
   virtual void tell(FollowingFacts&) const {}
 };
 

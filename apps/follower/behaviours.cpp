@@ -43,17 +43,17 @@ std::optional<Intent> FollowTarget::step(const Situation& now, const Ways& ways)
     intent.go_to = now.last.position;
     return intent;
   }
-  intent.go_to = placeBy(*now.target, now, ways);
+  intent.go_to = placeBy(*now.target, now, ways).value_or(now.target->position);
   return intent;
 }
 
-Vector2d FollowTarget::placeBy(const MovingPerson& person, const Situation& now, const Ways& ways) {
+std::optional<Vector2d> FollowTarget::placeBy(const MovingPerson& person, const Situation& now,
+                                              const Ways& ways) {
   const auto sees = [this](const Vector2d& from, const Vector2d& to) {
     return !walls_ ||
            walls_->lineOfSight({from.x(), from.y(), eye_m_}, {to.x(), to.y(), eye_m_}, kHalfBody_m);
   };
-  return places_.choose(person, now.robot.position, ways.free, sees, doorways_)
-      .value_or(person.position);
+  return places_.choose(person, now.robot.position, ways.free, sees, doorways_);
 }
 
 FaceTarget::FaceTarget(const RobotDescription& robot, const FollowerParams& params,
@@ -125,7 +125,11 @@ std::optional<Intent> SearchForTarget::step(const Situation& now, const Ways& wa
 }
 
 void SearchForTarget::note(const IntentOutcome& outcome) {
-  is_there_ = outcome.has_arrived && outcome.stands;
+  is_there_ = outcome.has_arrived && outcome.has_looked;
+}
+
+void SearchForTarget::tell(FollowingFacts& facts) const {
+  facts[FollowingCondition::kSearchOver] = search_ != nullptr && search_->isOver();
 }
 
 LookWhoThatIs::LookWhoThatIs(const RobotDescription& robot, const FollowerParams& params,

@@ -26,8 +26,9 @@ class FollowTarget : public Behaviour {
   void begin(const Situation&) override { places_.reset(); }
   std::optional<Intent> step(const Situation& now, const Ways& ways) override;
 
-  /// The place to be with somebody; where they are, if there is none.
-  Eigen::Vector2d placeBy(const MovingPerson& person, const Situation& now, const Ways& ways);
+  /// The place to be with somebody, if there is one.
+  std::optional<Eigen::Vector2d> placeBy(const MovingPerson& person, const Situation& now,
+                                         const Ways& ways);
 
  private:
   double eye_m_;
@@ -90,6 +91,7 @@ class SearchForTarget : public Behaviour {
   void begin(const Situation& now) override;
   std::optional<Intent> step(const Situation& now, const Ways& ways) override;
   void note(const IntentOutcome& outcome) override;
+  void tell(FollowingFacts& facts) const override;
 
  private:
   PersonSearch* search_;

@@ -85,7 +85,11 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
 }
 
 void Follower::exchange(FollowingAction action, std::unique_ptr<Behaviour> behaviour) {
+  if (action == FollowingAction::kStop) {
+    throw std::invalid_argument("a robot that stops does nothing");
+  }
   behaviours_[static_cast<std::size_t>(action)] = std::move(behaviour);
+  if (action == begun_) begin(action);
 }
 
 const FollowStep& Follower::step(const RobotReadings& readings, const StageDone& done) {
@@ -145,6 +149,7 @@ FloorPose Follower::poseAt(double steady_s) const {
 // before it.
 Frame Follower::onSteadyClock(const Frame& frame) {
   frame_s_ = std::max(frame_s_, steady_s_ - watch_.imageAge_s());
+  frame_latency_s_ = steady_s_ - frame_s_;
   Frame steady = frame;
   steady.stamp_s = frame_s_;
   return steady;
@@ -263,7 +268,9 @@ void Follower::see(const Frame* frame) {
     target_ = step_.perception->target;
   } else if (legs != nullptr && steady_s_ - tracked_s_ > params_.no_frame_s) {
     tracked_s_ = steady_s_;
-    target_ = perception_->step(scan_s_, placeAt(scan_s_), *legs).target;
+    // No later than the next image, or that would be too late to count.
+    const double stamp_s = std::min(scan_s_, steady_s_ - frame_latency_s_);
+    target_ = perception_->step(stamp_s, placeAt(scan_s_), *legs).target;
   }
   noteTarget();
 }
@@ -296,6 +303,7 @@ void Follower::noteTarget() {
 // Who is likeliest to be the target, if anybody is worth a look.
 void Follower::noteSuspect() {
   now_.suspect.reset();
+  if (now_.target) return;
   double most = params_.worth_a_look;
   for (const Track& track : perception_->tracks()) {
     if (track.status == TrackStatus::kTentative) continue;
@@ -333,11 +341,11 @@ void Follower::checkFacts() {
   facts_[Fact::kNear] = now_.target && away_m < params_.near_m;
   facts_[Fact::kFar] = now_.target && away_m > params_.far_m;
   facts_[Fact::kArrived] = has_arrived_;
+  facts_[Fact::kFullTurn] = facts_[Fact::kSearchOver] = false;
   for (const auto& behaviour : behaviours_) {
     if (behaviour) behaviour->tell(facts_);
   }
   facts_[Fact::kLookedAround] = facts_[Fact::kFullTurn] || (!look_who_.wants(now_) && is_ahead);
-  facts_[Fact::kSearchOver] = search_ && search_->isOver();
   facts_[Fact::kBlind] = !watch_.blindness().empty() || step_.robot.lost;
   facts_[Fact::kDone] = false;
 }

@@ -81,7 +81,9 @@ class Follower {
   /// While it is paused the robot stands. It goes on to look, in phase 1 to learn; the plan waits.
   void pause(bool is_paused) { step_.is_paused = is_paused; }
 
-  /// From now on the robot does this where the plan says `action`; null: it stands.
+  /// From now on the robot does this where the plan says `action`; null: it stands. It still leaves
+  /// the way to people first, and in seek and search looks at who may be the person.
+  /// @throws std::invalid_argument  for kStop: then it stands.
   void exchange(FollowingAction action, std::unique_ptr<Behaviour> behaviour);
 
   /// @throws NobodyLearned  if nobody entered in phase 1, or several did together.
@@ -146,10 +148,11 @@ class Follower {
 
   FollowStep step_;
   Situation now_;
-  double steady_s_ = 0.0;        // a clock that does not jump,
-  double clock_offset_s_ = 0.0;  // what it is ahead of the readings',
-  double frame_s_ = 0.0;         // and the newest frame's stamp on it
-  VelocityCommand speed_;        // by odometry
+  double steady_s_ = 0.0;         // a clock that does not jump,
+  double clock_offset_s_ = 0.0;   // what it is ahead of the readings',
+  double frame_s_ = 0.0;          // the newest frame's stamp on it,
+  double frame_latency_s_ = 0.0;  // and how old it was when it came
+  VelocityCommand speed_;         // by odometry
   TargetEstimate target_;
   int followed_id_ = TargetEstimate::kNoTrack;  // the track that was the target last
   double tracked_s_ = 0.0;  // when the tracks were stepped last, on the steady clock

@@ -5,7 +5,7 @@
 
 #include <heel/apps/follower/follower.hpp>
 
-#include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 
@@ -90,7 +90,7 @@ IntentOutcome Follower::carryOut(const Intent& intent) {
   append(step_.reason, now.reason);
   step_.velocity = now.velocity;
   step_.path = now.path;
-  if (now.path != nullptr) step_.goal = intent.go_to;
+  step_.goal = now.goal;
   has_arrived_ = now.outcome.has_arrived;
   return now.outcome;
 }

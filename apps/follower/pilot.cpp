@@ -57,7 +57,7 @@ PilotStep Pilot::step(const Intent& intent, const DriveState& robot,
   if (goes) {
     goal = intent.go_to;
   } else if (face && !canTurnTo(*face, robot, room)) {
-    goal = turningPlace(robot.pose);
+    goal = turningPlace(robot.pose, room);
   }
   const bool has_way = goal && findWay(here, *goal);
   if (!has_way) plan_.path.clear();
@@ -66,6 +66,7 @@ PilotStep Pilot::step(const Intent& intent, const DriveState& robot,
   const LocalPlan now =
       local_planner_.step(robot.pose, robot.speed, plan_.path, room, people, face, permits);
   out.velocity = now.command;
+  out.goal = goal;
   if (goal) out.path = &plan_.path;
   if (goal || now.reason != DriveReason::kNoPath) out.reason = describe(now.reason);
   if (!goal) {
@@ -80,9 +81,13 @@ PilotStep Pilot::step(const Intent& intent, const DriveState& robot,
     if (is_there) arrival_ = Arrival{*intent.go_to, here};
   } else if (!was_there) {
     arrival_.reset();
+  } else {
+    arrival_->place = here;  // It may have gone aside to turn.
   }
   const bool stands = now.command.forward_mps == 0.0 && now.command.turn_radps == 0.0;
-  out.outcome = {arrival_.has_value(), was_there && stands};
+  out.outcome = {arrival_.has_value(), !goes && stands};
+  // As near as can be: it looked from there once, and the way may be free by now.
+  if (was_there && stands && (*intent.go_to - here).norm() > drive_.depart_m) arrival_.reset();
   return out;
 }
 
@@ -110,16 +115,16 @@ bool Pilot::canTurnTo(const Vector2d& place, const DriveState& robot, Clearance 
 }
 
 // The nearest with room to turn, in rings about the robot; else that with the most room.
-Vector2d Pilot::turningPlace(const FloorPose& pose) const {
+Vector2d Pilot::turningPlace(const FloorPose& pose, Clearance room) const {
   const double need_m = turningRadius(drive_.limits) + drive_.margin_m;
   Vector2d best = pose.position;
-  double most_m = room_.clearance(best);
+  double most_m = room(best);
   for (double away_m = kRings_m; away_m < kFurthestTurn_m && most_m < need_m; away_m += kRings_m) {
     for (int i = 0; i < 16; ++i) {
       const double angle = M_PI + M_PI / 8.0 * i;  // behind it first: from there it came
       const Vector2d place = pose * Vector2d(away_m * Vector2d(std::cos(angle), std::sin(angle)));
-      const double room_m = room_.clearance(place);
-      if (room_m <= most_m) continue;
+      const double room_m = room(place);
+      if (!(room_m > most_m)) continue;  // NaN too
       most_m = room_m;
       best = place;
     }

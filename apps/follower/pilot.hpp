@@ -11,7 +11,6 @@
 #include <heel/planning/local_planner.hpp>
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace heel {
@@ -20,8 +19,9 @@ namespace heel {
 struct PilotStep {
   VelocityCommand velocity;
   IntentOutcome outcome;
-  const FloorPath* path = nullptr;  ///< The way it takes, if any; valid until the next step.
-  std::string reason;               ///< In a few words, or empty.
+  std::optional<Eigen::Vector2d> goal;  ///< Where it goes, if anywhere;
+  const FloorPath* path = nullptr;      ///< the way there, valid until the next plan.
+  const char* reason = "";              ///< In a few words, or empty.
 };
 
 /// Plans a way around what the map and the moment show, and drives along it.
@@ -63,7 +63,7 @@ class Pilot {
 
   bool findWay(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
   bool canTurnTo(const Eigen::Vector2d& place, const DriveState& robot, Clearance room) const;
-  Eigen::Vector2d turningPlace(const FloorPose& pose) const;
+  Eigen::Vector2d turningPlace(const FloorPose& pose, Clearance room) const;
 
   LocalPlannerParams drive_;
   double give_up_s_;

@@ -69,10 +69,10 @@ TEST(ClutterMap, CountsNothingOutOfRange) {
 
 TEST(ClutterMap, AThingIsWhereItWasObserved) {
   ClutterMap map;
-  map.add(middle(4, 7), 3.0, 3.0);
+  map.add({middle(4, 7), 3.0, 3.0});
   EXPECT_NEAR(map.density_per_m2(middle(4, 7)), (kPrior * kCell_m2 + 3.0) / 4.0 / kCell_m2, 1e-5);
   EXPECT_NEAR(map.density_per_m2(middle(5, 7)), kPrior, 1e-12);
-  map.add(middle(4, 7), 1000.0, 1000.0);
+  map.add({middle(4, 7), 1000.0, 1000.0});
   EXPECT_NEAR(map.density_per_m2(middle(4, 7)), 1.0 / kCell_m2, 0.02) << "no more than one a cell";
   EXPECT_LE(map.density_per_m2(middle(4, 7)), 1.0 / kCell_m2);
 }
@@ -86,15 +86,15 @@ TEST(ClutterMap, NoCellHoldsMoreThanOneThing) {
 
 TEST(ClutterMap, WhatMayBeAThingCountsByItsProbability) {
   ClutterMap map;
-  map.add(middle(0, 0), 0.5, 2.0);
+  map.add({middle(0, 0), 2.0, 0.5});
   EXPECT_NEAR(map.density_per_m2(middle(0, 0)), (kPrior * kCell_m2 + 0.5) / 3.0 / kCell_m2, 1e-6);
-  map.add(middle(9, 9), 0.0, 4.0);
+  map.add({middle(9, 9), 4.0, 0.0});
   EXPECT_NEAR(map.density_per_m2(middle(9, 9)), kPrior / 5.0, 1e-7) << "a person is no thing";
 }
 
 TEST(ClutterMap, SharesAThingBetweenTheCellsAround) {
   ClutterMap map;
-  map.add({2 * kCell_m, 3 * kCell_m}, 4.0, 4.0);  // Where four cells meet.
+  map.add({{2 * kCell_m, 3 * kCell_m}, 4.0, 4.0});  // Where four cells meet.
   for (const int x : {1, 2}) {
     for (const int y : {2, 3}) {
       EXPECT_NEAR(map.density_per_m2(middle(x, y)), (kPrior * kCell_m2 + 1.0) / 2.0 / kCell_m2,
@@ -109,7 +109,7 @@ TEST(ClutterMap, SharesAThingBetweenTheCellsAround) {
 
 TEST(ClutterMap, TheShareOfTimeCountsThatAThingWasThere) {
   ClutterMap map;
-  map.add(middle(2, 2), 5.0, 5.0);
+  map.add({middle(2, 2), 5.0, 5.0});
   const double always = map.density_per_m2(middle(2, 2));
   map.look({0, 0}, everywhere(Sight::kFree), 5.0);
   EXPECT_NEAR(map.density_per_m2(middle(2, 2)), (kPrior * kCell_m2 + 5.0) / 11.0 / kCell_m2, 1e-5);
@@ -118,7 +118,7 @@ TEST(ClutterMap, TheShareOfTimeCountsThatAThingWasThere) {
 
 TEST(ClutterMap, IsATorusOf40Meters) {
   ClutterMap map;
-  map.add(middle(-1, -1), 3.0, 3.0);
+  map.add({middle(-1, -1), 3.0, 3.0});
   const double there = map.density_per_m2(middle(-1, -1));
   EXPECT_GT(there, 5.0);
   EXPECT_NEAR(map.density_per_m2(middle(0, 0)), kPrior, 1e-12);

@@ -44,7 +44,7 @@ struct Drive {
   int drive(const Intent& intent, int most = 600) {
     for (int i = 0; i < most; ++i) {
       step(intent);
-      if (last.outcome.has_arrived && last.outcome.stands) return i;
+      if (last.outcome.has_arrived && last.outcome.has_looked) return i;
     }
     return most;
   }
@@ -170,6 +170,23 @@ TEST(Pilot, ALongRobotGoesToWhereItCanTurn) {
   }
   EXPECT_LT(std::abs(bearingOf(drive.state.pose, *intent.look_at)), 0.15);
   EXPECT_GT(drive.state.pose.position.x(), 3.0) << "out of the passage";
+}
+
+TEST(Pilot, GoesOnWhenWhatBarredTheWayHasGone) {
+  Drive drive;
+  drive.begin();
+  for (int y = 0; y < drive.things.height(); ++y) {
+    drive.things.at(GridCell{60, y}) = Occupancy::kOccupied;
+  }
+  drive.pilot->setAround(drive.things, drive.standing);
+  Intent intent = goTo({5.0, 2.0});
+  intent.look_at = Vector2d(5.0, 0.0);
+  ASSERT_LT(drive.drive(intent), 600) << "it looks from as near as can be";
+  EXPECT_LT(drive.state.pose.position.x(), 3.0);
+  drive.things = OccupancyGrid({0.0, 0.0}, 0.05, drive.things.width(), drive.things.height());
+  drive.pilot->setAround(drive.things, drive.standing);
+  for (int i = 0; i < 300; ++i) drive.step(intent);
+  EXPECT_LT((drive.state.pose.position - Vector2d(5.0, 2.0)).norm(), 0.2);
 }
 
 TEST(Pilot, ForgetsWhatBarredTheLastWay) {
