@@ -182,15 +182,19 @@ void SearchMap::look(const FloorPose& camera, double elapsed_s,
   thin(elapsed_s, [&](int cell) {
     const Eigen::Vector2d place = floor_.center(cell);
     if (!isInView(camera, place)) return false;
-    Hiding& hiding = hidings_[index(cell)];
     const bool hides = is_hidden(place);
-    if (!hides || !hiding.isFrom(camera.position, params_.view_spacing_m) ||
-        clock_s_ - hiding.last_s > kStays_s) {
-      hiding = {hides, camera.position.cast<float>(), clock_s_, clock_s_};
-    }
-    hiding.last_s = clock_s_;
+    hide(hidings_[index(cell)], hides, camera.position);
     return !hides;
   });
+}
+
+// From wherever else it is hidden, too, it is so from all between.
+void SearchMap::hide(Hiding& hiding, bool hides, const Eigen::Vector2d& from) const {
+  if (!hides || !hiding.hides || clock_s_ - hiding.last_s > kStays_s) {
+    hiding = {hides, from, params_.view_spacing_m, clock_s_, clock_s_};
+  }
+  hiding.within_m = std::max(hiding.within_m, (from - hiding.from).norm() + params_.view_spacing_m);
+  hiding.last_s = clock_s_;
 }
 
 void SearchMap::scan(const LaserScan& scan, const FloorPose& scanner, double elapsed_s) {
@@ -294,7 +298,7 @@ SearchMap::Bearings SearchMap::chancesAround(std::size_t view, double in_s) cons
   const Eigen::Vector2d from = floor_.center(cell);
   // What has hidden a place for a time goes on for that time: it has gone by then by the half.
   const auto shows = [&](const Hiding& hiding) {
-    if (!hiding.isFrom(from, params_.view_spacing_m)) return 1.0;
+    if (!hiding.isFrom(from)) return 1.0;
     const double since_s = clock_s_ - hiding.last_s + in_s;
     return since_s / (since_s + hiding.last_s - hiding.first_s + params_.look_s);
   };

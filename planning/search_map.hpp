@@ -111,17 +111,19 @@ class SearchMap {
   /// Something that the map does not show stood before a cell.
   struct Hiding {
     bool hides = false;
-    Eigen::Vector2f from = Eigen::Vector2f::Zero();  ///< As seen from here,
+    Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< As seen from here,
+    double within_m = 0.0;                           ///< and so far around,
     double first_s = 0.0, last_s = 0.0;              ///< on the clock.
 
-    bool isFrom(const Eigen::Vector2d& place, double within_m) const {
-      return hides && (place - from.cast<double>()).norm() <= within_m;
+    bool isFrom(const Eigen::Vector2d& place) const {
+      return hides && (place - from).norm() <= within_m;
     }
   };
 
   void turn();
   void walk();
   void sumUp();
+  void hide(Hiding& hiding, bool hides, const Eigen::Vector2d& from) const;
   void findViews();
   void thin(double elapsed_s, FunctionRef<bool(int cell)> is_empty);
   bool isSeenThrough(const LaserScan& scan, const FloorPose& scanner,
