@@ -54,6 +54,7 @@ class ClutterMap {
   /// Counts time in which the places around were seen through.
   void look(const Eigen::Vector2d& from_m, const SightOf& sight_of, double time_s);
 
+  /// Counts what was observed there.
   void add(const ClutterCount& count);
 
  private:

@@ -45,11 +45,11 @@ struct Ways {
 struct Intent {
   std::optional<Eigen::Vector2d> go_to;  ///< [m, world]
   double near_enough_m = 0.0;            ///< It has arrived when it is nearer than this.
-  std::optional<Eigen::Vector2d>
-      look_at;  ///< To turn to where there is nowhere to go, or once there.
+  /// To turn to where there is nowhere to go, or once there.
+  std::optional<Eigen::Vector2d> look_at;
   std::optional<Eigen::Vector2d> keep_in_view;  ///< On the way.
-  bool is_new =
-      false;  ///< To another place than before, so that what barred that way is forgotten.
+  /// It goes to another place than before: what barred that way is forgotten.
+  bool is_new = false;
   double most_turn_radps = std::numeric_limits<double>::infinity();  ///< While it looks.
   const char* reason = "";                                           ///< In a few words, or empty.
 };

@@ -29,12 +29,18 @@ MovingPerson Situation::expected(double walks_on_s) const {
   return person;
 }
 
-FollowTarget::FollowTarget(const RobotDescription& robot, const FollowerParams& params,
-                           std::shared_ptr<const WallMap> walls, std::vector<DoorwayOnMap> doorways)
-    : eye_m_(robot.camera.T_base_camera.translation().z()),
-      places_(params.goal),
-      walls_(std::move(walls)),
-      doorways_(std::move(doorways)) {}
+Premises::Premises(const FollowerParams& params, std::shared_ptr<const WallMap> the_walls,
+                   std::vector<DoorwayOnMap> the_doorways)
+    : walls(std::move(the_walls)),
+      doorways(std::move(the_doorways)),
+      passage_depth_m(params.goal.doorway_depth_m),
+      radius_m(params.goal.radius_m),
+      eye_m(params.gate.eye_height_m) {}
+
+bool Premises::sees(const Vector2d& from, const Vector2d& to) const {
+  return !walls ||
+         walls->lineOfSight({from.x(), from.y(), eye_m}, {to.x(), to.y(), eye_m}, kHalfBody_m);
+}
 
 std::optional<Intent> FollowTarget::step(const Situation& now, const Ways& ways) {
   Intent intent;
@@ -50,24 +56,16 @@ std::optional<Intent> FollowTarget::step(const Situation& now, const Ways& ways)
 std::optional<Vector2d> FollowTarget::placeBy(const MovingPerson& person, const Situation& now,
                                               const Ways& ways) {
   const auto sees = [this](const Vector2d& from, const Vector2d& to) {
-    return !walls_ ||
-           walls_->lineOfSight({from.x(), from.y(), eye_m_}, {to.x(), to.y(), eye_m_}, kHalfBody_m);
+    return premises_.sees(from, to);
   };
-  return places_.choose(person, now.robot.position, ways.free, sees, doorways_);
+  return places_.choose(person, now.robot.position, ways.free, sees, premises_.doorways);
 }
-
-FaceTarget::FaceTarget(const RobotDescription& robot, const FollowerParams& params,
-                       std::shared_ptr<const WallMap> walls, std::vector<DoorwayOnMap> doorways)
-    : goal_(params.goal),
-      beside_m_(params.beside_m),
-      doorways_(doorways),
-      aside_(robot, params, std::move(walls), std::move(doorways)) {}
 
 std::optional<Intent> FaceTarget::step(const Situation& now, const Ways& ways) {
   Intent intent;
   intent.look_at = placeOf(now.target);
   const Vector2d& here = now.robot.position;
-  if (!isInPassage(doorways_, here, goal_.doorway_depth_m, goal_.radius_m)) return intent;
+  if (!premises_.isInDoorway(here)) return intent;
   // Close by they leave no room to drive, and will be in view when they have gone past.
   if (now.target && (now.target->position - here).norm() < beside_m_) return intent;
   std::optional<Intent> aside = aside_.step(now, ways);
@@ -132,15 +130,13 @@ void SearchForTarget::tell(FollowingFacts& facts) const {
   facts[FollowingCondition::kSearchOver] = search_ != nullptr && search_->isOver();
 }
 
-LookWhoThatIs::LookWhoThatIs(const RobotDescription& robot, const FollowerParams& params,
-                             std::shared_ptr<const WallMap> walls,
-                             std::vector<DoorwayOnMap> doorways)
+LookWhoThatIs::LookWhoThatIs(const Premises& premises, const FollowerParams& params)
     : first_looks_s_(params.first_looks_s),
       look_share_(params.look_share),
       ahead_rad_(params.ahead_rad),
       near_m_(params.goal.least_standoff_m),
       far_m_(params.far_m),
-      nearer_(robot, params, std::move(walls), std::move(doorways)) {}
+      nearer_(premises, params.goal) {}
 
 void LookWhoThatIs::watch(const Situation& now) {
   if (!now.target) return;

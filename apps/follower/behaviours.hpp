@@ -16,12 +16,29 @@
 
 namespace heel {
 
+/// What does not move. The behaviours share one; it must outlive them.
+struct Premises {
+  std::shared_ptr<const WallMap> walls;  ///< Null: nothing hides anybody.
+  std::vector<DoorwayOnMap> doorways;
+  double passage_depth_m = 0.0;  ///< The robot is in a doorway's way so far before and behind it,
+  double radius_m = 0.0;         ///< as far as its edge goes.
+  double eye_m = 0.0;            ///< Height of the camera.
+
+  /// @param doorways  Of the floor.
+  Premises(const FollowerParams& params, std::shared_ptr<const WallMap> walls,
+           std::vector<DoorwayOnMap> doorways);
+
+  bool isInDoorway(const Eigen::Vector2d& place) const {
+    return isInPassage(doorways, place, passage_depth_m, radius_m);
+  }
+  bool sees(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
+};
+
 /// Goes where it is with the person: near, in view and in nobody's way.
 class FollowTarget : public Behaviour {
  public:
-  /// @param walls  Null: nothing hides anybody.
-  FollowTarget(const RobotDescription& robot, const FollowerParams& params,
-               std::shared_ptr<const WallMap> walls, std::vector<DoorwayOnMap> doorways);
+  FollowTarget(const Premises& premises, const GoalChooserParams& params)
+      : premises_(premises), places_(params) {}
 
   void begin(const Situation&) override { places_.reset(); }
   std::optional<Intent> step(const Situation& now, const Ways& ways) override;
@@ -31,25 +48,22 @@ class FollowTarget : public Behaviour {
                                          const Ways& ways);
 
  private:
-  double eye_m_;
+  const Premises& premises_;
   GoalChooser places_;
-  std::shared_ptr<const WallMap> walls_;
-  std::vector<DoorwayOnMap> doorways_;
 };
 
 /// Stands and turns to the person; leaves a doorway first, for nobody waits where it stands in one.
 class FaceTarget : public Behaviour {
  public:
-  FaceTarget(const RobotDescription& robot, const FollowerParams& params,
-             std::shared_ptr<const WallMap> walls, std::vector<DoorwayOnMap> doorways);
+  FaceTarget(const Premises& premises, const FollowerParams& params)
+      : premises_(premises), beside_m_(params.beside_m), aside_(premises, params.goal) {}
 
   void begin(const Situation& now) override { aside_.begin(now); }
   std::optional<Intent> step(const Situation& now, const Ways& ways) override;
 
  private:
-  GoalChooserParams goal_;
+  const Premises& premises_;
   double beside_m_;
-  std::vector<DoorwayOnMap> doorways_;
   FollowTarget aside_;
 };
 
@@ -102,8 +116,7 @@ class SearchForTarget : public Behaviour {
 /// them is in view, for who stands close before the camera is a piece of cloth to it.
 class LookWhoThatIs : public Behaviour {
  public:
-  LookWhoThatIs(const RobotDescription& robot, const FollowerParams& params,
-                std::shared_ptr<const WallMap> walls, std::vector<DoorwayOnMap> doorways);
+  LookWhoThatIs(const Premises& premises, const FollowerParams& params);
 
   /// To be told of each step.
   void watch(const Situation& now);

@@ -64,9 +64,9 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
       runner_(std::move(plan)),
       last_gate_(params_.last_gate),
       pilot_(floor_, params_.paths, params_.drive, params_.give_up_s),
-      doorways_(findDoorways(floor_)),
-      make_room_(robot, params_, doorways_),
-      look_who_(robot, params_, walls_, doorways_) {
+      premises_(params_, walls_, findDoorways(floor_)),
+      make_room_(premises_, params_),
+      look_who_(premises_, params_) {
   step_.robot.pose = start_;
   step_.robot.lost = false;
   if (walls_) {
@@ -77,8 +77,8 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
     search_.emplace(floor_, walls_->floorGrid({1.1, 1.4}), params_.search);
   }
   using Action = FollowingAction;
-  exchange(Action::kFollow, std::make_unique<FollowTarget>(robot, params_, walls_, doorways_));
-  exchange(Action::kFace, std::make_unique<FaceTarget>(robot, params_, walls_, doorways_));
+  exchange(Action::kFollow, std::make_unique<FollowTarget>(premises_, params_.goal));
+  exchange(Action::kFace, std::make_unique<FaceTarget>(premises_, params_));
   exchange(Action::kGoToLastSeen, std::make_unique<GoToLastSeen>(params_.near_m));
   exchange(Action::kSeek, std::make_unique<SeekTarget>(params_.seek_radps, params_.walks_on_s));
   exchange(Action::kSearch, std::make_unique<SearchForTarget>(search_ ? &*search_ : nullptr));

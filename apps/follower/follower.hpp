@@ -141,7 +141,7 @@ class Follower {
   std::vector<Eigen::Vector2d> hidden_;         // there, on the map
   std::optional<PersonSearch> search_;          // the same
   Pilot pilot_;
-  std::vector<DoorwayOnMap> doorways_;
+  Premises premises_;
   MakeRoom make_room_;
   LookWhoThatIs look_who_;
   std::array<std::unique_ptr<Behaviour>, kFollowingActions> behaviours_;

@@ -4,20 +4,15 @@
 #include <heel/apps/follower/make_room.hpp>
 
 #include <algorithm>
-#include <utility>
 
 namespace heel {
 
 using Eigen::Vector2d;
 
-MakeRoom::MakeRoom(const RobotDescription& robot, const FollowerParams& params,
-                   std::vector<DoorwayOnMap> doorways)
-    : drive_(robot.drive), params_(params), doorways_(std::move(doorways)) {}
-
 void MakeRoom::watch(const Situation& now) {
   elapsed_s_ = now.elapsed_s;
   const Vector2d& here = now.robot.position;
-  if ((here - stood_at_).norm() > drive_.radius_m) {
+  if ((here - stood_at_).norm() > params_.drive.limits.radius_m) {
     stood_at_ = here;
     stuck_s_ = 0.0;
   } else if (now.way_to && (*now.way_to - here).norm() > params_.drive.depart_m) {
@@ -71,14 +66,13 @@ bool MakeRoom::isInTheWayOf(const MovingPerson& person, const Situation& now,
   const Vector2d to_robot = here - person.position;
   const bool comes = person.velocity.dot(to_robot) > params_.comes_mps * to_robot.norm();
   if (to_robot.norm() > (comes ? params_.far_m : params_.beside_m)) return false;
-  const GoalChooserParams& goal = params_.goal;
-  return isInPassage(doorways_, here, goal.doorway_depth_m, goal.radius_m) ||
+  return premises_.isInDoorway(here) ||
          !leavesRoom(here, person.position, ways.room, params_.wayside);
 }
 
 bool MakeRoom::goAside(const MovingPerson& person, const Situation& now, const Ways& ways) {
   const Vector2d& here = now.robot.position;
-  findWaysides(here, person.position, ways.room, doorways_, params_.wayside, places_);
+  findWaysides(here, person.position, ways.room, premises_.doorways, params_.wayside, places_);
   for (const Vector2d& place : places_) {
     const GlobalPlan& plan = ways.plan(here, place);
     const bool is_near = plan.length_m < 1.5 * params_.wayside.reach_m;

@@ -5,9 +5,7 @@
 /// Where there is no room for two, the robot leaves the way to a person.
 #pragma once
 
-#include <heel/apps/follower/behaviour.hpp>
-#include <heel/apps/follower/follower_params.hpp>
-#include <heel/planning/doorways.hpp>
+#include <heel/apps/follower/behaviours.hpp>
 
 #include <optional>
 #include <vector>
@@ -18,8 +16,8 @@ namespace heel {
 /// waits there until they have gone from where it stood in their way.
 class MakeRoom : public Behaviour {
  public:
-  MakeRoom(const RobotDescription& robot, const FollowerParams& params,
-           std::vector<DoorwayOnMap> doorways);
+  MakeRoom(const Premises& premises, const FollowerParams& params)
+      : premises_(premises), params_(params) {}
 
   /// To be told of each step: who wants to go somewhere, and turns this way and that, is stuck.
   void watch(const Situation& now);
@@ -40,9 +38,8 @@ class MakeRoom : public Behaviour {
   bool isInTheWayOf(const MovingPerson& person, const Situation& now, const Ways& ways) const;
   bool goAside(const MovingPerson& person, const Situation& now, const Ways& ways);
 
-  DriveLimits drive_;
+  const Premises& premises_;
   FollowerParams params_;
-  std::vector<DoorwayOnMap> doorways_;
   double elapsed_s_ = 0.0;
   Eigen::Vector2d stood_at_ = Eigen::Vector2d::Zero();  // and has not left since,
   double stuck_s_ = 0.0;                                // though it wanted to for so long

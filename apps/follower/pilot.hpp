@@ -65,7 +65,6 @@ class Pilot {
   bool canTurnTo(const Eigen::Vector2d& place, const DriveState& robot, Clearance room) const;
   Eigen::Vector2d turningPlace(const FloorPose& pose, Clearance room) const;
 
-  LocalPlannerParams drive_;
   double give_up_s_;
   ClearanceMap room_;  // to things
   GlobalPlanner planner_;

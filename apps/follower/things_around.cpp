@@ -24,7 +24,7 @@ Vector2d floorOf(const Eigen::Vector3f& point) { return point.head<2>().cast<dou
 
 ThingsAround::ThingsAround(const RobotDescription& robot, const FollowerParams& params,
                            const OccupancyGrid& floor)
-    : body_(robot.drive),
+    : body_(params.drive.limits),
       wheels_latency_s_(robot.wheels_latency_s),
       mapped_within_m_(params.mapped_within_m),
       stands_mps_(params.stands_mps),

@@ -40,17 +40,18 @@ RobotDescription robotOf() {
 }
 
 struct BehavioursTest : testing::Test {
-  BehavioursTest() : params(fittedTo(robotOf(), {})) {
+  BehavioursTest() {
     now.elapsed_s = 0.1;
     now.last = kPerson;
   }
-  FollowerParams params;
+  FollowerParams params = fittedTo(robotOf(), {});
+  Premises open{params, nullptr, {}}, with_doorway{params, nullptr, kDoorway};
   Situation now;
   Floor floor;
 };
 
 TEST_F(BehavioursTest, FollowsToAMetreOffAndKeepsThePersonInView) {
-  FollowTarget follow(robotOf(), params, nullptr, {});
+  FollowTarget follow(open, params.goal);
   now.target = kPerson;
   const auto intent = floor.ask(follow, now);
   ASSERT_TRUE(intent && intent->go_to && intent->keep_in_view);
@@ -61,7 +62,7 @@ TEST_F(BehavioursTest, FollowsToAMetreOffAndKeepsThePersonInView) {
 }
 
 TEST_F(BehavioursTest, FacesThePersonWhereItStands) {
-  FaceTarget face(robotOf(), params, nullptr, {});
+  FaceTarget face(open, params);
   now.target = kPerson;
   const auto intent = floor.ask(face, now);
   EXPECT_FALSE(intent->go_to);
@@ -69,7 +70,7 @@ TEST_F(BehavioursTest, FacesThePersonWhereItStands) {
 }
 
 TEST_F(BehavioursTest, LeavesADoorwayBeforeItFacesThePerson) {
-  FaceTarget face(robotOf(), params, nullptr, kDoorway);
+  FaceTarget face(with_doorway, params);
   now.target = kPerson;
   now.target->position.x() = 2.0;
   const auto intent = floor.ask(face, now);
@@ -100,7 +101,7 @@ TEST_F(BehavioursTest, TurnsToTheSideWhereThePersonWentAndKnowsAFullTurn) {
 }
 
 TEST_F(BehavioursTest, LooksAtWhoMayBeThePersonButNotForever) {
-  LookWhoThatIs look(robotOf(), params, nullptr, {});
+  LookWhoThatIs look(open, params);
   EXPECT_FALSE(floor.ask(look, now)) << "nobody may be";
   now.suspect = Vector2d(0.0, 3.0);
   EXPECT_EQ(*floor.ask(look, now)->look_at, *now.suspect);
@@ -148,7 +149,7 @@ TEST_F(BehavioursTest, LooksFromAPlaceThenGoesOn) {
 }
 
 struct MakeRoomTest : BehavioursTest {
-  MakeRoom make_room{robotOf(), params, kDoorway};
+  MakeRoom make_room{with_doorway, params};
 
   std::optional<Intent> step() {
     make_room.watch(now);

@@ -36,6 +36,11 @@ struct Drive {
     pilot.emplace(floor, params.paths, params.drive, params.give_up_s);
     pilot->setAround(things, standing);
   }
+  /// From wall to wall, at x = 3 m.
+  void bar(Occupancy by) {
+    for (int y = 0; y < things.height(); ++y) things.at(GridCell{60, y}) = by;
+    pilot->setAround(things, standing);
+  }
   void step(const Intent& intent) {
     last = pilot->step(intent, state, people, kFarFromAll, kAnyCommand);
     state = driven(robot.drive, state, last.velocity, robot.drive.period_s);
@@ -107,10 +112,7 @@ TEST(Pilot, HasArrivedWhereNothingLeadsOn) {
 TEST(Pilot, GoesToWhereTheMapLeadsIfThingsBarTheWay) {
   Drive drive;
   drive.begin();
-  for (int y = 0; y < drive.things.height(); ++y) {
-    drive.things.at(GridCell{60, y}) = Occupancy::kOccupied;
-  }
-  drive.pilot->setAround(drive.things, drive.standing);
+  drive.bar(Occupancy::kOccupied);
   drive.step(goTo({5.0, 2.0}));
   EXPECT_FALSE(drive.last.outcome.has_arrived);
   EXPECT_GT(drive.last.velocity.forward_mps, 0.0);
@@ -175,16 +177,12 @@ TEST(Pilot, ALongRobotGoesToWhereItCanTurn) {
 TEST(Pilot, GoesOnWhenWhatBarredTheWayHasGone) {
   Drive drive;
   drive.begin();
-  for (int y = 0; y < drive.things.height(); ++y) {
-    drive.things.at(GridCell{60, y}) = Occupancy::kOccupied;
-  }
-  drive.pilot->setAround(drive.things, drive.standing);
+  drive.bar(Occupancy::kOccupied);
   Intent intent = goTo({5.0, 2.0});
   intent.look_at = Vector2d(5.0, 0.0);
   ASSERT_LT(drive.drive(intent), 600) << "it looks from as near as can be";
   EXPECT_LT(drive.state.pose.position.x(), 3.0);
-  drive.things = OccupancyGrid({0.0, 0.0}, 0.05, drive.things.width(), drive.things.height());
-  drive.pilot->setAround(drive.things, drive.standing);
+  drive.bar(Occupancy::kFree);
   for (int i = 0; i < 300; ++i) drive.step(intent);
   EXPECT_LT((drive.state.pose.position - Vector2d(5.0, 2.0)).norm(), 0.2);
 }
