@@ -20,6 +20,8 @@ using LineOfSight = FunctionRef<bool(const Eigen::Vector2d& from, const Eigen::V
 
 /// In a house nobody walks faster than this [m/s].
 inline constexpr double kFastestWalk_mps = 1.6;
+/// Who is slower than this stands: their track drifts no faster [m/s].
+inline constexpr double kSlowestWalk_mps = 0.15;
 /// Who walks gains speed no faster than this: from standing to a stroll within a step [m/s^2].
 inline constexpr double kWalkersGain_mps2 = 2.0;
 /// Who came or stood somewhere is taken to stay there for so long, if nothing else is seen [s].
@@ -31,6 +33,7 @@ struct MovingPerson {
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< [m/s]
   double radius_m = 0.25;
   double gait_mps = 0.0;  ///< The velocity may be so far off, any way.
+  bool rests = false;     ///< Has stood there for a while, and is taken to stay.
 };
 
 }  // namespace heel

@@ -35,27 +35,33 @@ bool leavesRoom(const Vector2d& place, const Vector2d& person, Clearance clearan
   return isOpen(1.0) || isOpen(-1.0);
 }
 
-void findWaysides(const Vector2d& robot, const Vector2d& person, Clearance clearance,
+void findWaysides(const Vector2d& robot, const std::vector<Vector2d>& people, Clearance clearance,
                   const std::vector<DoorwayOnMap>& doorways, const WaysideParams& params,
                   std::vector<Vector2d>& out) {
   out.clear();
-  const Vector2d to_person = (person - robot).normalized();
-  const auto isGood = [&](const Vector2d& place) {
-    if (!(clearance(place) >= params.radius_m + params.margin_m)) return false;
-    if ((place - person).norm() < params.away_m) return false;
-    const Vector2d way = place - robot;
-    if (way.dot(to_person) > kTowards * way.norm()) return false;
-    return !isInPassage(doorways, place, params.doorway_depth_m, params.radius_m) &&
-           leavesRoom(place, person, clearance, params);
+  const auto blocks = [&](const Vector2d& place) {
+    return isInPassage(doorways, place, params.doorway_depth_m, params.radius_m);
   };
-  for (double ring_m = kRing_m; ring_m <= params.reach_m; ring_m += kRing_m) {
-    for (int i = 0; i < kPlaces; ++i) {
-      const double bearing = 2.0 * M_PI * i / kPlaces;
-      const Vector2d place = robot + ring_m * Vector2d(std::cos(bearing), std::sin(bearing));
-      const bool is_new = std::none_of(out.begin(), out.end(), [&](const Vector2d& other) {
-        return (other - place).norm() < params.apart_m;
-      });
-      if (is_new && isGood(place)) out.push_back(place);
+  const auto isGood = [&](const Vector2d& place, bool leaves_room) {
+    if (!(clearance(place) >= params.radius_m + params.margin_m) || blocks(place)) return false;
+    const Vector2d way = place - robot;
+    return std::all_of(people.begin(), people.end(), [&](const Vector2d& person) {
+      return (place - person).norm() >= params.away_m &&
+             way.dot((person - robot).normalized()) <= kTowards * way.norm() &&
+             (!leaves_room || leavesRoom(place, person, clearance, params));
+    });
+  };
+  for (const bool leaves_room : {true, false}) {
+    if (!leaves_room && !blocks(robot)) return;
+    for (double ring_m = kRing_m; ring_m <= params.reach_m; ring_m += kRing_m) {
+      for (int i = 0; i < kPlaces; ++i) {
+        const double bearing = 2.0 * M_PI * i / kPlaces;
+        const Vector2d place = robot + ring_m * Vector2d(std::cos(bearing), std::sin(bearing));
+        const bool is_new = std::none_of(out.begin(), out.end(), [&](const Vector2d& other) {
+          return (other - place).norm() < params.apart_m;
+        });
+        if (is_new && isGood(place, leaves_room)) out.push_back(place);
+      }
     }
   }
 }

@@ -16,7 +16,7 @@ namespace heel {
 struct WaysideParams {
   double radius_m = 0.26;        ///< Radius of the robot.
   double margin_m = 0.08;        ///< Room that the robot needs around it.
-  double person_m = 0.35;        ///< Half the width that a person needs to walk at ease.
+  double person_m = 0.3;         ///< Half the width that a person needs to walk by.
   double reach_m = 3.0;          ///< Places further from the robot than this are not looked at.
   double away_m = 1.0;           ///< The robot keeps this far from the person.
   double doorway_depth_m = 0.9;  ///< People come through this far before and behind a doorway.
@@ -28,12 +28,15 @@ struct WaysideParams {
 bool leavesRoom(const Eigen::Vector2d& place, const Eigen::Vector2d& person, Clearance clearance,
                 const WaysideParams& params = {});
 
-/// Places near the robot where it would leave room to a person, the nearest first: outside of
-/// doorways, and not towards the person. Whether there is a way to them is for a planner to say.
+/// Places near the robot where it would leave room to people, the nearest first: outside of
+/// doorways, and not towards any of them. A robot that is in a doorway goes out of it even to where
+/// it leaves them no room to walk by: these places come last. Whether there is a way to a place is
+/// for a planner to say.
+/// @param people     Those near the robot [m, world].
 /// @param clearance  As for leavesRoom().
 /// @param out  The places [m, world]; its memory is used again.
-void findWaysides(const Eigen::Vector2d& robot, const Eigen::Vector2d& person, Clearance clearance,
-                  const std::vector<DoorwayOnMap>& doorways, const WaysideParams& params,
-                  std::vector<Eigen::Vector2d>& out);
+void findWaysides(const Eigen::Vector2d& robot, const std::vector<Eigen::Vector2d>& people,
+                  Clearance clearance, const std::vector<DoorwayOnMap>& doorways,
+                  const WaysideParams& params, std::vector<Eigen::Vector2d>& out);
 
 }  // namespace heel

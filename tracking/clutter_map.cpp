@@ -47,19 +47,21 @@ void ClutterMap::forCorners(const Eigen::Vector2d& place_m, const Visitor& visit
   }
 }
 
-double ClutterMap::density_per_m2(const Eigen::Vector2d& place_m, const ClutterCount& but) const {
+ClutterDensity ClutterMap::density(const Eigen::Vector2d& place_m, const ClutterCount& but) const {
   const double area_m2 = kCell_m * kCell_m;
-  double occupied_s = params_.prior_s * params_.density_per_m2 * area_m2;
+  double thing_s = params_.prior_s * params_.density_per_m2 * area_m2;
+  double person_s = 0.0;
   double seen_s = params_.prior_s;
   forCorners(place_m, [&](std::size_t i, double weight) {
     double its = 0.0;  // Of the body's count, what is in this cell.
     if (but.time_s > 0.0) {
       forCorners(but.place_m, [&](std::size_t j, double part) { its += i == j ? part : 0.0; });
     }
-    occupied_s += weight * std::max(cells_[i].occupied_s - its * but.thing_s, 0.0);
+    thing_s += weight * std::max(cells_[i].thing_s - its * but.thing_s, 0.0);
+    person_s += weight * std::max(cells_[i].person_s - its * (but.time_s - but.thing_s), 0.0);
     seen_s += weight * std::max(cells_[i].seen_s - its * but.time_s, 0.0);
   });
-  return std::min(occupied_s / seen_s, 1.0) / area_m2;
+  return {std::min(thing_s / seen_s, 1.0) / area_m2, person_s / seen_s / area_m2};
 }
 
 void ClutterMap::look(const Eigen::Vector2d& from_m, const SightOf& sight_of, double time_s) {
@@ -79,7 +81,8 @@ void ClutterMap::look(const Eigen::Vector2d& from_m, const SightOf& sight_of, do
 
 void ClutterMap::add(const ClutterCount& count) {
   forCorners(count.place_m, [&](std::size_t i, double weight) {
-    cells_[i].occupied_s += static_cast<float>(weight * count.thing_s);
+    cells_[i].thing_s += static_cast<float>(weight * count.thing_s);
+    cells_[i].person_s += static_cast<float>(weight * (count.time_s - count.thing_s));
     cells_[i].seen_s += static_cast<float>(weight * count.time_s);
   });
 }

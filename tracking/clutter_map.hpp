@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /// @file
-/// Where things are taken for people: how often, place by place.
+/// Where things are taken for people, and where people come: how often, place by place.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,20 +36,28 @@ struct ClutterMapParams {
 struct ClutterCount {
   Eigen::Vector2d place_m = Eigen::Vector2d::Zero();
   double time_s = 0.0;   ///< In which it was observed there,
-  double thing_s = 0.0;  ///< and of it that in which it was a thing.
+  double thing_s = 0.0;  ///< and of it that in which it was a thing, not a person.
 };
 
-/// Remembers, for each place, how much of the time in which it was seen a thing was observed there.
-/// Things stay: where nothing was, somebody who is there now came; where something always was,
-/// it is no person, however alike. A torus of cells of 0.25 m, 40 m around: what is further apart
-/// shares them. Nothing further than 8 m from the camera is counted.
+/// Things and people a square metre.
+struct ClutterDensity {
+  double things_per_m2 = 0.0;
+  double people_per_m2 = 0.0;
+};
+
+/// Remembers, for each place, how much of the time in which it was seen a thing was observed there,
+/// and how much a person. Things stay: where nothing was, somebody who is there now came; where
+/// something always was, it is no person, however alike. Who is not known counts as both by their
+/// probabilities, so that to be there again makes them no more of a thing. A torus of cells of 0.25
+/// m, 40 m around: what is further apart shares them. Nothing further than 8 m from the camera is
+/// counted.
 class ClutterMap {
  public:
   /// @throws std::invalid_argument  if a parameter is out of its range.
   explicit ClutterMap(const ClutterMapParams& params = {});
 
-  /// Things a square metre that are observed there, in a look. @param but  Without this.
-  double density_per_m2(const Eigen::Vector2d& place_m, const ClutterCount& but = {}) const;
+  /// What is observed there, in a look. @param but  Without this.
+  ClutterDensity density(const Eigen::Vector2d& place_m, const ClutterCount& but = {}) const;
 
   /// Counts time in which the places around were seen through.
   void look(const Eigen::Vector2d& from_m, const SightOf& sight_of, double time_s);
@@ -59,7 +67,8 @@ class ClutterMap {
 
  private:
   struct Cell {
-    float occupied_s = 0.0F;
+    float thing_s = 0.0F;
+    float person_s = 0.0F;
     float seen_s = 0.0F;
   };
   template <typename Visitor>

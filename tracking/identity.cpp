@@ -15,6 +15,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTwoPi = 6.283185307179586;
 constexpr double kRest_m = 0.2;         // Whoever is no further off has not moved.
+constexpr double kRests_s = 1.0;        // Nobody who walks stays that near for so long.
 constexpr double kPlaceSigma_m = 0.25;  // Of where a person who is tracked is observed next.
 constexpr double kRestSigma_m = 0.5 * kRest_m;  // Of where whoever rests is observed again.
 constexpr double kMissed = 0.1;                 // Of the looks at somebody in full view.
@@ -104,8 +105,9 @@ double Identity::logLikelihood(int track_id, int observation) const {
 /// @param but  Of what else is there: it is no evidence for another thing.
 Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s,
                            const ClutterCount& but) const {
+  const ClutterDensity there = clutter_.density(place_m, but);
   Evidence weight = Evidence::Zero();
-  weight[kThing] = clutter_.density_per_m2(place_m, but);
+  weight[kThing] = there.things_per_m2;
   weight[kStranger] = params_.newcomer_density_per_m2;
   for (int h = kTarget; h < kHypotheses; ++h) {
     if (h != kTarget && !gallery_.isKnown(h)) continue;
@@ -125,11 +127,16 @@ Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s,
     }
     weight[h] = params_.newcomer_density_per_m2 * reach;
   }
+  // Where people were seen before there are more, whoever they are.
+  auto people = weight.tail<kHypotheses - kStranger>();
+  people *= 1.0 + there.people_per_m2 / people.sum();
   return weight.max(1e-12).log() + (weight > 0.0).select(Evidence::Zero(), -kInfinity);
 }
 
-/// Where it rests: that it is on its way through a place does not say that things come there.
-void Identity::count(Belief& belief, double time_s) {
+/// Where it rests: that it is on its way through a place does not say that things come there, nor
+/// people.
+void Identity::count(Belief& belief, double time_s, double stamp_s) {
+  if (belief.since_s > belief.born_s && stamp_s - belief.since_s < kRests_s) return;
   const double thing_s = time_s * belief.probability[kThing];
   clutter_.add({belief.place_m, time_s, thing_s});
   belief.counted = {belief.place_m, belief.counted.time_s + time_s,
@@ -149,9 +156,11 @@ double Identity::restsFor_s(int track_id, double stamp_s) const {
 /// for they stay as likely as they did for that share of the time until now.
 Identity::Belief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, double stamp_s) {
   const Evidence prior = priorOf(place_m, stamp_s);
-  // The clutter that is known there is what has rested there.
+  // What and who is known to be there is what has rested there.
   const double newcomers_per_m2 =
-      params_.clutter.density_per_m2 + prior.tail<kHypotheses - kStranger>().exp().sum();
+      params_.clutter.density_per_m2 +
+      params_.newcomer_density_per_m2 *
+          (prior - prior[kStranger]).tail<kHypotheses - kStranger>().exp().sum();
   constexpr double rest_m2 = kRestSigma_m * kRestSigma_m;
   double most_per_m2 = newcomers_per_m2;
   auto same = left_.end();
@@ -194,7 +203,7 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
   const double elapsed_s = std::max(stamp_s - belief.seen_s, 0.0);
   const double news = newsOf(elapsed_s, has_moved ? off_m : 0.0);
   const double there = kTwoPi * kPlaceSigma_m * kPlaceSigma_m;
-  const double clutter = clutter_.density_per_m2(seen.position_m, belief.counted);
+  const double clutter = clutter_.density(seen.position_m, belief.counted).things_per_m2;
   const double stood_s = params_.stands_s + std::max(belief.seen_s - belief.since_s, 0.0);
   const double stands = std::log1p(elapsed_s / stood_s);  // -log P(stays | person)
   belief.log_place[kThing] += has_moved ? news * std::log(clutter * there) : stands;
@@ -288,7 +297,7 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
     const ObservationUse& use = report.uses[i];
     if (use.fate == ObservationFate::kFragment || use.verdict != GateVerdict::kAccepted) continue;
     if (Belief* belief = find(use.track_id)) {
-      count(*belief, time_s);
+      count(*belief, time_s, stamp_s);
     } else {
       const Evidence prior = relative(priorOf(observations[i].position_m, stamp_s));
       clutter_.add({observations[i].position_m, time_s, time_s * prior[kThing] / prior.sum()});

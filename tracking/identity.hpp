@@ -137,7 +137,7 @@ class Identity {
   double newsOf(double elapsed_s, double way_m) const;
   Evidence priorOf(const Eigen::Vector2d& place_m, double stamp_s,
                    const ClutterCount& but = {}) const;
-  void count(Belief& belief, double time_s);
+  void count(Belief& belief, double time_s, double stamp_s);
   void takePlace(Belief& belief, const Track& track, const Observation& seen, double stamp_s);
   void takeLook(Belief& belief, const Observation& seen, std::size_t look,
                 const Eigen::Vector2d& eye_m, double stamp_s);

@@ -229,7 +229,7 @@ void Follower::lookAround(const RobotReadings& readings) {
   }
   things_.finish();
   people_.step(steady_s_, *perception_, last_gate_.sight(), motion_.pose() * pose.inverse(), now_);
-  pilot_.setAround(things_.apartFrom(now_.people), people_.standing());
+  pilot_.setAround(things_.apartFrom(now_.people), people_.resting());
 }
 
 // Phase 1 (section 2).
@@ -281,9 +281,10 @@ void Follower::noteTarget() {
   step_.target.reset();
   now_.unseen_s += now_.elapsed_s;
   if (target_.hasPlace()) {
-    now_.target =
-        MovingPerson{target_.motion.position_m(), target_.motion.velocity_mps(),
-                     MovingPerson().radius_m, gaitOf(target_.motion, step_.robot.pose.position)};
+    now_.target = MovingPerson{
+        target_.motion.position_m(), target_.motion.velocity_mps(), MovingPerson().radius_m,
+        gaitOf(target_.motion, step_.robot.pose.position),
+        perception_->identity().restsFor_s(target_.track_id, steady_s_) >= params_.walks_on_s};
     step_.target = now_.target->position;
   }
   if (target_.status == TargetStatus::kFollowed) {

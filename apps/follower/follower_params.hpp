@@ -65,9 +65,7 @@ struct FollowerParams {
   double near_m = 1.0;
   /// A robot that stands with the person follows again when they are further away than this.
   double far_m = 1.2;
-  double beside_m = 0.7;  ///< Somebody this near leaves the robot no room to drive.
-  /// Somebody within far_m who comes nearer at this speed wants to get past.
-  double comes_mps = 0.15;
+  double beside_m = 0.7;       ///< Somebody this near leaves the robot no room to drive.
   double makes_room_s = 20.0;  ///< The robot leaves the way to somebody for so long at most.
   double waits_aside_s = 6.0;  ///< The robot waits beside the way for so long at most.
   double no_frame_s = 0.25;    ///< Without a picture for longer, tracks go on by the laser.
@@ -90,7 +88,6 @@ struct FollowerParams {
   /// Somebody who is a person with this probability is avoided as one, until they are seen to be
   /// none with as much.
   double surely_person = 0.8;
-  double stands_mps = 0.15;  ///< Somebody slower than this stands, and paths lead around them.
   /// Paths lead around people with so much more room than around things.
   double beside_people_m = 0.05;
   double target_radius_m = 0.45;   ///< Readings this near to the target are the target's own.

@@ -4,6 +4,7 @@
 #include <heel/apps/follower/make_room.hpp>
 
 #include <algorithm>
+#include <cstddef>
 
 namespace heel {
 
@@ -64,7 +65,7 @@ bool MakeRoom::isInTheWayOf(const MovingPerson& person, const Situation& now,
                             const Ways& ways) const {
   const Vector2d& here = now.robot.position;
   const Vector2d to_robot = here - person.position;
-  const bool comes = person.velocity.dot(to_robot) > params_.comes_mps * to_robot.norm();
+  const bool comes = person.velocity.dot(to_robot) > kSlowestWalk_mps * to_robot.norm();
   if (to_robot.norm() > (comes ? params_.far_m : params_.beside_m)) return false;
   return premises_.isInDoorway(here) ||
          !leavesRoom(here, person.position, ways.room, params_.wayside);
@@ -72,7 +73,12 @@ bool MakeRoom::isInTheWayOf(const MovingPerson& person, const Situation& now,
 
 bool MakeRoom::goAside(const MovingPerson& person, const Situation& now, const Ways& ways) {
   const Vector2d& here = now.robot.position;
-  findWaysides(here, person.position, ways.room, premises_.doorways, params_.wayside, places_);
+  near_.assign(1, person.position);
+  for (std::size_t i = 0; i < now.seen_people; ++i) {
+    const Vector2d& place = now.people[i].position;
+    if ((place - here).norm() < params_.far_m) near_.push_back(place);
+  }
+  findWaysides(here, near_, ways.room, premises_.doorways, params_.wayside, places_);
   for (const Vector2d& place : places_) {
     const GlobalPlan& plan = ways.plan(here, place);
     const bool is_near = plan.length_m < 1.5 * params_.wayside.reach_m;

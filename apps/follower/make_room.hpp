@@ -44,7 +44,7 @@ class MakeRoom : public Behaviour {
   Eigen::Vector2d stood_at_ = Eigen::Vector2d::Zero();  // and has not left since,
   double stuck_s_ = 0.0;                                // though it wanted to for so long
   std::optional<Aside> aside_;
-  std::vector<Eigen::Vector2d> places_;
+  std::vector<Eigen::Vector2d> near_, places_;
 };
 
 }  // namespace heel

@@ -33,8 +33,7 @@ PeopleAround::PeopleAround(const FollowerParams& params)
       walks_on_s_(params.walks_on_s),
       person_m_(params.target_radius_m),
       known_within_m_(0.5 * params.obstacles.size_m),
-      unseen_(
-          {params.stands_mps, params.walks_on_s, params.beside_people_m, params.target_radius_m}) {}
+      unseen_({params.walks_on_s, params.beside_people_m, params.target_radius_m}) {}
 
 void PeopleAround::step(double stamp_s, const Perception& perception, const RecentSight& sight,
                         const FloorPose& T_frame_world, Situation& now) {
@@ -61,8 +60,8 @@ void PeopleAround::step(double stamp_s, const Perception& perception, const Rece
   }
 }
 
-// Who walks is left to the local planner; around who stands leads another way, but for the target:
-// the way leads to them.
+// Who walks or has just stopped is left to the local planner; around who rests leads another way,
+// but for the target: the way leads to them.
 void PeopleAround::addTracks(double stamp_s, const Perception& perception, Situation& now) const {
   const Identity& identity = perception.identity();
   for (const Track& track : perception.tracks()) {
@@ -72,8 +71,8 @@ void PeopleAround::addTracks(double stamp_s, const Perception& perception, Situa
     if (who.sum() - who[kThing] < surely_person_) continue;
     MovingPerson& person = now.people.emplace_back();
     person.position = track.motion.position_m();
-    const bool rests = identity.restsFor_s(track.id, stamp_s) >= walks_on_s_;
-    if (!rests || setsOff(track.motion)) {
+    person.rests = identity.restsFor_s(track.id, stamp_s) >= walks_on_s_ && !setsOff(track.motion);
+    if (!person.rests) {
       person.velocity = track.motion.velocity_mps();
       person.gait_mps = gaitOf(track.motion, now.robot.position);
     }
@@ -94,7 +93,8 @@ void PeopleAround::addComers(const RecentSight& sight, const FloorPose& T_world_
         !sight.isLeg(thing)) {
       continue;
     }
-    now.people.push_back({place, turn * thing.velocity, MovingPerson().radius_m, thing.gait_mps});
+    now.people.push_back(
+        {place, turn * thing.velocity, MovingPerson().radius_m, thing.gait_mps, !thing.roams});
   }
 }
 

@@ -28,8 +28,8 @@ class PeopleAround {
   void step(double stamp_s, const Perception& perception, const RecentSight& sight,
             const FloorPose& T_frame_world, Situation& now);
 
-  /// Around those who stand, but for the target: paths lead another way.
-  const std::vector<FloorDisc>& standing() const { return unseen_.standing(); }
+  /// Around those who rest, but for the target: paths lead another way.
+  const std::vector<FloorDisc>& resting() const { return unseen_.resting(); }
   /// Around all of them, in a frame [m]; valid until the next call.
   const std::vector<FloorDisc>& discs(const std::vector<MovingPerson>& people,
                                       const FloorPose& T_frame_world);

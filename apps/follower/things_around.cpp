@@ -27,7 +27,6 @@ ThingsAround::ThingsAround(const RobotDescription& robot, const FollowerParams& 
     : body_(params.drive.limits),
       wheels_latency_s_(robot.wheels_latency_s),
       mapped_within_m_(params.mapped_within_m),
-      stands_mps_(params.stands_mps),
       beside_people_m_(params.beside_people_m),
       person_m_(params.target_radius_m),
       floor_(floor),
@@ -86,8 +85,7 @@ void ThingsAround::addPoints(const std::vector<Eigen::Vector3f>& points,
 const OccupancyGrid& ThingsAround::apartFrom(const std::vector<MovingPerson>& people) {
   apart_ = layer_.window();
   for (const MovingPerson& person : people) {
-    const bool stands = person.velocity.norm() <= stands_mps_;
-    const double reach_m = stands ? person.radius_m + beside_people_m_ : person_m_;
+    const double reach_m = person.rests ? person.radius_m + beside_people_m_ : person_m_;
     const GridCell low = apart_.cellAt(person.position.array() - reach_m);
     const GridCell high = apart_.cellAt(person.position.array() + reach_m);
     for (int y = std::max(low.y, 0); y <= std::min(high.y, apart_.height() - 1); ++y) {

@@ -50,7 +50,7 @@ class ThingsAround {
   bool isMapped(const Eigen::Vector2d& place) const;
 
   DriveLimits body_;
-  double wheels_latency_s_, mapped_within_m_, stands_mps_, beside_people_m_, person_m_;
+  double wheels_latency_s_, mapped_within_m_, beside_people_m_, person_m_;
   const OccupancyGrid& floor_;
   ObstacleLayer layer_;
   ObstaclePoints picture_;

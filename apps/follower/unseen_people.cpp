@@ -8,7 +8,7 @@
 
 namespace heel {
 
-MovingPerson UnseenPeople::now(const Known& known, double stamp_s) const {
+MovingPerson UnseenPeople::now(const Known& known, double stamp_s) {
   MovingPerson person = known.person;
   if (!stands(person)) person.position += (stamp_s - known.seen_s) * person.velocity;
   return person;
@@ -28,10 +28,10 @@ void UnseenPeople::step(double stamp_s, std::vector<MovingPerson>& people,
   const std::size_t unseen = known_.size();
   for (const MovingPerson& person : people) known_.push_back({person, stamp_s});
   for (std::size_t i = 0; i < unseen; ++i) people.push_back(now(known_[i], stamp_s));
-  standing_.clear();
+  resting_.clear();
   for (const Known& known : known_) {
-    if (!stands(known.person)) continue;
-    standing_.push_back({known.person.position, known.person.radius_m + params_.beside_m});
+    if (!known.person.rests) continue;
+    resting_.push_back({known.person.position, known.person.radius_m + params_.beside_m});
   }
 }
 

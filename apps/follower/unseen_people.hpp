@@ -14,10 +14,9 @@
 namespace heel {
 
 struct UnseenPeopleParams {
-  double slower_than_mps = 0.0;  ///< Who is no faster stands.
-  double walks_on_s = 0.0;       ///< For so long whoever walked is expected to walk on.
-  double beside_m = 0.0;         ///< Room that is left beside the body of who stands.
-  double near_m = 0.0;           ///< People so near to where somebody should be are them.
+  double walks_on_s = 0.0;  ///< For so long whoever walked is expected to walk on.
+  double beside_m = 0.0;    ///< Room that is left beside the body of who rests.
+  double near_m = 0.0;      ///< People so near to where somebody should be are them.
 };
 
 /// Who is not among the people any more stays for half a minute if they stood, and walks on for a
@@ -32,22 +31,22 @@ class UnseenPeople {
   void step(double stamp_s, std::vector<MovingPerson>& people,
             FunctionRef<bool(const Eigen::Vector2d&)> has_left);
 
-  /// Around all of them who stand.
-  const std::vector<FloorDisc>& standing() const { return standing_; }
+  /// Around all of them who rest.
+  const std::vector<FloorDisc>& resting() const { return resting_; }
 
  private:
   struct Known {
     MovingPerson person;  // as last seen
     double seen_s;
   };
-  MovingPerson now(const Known& known, double stamp_s) const;
-  bool stands(const MovingPerson& person) const {
-    return person.velocity.norm() <= params_.slower_than_mps;
+  static MovingPerson now(const Known& known, double stamp_s);
+  static bool stands(const MovingPerson& person) {
+    return person.velocity.norm() <= kSlowestWalk_mps;
   }
 
   UnseenPeopleParams params_;
   std::vector<Known> known_;
-  std::vector<FloorDisc> standing_;
+  std::vector<FloorDisc> resting_;
 };
 
 }  // namespace heel

@@ -46,7 +46,7 @@ TEST(Wayside, WhatNobodyKnowsIsNoRoom) {
 
 TEST(Wayside, LeavesANarrowCorridorAwayFromThePerson) {
   std::vector<Vector2d> places;
-  findWaysides({0.8, 0.0}, {1.8, 0.0}, kNarrow, {}, {}, places);
+  findWaysides({0.8, 0.0}, {{1.8, 0.0}}, kNarrow, {}, {}, places);
   ASSERT_FALSE(places.empty());
   for (const Vector2d& place : places) {
     EXPECT_LT(place.x(), 0.0) << place.transpose();
@@ -63,7 +63,7 @@ TEST(Wayside, KeepsOutOfTheWayThroughADoorway) {
   const DoorwayOnMap end{{0.0, 0.0}, {1.0, 0.0}, 1.0};
   const WaysideParams params;
   std::vector<Vector2d> places;
-  findWaysides({0.8, 0.0}, {1.8, 0.0}, kNarrow, {end}, params, places);
+  findWaysides({0.8, 0.0}, {{1.8, 0.0}}, kNarrow, {end}, params, places);
   ASSERT_FALSE(places.empty());
   for (const Vector2d& place : places) {
     EXPECT_TRUE(-place.x() >= params.doorway_depth_m || std::abs(place.y()) >= 0.5 + 0.26)
@@ -71,10 +71,27 @@ TEST(Wayside, KeepsOutOfTheWayThroughADoorway) {
   }
 }
 
+// Bug: it made room for the one behind it, towards the one who stood in the door before it, and
+// stayed in that door for a minute.
+TEST(Wayside, DoesNotGoTowardsAnybodyElse) {
+  std::vector<Vector2d> places;
+  findWaysides({0.8, 0.0}, {{1.8, 0.0}, {-0.4, 0.0}}, kNarrow, {}, {}, places);
+  EXPECT_TRUE(places.empty());
+}
+
+TEST(Wayside, LeavesADoorwayEvenWhereNobodyCanWalkBy) {
+  const DoorwayOnMap side{{3.0, 0.5}, {0.0, 1.0}, 0.9};  // into a corridor that is too narrow
+  std::vector<Vector2d> places;
+  const auto endless = [](const Vector2d& p) { return 0.5 - std::abs(p.y()); };
+  findWaysides({3.0, 0.0}, {{3.0, 0.7}}, endless, {side}, {}, places);
+  ASSERT_FALSE(places.empty());
+  EXPECT_GE(std::abs(places.front().x() - 3.0), 0.45);
+}
+
 TEST(Wayside, ThereIsNoneInACorridorThatHasNoEnd) {
   const auto endless = [](const Vector2d& p) { return 0.5 - std::abs(p.y()); };
   std::vector<Vector2d> places{{1.0, 1.0}};
-  findWaysides({0.0, 0.0}, {1.0, 0.0}, endless, {}, {}, places);
+  findWaysides({0.0, 0.0}, {{1.0, 0.0}}, endless, {}, {}, places);
   EXPECT_TRUE(places.empty());
 }
 
