@@ -47,7 +47,8 @@ void ClutterMap::forCorners(const Eigen::Vector2d& place_m, const Visitor& visit
   }
 }
 
-ClutterDensity ClutterMap::density(const Eigen::Vector2d& place_m, const ClutterCount& but) const {
+ClutterDensity ClutterMap::density(const Eigen::Vector2d& place_m, double stamp_s,
+                                   const ClutterCount& but) const {
   const double area_m2 = kCell_m * kCell_m;
   double thing_s = params_.prior_s * params_.density_per_m2 * area_m2;
   double person_s = 0.0;
@@ -58,7 +59,11 @@ ClutterDensity ClutterMap::density(const Eigen::Vector2d& place_m, const Clutter
       forCorners(but.place_m, [&](std::size_t j, double part) { its += i == j ? part : 0.0; });
     }
     thing_s += weight * std::max(cells_[i].thing_s - its * but.thing_s, 0.0);
-    person_s += weight * std::max(cells_[i].person_s - its * (but.time_s - but.thing_s), 0.0);
+    const double stood_s = static_cast<double>(cells_[i].person_s);
+    const double stays =
+        stood_s > 0.0 ? stood_s / (stood_s + std::max(stamp_s - cells_[i].last_s, 0.0)) : 0.0;
+    person_s +=
+        weight * stays * std::max(cells_[i].person_s - its * (but.time_s - but.thing_s), 0.0);
     seen_s += weight * std::max(cells_[i].seen_s - its * but.time_s, 0.0);
   });
   return {std::min(thing_s / seen_s, 1.0) / area_m2, person_s / seen_s / area_m2};
@@ -79,8 +84,10 @@ void ClutterMap::look(const Eigen::Vector2d& from_m, const SightOf& sight_of, do
   }
 }
 
-void ClutterMap::add(const ClutterCount& count) {
+void ClutterMap::add(const ClutterCount& count, double stamp_s) {
   forCorners(count.place_m, [&](std::size_t i, double weight) {
+    if (!(weight > 0.0)) return;
+    cells_[i].last_s = stamp_s;
     cells_[i].thing_s += static_cast<float>(weight * count.thing_s);
     cells_[i].person_s += static_cast<float>(weight * (count.time_s - count.thing_s));
     cells_[i].seen_s += static_cast<float>(weight * count.time_s);

@@ -47,8 +47,9 @@ struct ClutterDensity {
 
 /// Remembers, for each place, how much of the time in which it was seen a thing was observed there,
 /// and how much a person. Things stay: where nothing was, somebody who is there now came; where
-/// something always was, it is no person, however alike. Who is not known counts as both by their
-/// probabilities, so that to be there again makes them no more of a thing. A torus of cells of 0.25
+/// something always was, it is no person, however alike. A person stays as likely as they did for
+/// that share of the time until now. Who is not known counts as both by their probabilities, so
+/// that to be there again at once makes them no more of a thing. A torus of cells of 0.25
 /// m, 40 m around: what is further apart shares them. Nothing further than 8 m from the camera is
 /// counted.
 class ClutterMap {
@@ -56,20 +57,22 @@ class ClutterMap {
   /// @throws std::invalid_argument  if a parameter is out of its range.
   explicit ClutterMap(const ClutterMapParams& params = {});
 
-  /// What is observed there, in a look. @param but  Without this.
-  ClutterDensity density(const Eigen::Vector2d& place_m, const ClutterCount& but = {}) const;
+  /// What is observed there, in a look at a time. @param but  Without this.
+  ClutterDensity density(const Eigen::Vector2d& place_m, double stamp_s,
+                         const ClutterCount& but = {}) const;
 
   /// Counts time in which the places around were seen through.
   void look(const Eigen::Vector2d& from_m, const SightOf& sight_of, double time_s);
 
-  /// Counts what was observed there.
-  void add(const ClutterCount& count);
+  /// Counts what was observed there until a time.
+  void add(const ClutterCount& count, double stamp_s);
 
  private:
   struct Cell {
     float thing_s = 0.0F;
     float person_s = 0.0F;
     float seen_s = 0.0F;
+    double last_s = 0.0;  // When somebody or something was observed there last.
   };
   template <typename Visitor>
   void forCorners(const Eigen::Vector2d& place_m, const Visitor& visit) const;

@@ -105,7 +105,7 @@ double Identity::logLikelihood(int track_id, int observation) const {
 /// @param but  Of what else is there: it is no evidence for another thing.
 Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s,
                            const ClutterCount& but) const {
-  const ClutterDensity there = clutter_.density(place_m, but);
+  const ClutterDensity there = clutter_.density(place_m, stamp_s, but);
   Evidence weight = Evidence::Zero();
   weight[kThing] = there.things_per_m2;
   weight[kStranger] = params_.newcomer_density_per_m2;
@@ -138,7 +138,7 @@ Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s,
 void Identity::count(Belief& belief, double time_s, double stamp_s) {
   if (belief.since_s > belief.born_s && stamp_s - belief.since_s < kRests_s) return;
   const double thing_s = time_s * belief.probability[kThing];
-  clutter_.add({belief.place_m, time_s, thing_s});
+  clutter_.add({belief.place_m, time_s, thing_s}, stamp_s);
   belief.counted = {belief.place_m, belief.counted.time_s + time_s,
                     belief.counted.thing_s + thing_s};
 }
@@ -203,7 +203,7 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
   const double elapsed_s = std::max(stamp_s - belief.seen_s, 0.0);
   const double news = newsOf(elapsed_s, has_moved ? off_m : 0.0);
   const double there = kTwoPi * kPlaceSigma_m * kPlaceSigma_m;
-  const double clutter = clutter_.density(seen.position_m, belief.counted).things_per_m2;
+  const double clutter = clutter_.density(seen.position_m, stamp_s, belief.counted).things_per_m2;
   const double stood_s = params_.stands_s + std::max(belief.seen_s - belief.since_s, 0.0);
   const double stands = std::log1p(elapsed_s / stood_s);  // -log P(stays | person)
   belief.log_place[kThing] += has_moved ? news * std::log(clutter * there) : stands;
@@ -300,7 +300,8 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
       count(*belief, time_s, stamp_s);
     } else {
       const Evidence prior = relative(priorOf(observations[i].position_m, stamp_s));
-      clutter_.add({observations[i].position_m, time_s, time_s * prior[kThing] / prior.sum()});
+      clutter_.add({observations[i].position_m, time_s, time_s * prior[kThing] / prior.sum()},
+                   stamp_s);
     }
   }
 }
