@@ -666,24 +666,24 @@ TEST(Identity, WhoStandsIsNoEvidenceThatThingsAreThere) {
   EXPECT_NEAR(home.probability(1, kThing), before, 0.05);
 }
 
-TEST(Identity, WhatWasThereBeforeIsEvidenceOfWhatIsThere) {
+TEST(Identity, WhatWasThereBeforeIsEvidenceThatThingsAreThere) {
   Home home;
   for (int i = 0; i < 40; ++i) home.see({{1, {3, 0}, nullptr}});
   const double before = home.probability(1, kThing);
   home.walk({1, {3, 0}, nullptr}, 3.0);  // It leaves; what was counted there stays.
   home.see({{2, {3, 0}, nullptr}, {1, {6, 0}, nullptr}});
-  EXPECT_NEAR(home.probability(2, kThing), before, 0.02) << "no more of a thing than that was";
+  EXPECT_GT(home.probability(2, kThing), before + 0.1) << "a person would have gone, too";
 }
 
 // Bug: the target stood in a crowd seven metres away, now on one track and now on another; each
 // began with what the last was believed to be as evidence, and all were things soon.
-TEST(Identity, ManyShortTracksOfOneBodyAreNoEvidenceThatItIsAThing) {
+TEST(Identity, ManyShortTracksOfOneBodyAreLittleEvidenceThatItIsAThing) {
   Home home;
   double first = 0.0;
   for (int id = 1; id < 30; ++id) {
     home.see({{id, {3 + 0.3 * (id % 2), 0}, nullptr}}, 3);
     if (id == 1) first = home.probability(id, kThing);
-    EXPECT_LT(home.probability(id, kThing), first + 0.2) << id;
+    EXPECT_LT(home.probability(id, kThing), first + 0.3) << id;
   }
 }
 
