@@ -51,8 +51,7 @@ void findWaysides(const Vector2d& robot, const std::vector<Vector2d>& people, Cl
              (!leaves_room || leavesRoom(place, person, clearance, params));
     });
   };
-  for (const bool leaves_room : {true, false}) {
-    if (!leaves_room && !blocks(robot)) return;
+  const auto add = [&](bool leaves_room) {
     for (double ring_m = kRing_m; ring_m <= params.reach_m; ring_m += kRing_m) {
       for (int i = 0; i < kPlaces; ++i) {
         const double bearing = 2.0 * M_PI * i / kPlaces;
@@ -63,7 +62,9 @@ void findWaysides(const Vector2d& robot, const std::vector<Vector2d>& people, Cl
         if (is_new && isGood(place, leaves_room)) out.push_back(place);
       }
     }
-  }
+  };
+  add(true);
+  if (blocks(robot)) add(false);
 }
 
 }  // namespace heel

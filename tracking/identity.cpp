@@ -156,7 +156,7 @@ double Identity::restsFor_s(int track_id, double stamp_s) const {
 /// for they stay as likely as they did for that share of the time until now.
 Identity::Belief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, double stamp_s) {
   const Evidence prior = priorOf(place_m, stamp_s);
-  // What and who is known to be there is what has rested there.
+  // What and who is known to be there is what has rested there: of people, only who comes.
   const double newcomers_per_m2 =
       params_.clutter.density_per_m2 +
       params_.newcomer_density_per_m2 *

@@ -54,6 +54,7 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   params.gate.eye_height_m = robot.camera.T_base_camera.translation().z();
   params.paths.robot_radius_m = robot.drive.radius_m;
   params.goal.radius_m = params.wayside.radius_m = turningRadius(robot.drive);
+  params.wayside.person_m = MovingPerson().radius_m + params.beside_people_m;
   params.drive.limits = robot.drive;
   params.search.map.limits = robot.drive;
   params.search.map.limits.radius_m = turningRadius(robot.drive);  // It looks around there.

@@ -44,9 +44,9 @@ PilotStep Pilot::step(const Intent& intent, const DriveState& robot,
   const Vector2d& here = robot.pose.position;
   const auto room = [&](const Vector2d& p) { return std::min(room_.clearance(p), sensed(p)); };
   if (intent.is_new) reset();
-  const bool was_there = arrival_ && intent.go_to &&
-                         (arrival_->place - here).norm() < local_planner_.params().depart_m &&
-                         (arrival_->goal - *intent.go_to).norm() < local_planner_.params().depart_m;
+  const double depart_m = local_planner_.params().depart_m;
+  const bool was_there = arrival_ && intent.go_to && (arrival_->place - here).norm() < depart_m &&
+                         (arrival_->goal - *intent.go_to).norm() < depart_m;
   const bool goes = intent.go_to && !(was_there && intent.look_at);
   const std::optional<Vector2d>& face = goes ? intent.keep_in_view : intent.look_at;
   std::optional<Vector2d> goal;
@@ -83,8 +83,7 @@ PilotStep Pilot::step(const Intent& intent, const DriveState& robot,
   const bool stands = now.command.forward_mps == 0.0 && now.command.turn_radps == 0.0;
   out.outcome = {arrival_.has_value(), !goes && stands};
   // As near as can be: it looked from there once, and the way may be free by now.
-  if (was_there && stands && (*intent.go_to - here).norm() > local_planner_.params().depart_m)
-    arrival_.reset();
+  if (was_there && stands && (*intent.go_to - here).norm() > depart_m) arrival_.reset();
   return out;
 }
 
@@ -99,12 +98,10 @@ bool Pilot::findWay(const Vector2d& from, const Vector2d& to) {
 
 // A round robot touches nothing by turning.
 bool Pilot::canTurnTo(const Vector2d& place, const DriveState& robot, Clearance room) const {
-  const DriveLimits& drive = local_planner_.params().limits;
-  if (axisReach(drive) == 0.0 ||
-      turnToFace(drive, robot, place, local_planner_.params().facing) == 0.0)
-    return true;
-  const double need_m =
-      std::min(local_planner_.params().margin_m, roomAround(drive, robot.pose, room));
+  const LocalPlannerParams& params = local_planner_.params();
+  const DriveLimits& drive = params.limits;
+  if (axisReach(drive) == 0.0 || turnToFace(drive, robot, place, params.facing) == 0.0) return true;
+  const double need_m = std::min(params.margin_m, roomAround(drive, robot.pose, room));
   const double turn_rad = bearingOf(robot.pose, place);
   const int turns = static_cast<int>(std::ceil(std::abs(turn_rad) / kTurn_rad));
   for (int i = 1; i <= turns; ++i) {
@@ -116,8 +113,8 @@ bool Pilot::canTurnTo(const Vector2d& place, const DriveState& robot, Clearance 
 
 // The nearest with room to turn, in rings about the robot; else that with the most room.
 Vector2d Pilot::turningPlace(const FloorPose& pose, Clearance room) const {
-  const double need_m =
-      turningRadius(local_planner_.params().limits) + local_planner_.params().margin_m;
+  const LocalPlannerParams& params = local_planner_.params();
+  const double need_m = turningRadius(params.limits) + params.margin_m;
   Vector2d best = pose.position;
   double most_m = room(best);
   for (double away_m = kRings_m; away_m < kFurthestTurn_m && most_m < need_m; away_m += kRings_m) {
