@@ -52,7 +52,7 @@ double rangeFor(const LastGateParams& params) {
   const double acts_s = 2.0 * params.wheels_latency_s + 0.5;
   return axisReach(limits) + limits.radius_m + params.margin_m +
          stoppingDistance(limits, limits.max_speed_mps, acts_s) +
-         kFastestWalk_mps * (acts_s + limits.max_speed_mps / limits.max_acceleration_mps2);
+         kFastestWalk_mps * (acts_s + limits.max_speed_mps / limits.max_braking_mps2);
 }
 
 // Only a body that is not round swings.
@@ -81,9 +81,10 @@ void LastGate::addScan(const LaserScan& scan, const FloorPose& base, double stam
   sight_.addScan(scan, base, stamp_s);
 }
 
-void LastGate::addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& base,
-                         double stamp_s, const std::vector<Vector2d>& steps) {
-  sight_.addPoints(points, base, stamp_s, steps);
+void LastGate::addPoints(int camera, const std::vector<Eigen::Vector3f>& points,
+                         const FloorPose& base, double stamp_s,
+                         const std::vector<Vector2d>& steps) {
+  sight_.addPoints(camera, points, base, stamp_s, steps);
 }
 
 // What can be touched, and how near it may come.

@@ -20,7 +20,7 @@ namespace heel {
 
 /// How late the robot acts, and how much room it keeps.
 struct LastGateParams {
-  DriveLimits limits;  ///< The robot's; it brakes as fast as it accelerates.
+  DriveLimits limits;  ///< The robot's.
   /// A command acts on the wheels at most so long after it was sent, or at any time before [s].
   double wheels_latency_s = 0.0;
   /// Room that is left to what was seen: two standard deviations of a laser's ranges.
@@ -82,8 +82,8 @@ class LastGate {
 
   /// As those of RecentSight.
   void addScan(const LaserScan& scan, const FloorPose& base, double stamp_s);
-  void addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& base, double stamp_s,
-                 const std::vector<Eigen::Vector2d>& steps = {});
+  void addPoints(int camera, const std::vector<Eigen::Vector3f>& points, const FloorPose& base,
+                 double stamp_s, const std::vector<Eigen::Vector2d>& steps = {});
 
   const RecentSight& sight() const { return sight_; }
 

@@ -264,7 +264,7 @@ void LocalPlanner::layOut(const DriveScene& scene, bool threatened, bool backs) 
 
   // How near people come if the robot stands still, for as long as any braking can last.
   const double slowest = std::max(std::abs(scene.now.speed.forward_mps), limits.max_speed_mps) /
-                             limits.max_acceleration_mps2 +
+                             limits.max_braking_mps2 +
                          std::max(std::abs(scene.now.speed.turn_radps), limits.max_turn_radps) /
                              limits.max_turn_acceleration_radps2;
   const auto most = static_cast<std::size_t>(std::ceil(slowest / limits.period_s)) + 2 + held_;
@@ -355,7 +355,7 @@ double LocalPlanner::allowedTowards(const DriveScene& scene, const MovingPerson&
   const double towards = way * to.dot(Vector2d(std::cos(pose.yaw_rad), std::sin(pose.yaw_rad)));
   if (!(towards > 0.0)) return kInfinite;
   const double comes_mps = person.gait_mps - person.velocity.dot(to) / away_m;
-  const double share = towards / away_m, brakes_mps2 = limits.max_acceleration_mps2;
+  const double share = towards / away_m, brakes_mps2 = limits.max_braking_mps2;
   const double room_m = away_m - limits.radius_m - person.radius_m;
   const auto stands = [&](double speed_mps) {
     const double brakes_s = speed_mps / brakes_mps2;

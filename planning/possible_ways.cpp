@@ -30,16 +30,20 @@ VelocityCommand middle(const VelocityCommand& a, const VelocityCommand& b) {
 
 double most(double a, double b) { return std::max(std::abs(a), std::abs(b)); }
 
-// How long a speed takes to get where it goes to; no time if it is there.
+// How long a speed takes to get where it goes to; forever if it is there.
 double untilThere(double from, double to, double acceleration) {
   const double left_s = std::abs(to - from) / acceleration;
   return left_s > kSoon_s ? left_s : std::numeric_limits<double>::infinity();
 }
 
+// Or to a stand, from where on it changes otherwise.
 double untilThere(const DriveLimits& limits, const VelocityCommand& from,
                   const VelocityCommand& to) {
-  return std::min(untilThere(from.forward_mps, to.forward_mps, limits.max_acceleration_mps2),
-                  untilThere(from.turn_radps, to.turn_radps, limits.max_turn_acceleration_radps2));
+  const double a = from.forward_mps, b = to.forward_mps;
+  const bool stops = a * b < 0.0, brakes = stops || std::abs(b) < std::abs(a);
+  return std::min(
+      untilThere(a, stops ? 0.0 : b, brakes ? limits.max_braking_mps2 : limits.max_acceleration_mps2),
+      untilThere(from.turn_radps, to.turn_radps, limits.max_turn_acceleration_radps2));
 }
 
 }  // namespace

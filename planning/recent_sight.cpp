@@ -46,13 +46,17 @@ RecentSight::RecentSight(const RecentSightParams& params, double range_m, double
       places_(kMostThings, 2),
       looks_(kMostLooks),
       cells_(kCells * kCells),
-      points_s_(kNotYet) {
-  for (const double value :
-       {params.remembers_s, params.camera_half_view.minCoeff(), params.camera_nearest_m,
-        params.camera_range_m, params.min_points - 1.0}) {
-    if (!(value >= 0.0) || !std::isfinite(value)) {
-      throw std::invalid_argument("RecentSightParams: a parameter is out of its range");
+      points_s_(params.cameras.size(), kNotYet) {
+  const auto check = [](const std::initializer_list<double>& values) {
+    for (const double value : values) {
+      if (!(value >= 0.0) || !std::isfinite(value)) {
+        throw std::invalid_argument("RecentSightParams: a parameter is out of its range");
+      }
     }
+  };
+  check({params.remembers_s, params.min_points - 1.0});
+  for (const CameraView& view : params.cameras) {
+    check({view.half_view.minCoeff(), view.nearest_m, view.range_m});
   }
   things_.reserve(kMostThings);
   for (Look& look : looks_) look.stamp_s = kNotYet;
@@ -235,9 +239,10 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
       std::remove_if(things_.begin(), things_.end(),
                      [&](const SeenThing& thing) {
                        const bool is_old = stamp_s - thing.seen_s > params_.remembers_s;
-                       const bool is_kept = thing.by_laser && !thing.roams &&
+                       const bool by_laser = thing.camera == SeenThing::kByLaser;
+                       const bool is_kept = by_laser && !thing.roams &&
                                             (thing.place - base.position).squaredNorm() < keeps_m2;
-                       return (is_old && !is_kept) || (thing.by_laser && sees(look, thing.place));
+                       return (is_old && !is_kept) || (by_laser && sees(look, thing.place));
                      }),
       things_.end());
   const Look& before = lookBefore(1);
@@ -253,7 +258,7 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
     const Vector2d velocity = moves ? velocityOf(place, before, dt_s) : Vector2d::Zero();
     const bool roams = stamp_s - free_s <= params_.remembers_s;
     if (roams) roaming_.push_back({place, velocity});
-    keep({place, 0.0, stamp_s, true, true, roams, free_s > kNotYet, velocity, 0.0});
+    keep({place, 0.0, stamp_s, SeenThing::kByLaser, true, roams, free_s > kNotYet, velocity, 0.0});
   }
   for (SeenThing& thing : things_) {
     if (!thing.roams || thing.seen_s != stamp_s) continue;
@@ -273,18 +278,21 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
 
 // Whether a picture shows the place at the thing's height: what is low leaves it early.
 bool RecentSight::isInPicture(const SeenThing& thing, const FloorPose& T_base_world) const {
+  const CameraView& view = params_.cameras[static_cast<std::size_t>(thing.camera)];
   const Vector2d at = T_base_world * thing.place;
   const Eigen::Vector3d seen =
-      params_.T_base_camera.inverse() * Eigen::Vector3d(at.x(), at.y(), thing.height_m);
-  const double away_m = (at - params_.T_base_camera.translation().head<2>()).norm();
-  return seen.z() > params_.camera_nearest_m && away_m < params_.camera_range_m &&
-         (seen.head<2>().array().abs() < params_.camera_half_view * seen.z()).all();
+      view.T_base_camera.inverse() * Eigen::Vector3d(at.x(), at.y(), thing.height_m);
+  const double away_m = (at - view.T_base_camera.translation().head<2>()).norm();
+  return seen.z() > view.nearest_m && away_m < view.range_m &&
+         (seen.head<2>().array().abs() < view.half_view * seen.z()).all();
 }
 
-void RecentSight::addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& base,
-                            double stamp_s, const std::vector<Vector2d>& steps) {
-  if (!(stamp_s > points_s_)) return;
-  points_s_ = stamp_s;
+void RecentSight::addPoints(int camera, const std::vector<Eigen::Vector3f>& points,
+                            const FloorPose& base, double stamp_s,
+                            const std::vector<Vector2d>& steps) {
+  double& last_s = points_s_.at(static_cast<std::size_t>(camera));
+  if (!(stamp_s > last_s)) return;
+  last_s = stamp_s;
   const FloorPose T_base_world = base.inverse();
   std::fill(cells_.begin(), cells_.end(), Cell{});
   for (const Eigen::Vector3f& point : points) {
@@ -302,24 +310,24 @@ void RecentSight::addPoints(const std::vector<Eigen::Vector3f>& points, const Fl
   for (Cell& cell : cells_) {
     if (cell.points < params_.min_points) continue;
     cell.is_sure = std::any_of(things_.begin(), things_.end(), [&](const SeenThing& thing) {
-      return !thing.by_laser && (thing.place - placeOf(cell)).norm() < kSame_m;
+      return thing.camera == camera && (thing.place - placeOf(cell)).norm() < kSame_m;
     });
   }
   things_.erase(std::remove_if(things_.begin(), things_.end(),
                                [&](const SeenThing& thing) {
-                                 return !thing.by_laser &&
+                                 return thing.camera == camera &&
                                         (!thing.is_sure || thing.height_m == 0.0 ||
                                          isInPicture(thing, T_base_world));
                                }),
                 things_.end());
   for (const Cell& cell : cells_) {
     if (cell.points < params_.min_points) continue;
-    keep({placeOf(cell), static_cast<double>(cell.highest_m), stamp_s, false, cell.is_sure, false,
+    keep({placeOf(cell), static_cast<double>(cell.highest_m), stamp_s, camera, cell.is_sure, false,
           false, Vector2d::Zero(), 0.0});
   }
   for (const Vector2d& step : steps) {
     if (step.lpNorm<Eigen::Infinity>() > 0.5 * kCells * kCell_m) continue;
-    keep({base * step, 0.0, stamp_s, false, true, false, false, Vector2d::Zero(), 0.0});
+    keep({base * step, 0.0, stamp_s, camera, true, false, false, Vector2d::Zero(), 0.0});
   }
   layOut();
 }

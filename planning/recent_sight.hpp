@@ -17,6 +17,15 @@
 
 namespace heel {
 
+/// A camera, and what a picture of it renews.
+struct CameraView {
+  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();  ///< z is the line of sight.
+  /// What is within these tangents of the line of sight, across and up,
+  Eigen::Array2d half_view = Eigen::Array2d::Zero();
+  double nearest_m = 0.45;  ///< and further from the camera than this,
+  double range_m = 2.0;     ///< and nearer than this.
+};
+
 /// Where the sensors are, and for how long what they saw is known.
 struct RecentSightParams {
   FloorPose T_base_scanner;  ///< Where the laser scanner is, in the base frame.
@@ -25,19 +34,17 @@ struct RecentSightParams {
   double remembers_s = 4.0;
   /// So many of a picture's points in a cell of 5 cm are a thing; fewer are errors of the stereo.
   int min_points = 6;
-  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();  ///< z is the line of sight.
-  /// A picture renews what is within these tangents of the line of sight, across and up.
-  Eigen::Array2d camera_half_view = Eigen::Array2d::Zero();
-  double camera_nearest_m = 0.45;  ///< A picture renews what is further from the camera than this.
-  double camera_range_m = 2.0;     ///< A picture renews what is nearer to the camera than this.
+  std::vector<CameraView> cameras;
 };
 
 /// A point of what was seen.
 struct SeenThing {
+  static constexpr int kByLaser = -1;
+
   Eigen::Vector2d place;
   double height_m;  ///< Of the highest that a picture saw there; 0 by the laser, and of a step.
   double seen_s;
-  bool by_laser;
+  int camera;                ///< Which one saw it, or kByLaser.
   bool is_sure;              ///< By the laser, or in two pictures one after the other.
   bool roams;                ///< It came from elsewhere in the last `remembers_s`,
   bool is_somebody;          ///< or in the last half minute (at most 8 times that).
@@ -67,13 +74,15 @@ class RecentSight {
   /// A scan that is not later than the last is left out.
   void addScan(const LaserScan& scan, const FloorPose& base, double stamp_s);
 
-  /// What is out of the view of the next picture is known on if two pictures have seen it: one
-  /// alone may be an error of the stereo. All of a picture's points over the floor that are in the
-  /// robot's way, in the base frame of `stamp_s` [m].
+  /// What is out of the view of the camera's next picture is known on if two pictures have seen it:
+  /// one alone may be an error of the stereo. All of a picture's points over the floor that are in
+  /// the robot's way, in the base frame of `stamp_s` [m].
+  /// @param camera  Which one took it, of the parameters'.
   /// @param steps  All that is known of where the floor ends, there: a robot is near a step long
   ///               after it saw it.
-  void addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& base, double stamp_s,
-                 const std::vector<Eigen::Vector2d>& steps = {});
+  /// @throws std::out_of_range  if there is no such camera.
+  void addPoints(int camera, const std::vector<Eigen::Vector3f>& points, const FloorPose& base,
+                 double stamp_s, const std::vector<Eigen::Vector2d>& steps = {});
 
   /// Standard deviation of the laser's ranges, as far as it is known [m].
   double laserSigma() const { return sigma_m_; }
@@ -150,7 +159,7 @@ class RecentSight {
   std::vector<Roaming> roaming_;  // in the last scan
   std::size_t saw_ = 0;           // the look that saw the last place that was asked for
   std::vector<Cell> cells_;
-  double points_s_;
+  std::vector<double> points_s_;  // of each camera's last picture
 };
 
 }  // namespace heel

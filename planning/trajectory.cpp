@@ -21,7 +21,8 @@ constexpr double kFinest_m = 1e-3;  // To which a body is fitted.
 void checkLimits(const DriveLimits& limits) {
   for (const double limit :
        {limits.radius_m, limits.max_speed_mps, limits.max_reverse_mps, limits.max_turn_radps,
-        limits.max_acceleration_mps2, limits.max_turn_acceleration_radps2, limits.period_s}) {
+        limits.max_acceleration_mps2, limits.max_braking_mps2, limits.max_turn_acceleration_radps2,
+        limits.period_s}) {
     if (!(limit > 0.0) || !std::isfinite(limit)) {
       throw std::invalid_argument("a drive's limits must be positive");
     }
@@ -111,7 +112,12 @@ VelocityCommand speedAfter(const DriveLimits& limits, const VelocityCommand& fro
   const auto towards = [](double a, double b, double most) {
     return a + std::clamp(b - a, -most, most);
   };
-  return {towards(from.forward_mps, to.forward_mps, limits.max_acceleration_mps2 * dt_s),
+  // Brakes first, as far as it gets.
+  const double a = from.forward_mps, b = to.forward_mps;
+  const double lowest = a * b > 0.0 ? std::copysign(std::min(std::abs(a), std::abs(b)), a) : 0.0;
+  const double braked = towards(a, lowest, limits.max_braking_mps2 * dt_s);
+  const double left_s = dt_s - std::abs(a - lowest) / limits.max_braking_mps2;
+  return {towards(braked, b, limits.max_acceleration_mps2 * std::max(left_s, 0.0)),
           towards(from.turn_radps, to.turn_radps, limits.max_turn_acceleration_radps2 * dt_s)};
 }
 
@@ -124,11 +130,11 @@ DriveState driven(const DriveLimits& limits, const DriveState& state, const Velo
 }
 
 double stoppingDistance(const DriveLimits& limits, double speed_mps, double latency_s) {
-  return speed_mps * latency_s + speed_mps * speed_mps / (2.0 * limits.max_acceleration_mps2);
+  return speed_mps * latency_s + speed_mps * speed_mps / (2.0 * limits.max_braking_mps2);
 }
 
 double speedToStopWithin(const DriveLimits& limits, double way_m) {
-  return std::sqrt(2.0 * limits.max_acceleration_mps2 * std::max(way_m, 0.0));
+  return std::sqrt(2.0 * limits.max_braking_mps2 * std::max(way_m, 0.0));
 }
 
 void addHeld(const DriveLimits& limits, const DriveState& now, const VelocityCommand& command,

@@ -32,8 +32,9 @@ struct DriveLimits {
   /// body to where it can turn.
   double max_reverse_mps = 0.15;
   double max_turn_radps = 1.0;                ///< Greatest speed of turning.
-  double max_acceleration_mps2 = 0.5;         ///< Greatest acceleration, and deceleration.
-  double max_turn_acceleration_radps2 = 2.0;  ///< Greatest acceleration of turning.
+  double max_acceleration_mps2 = 0.5;         ///< Greatest acceleration.
+  double max_braking_mps2 = 1.0;              ///< Greatest deceleration.
+  double max_turn_acceleration_radps2 = 2.0;  ///< Greatest acceleration of turning, and of its end.
   double period_s = 0.1;                      ///< Time from one command to the next.
 };
 

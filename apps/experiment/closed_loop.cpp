@@ -3,6 +3,7 @@
 
 #include <heel/apps/experiment/closed_loop.hpp>
 #include <heel/apps/output/run_end.hpp>
+#include <heel/apps/simulation/camera_model.hpp>
 #include <heel/apps/simulation/scene_map.hpp>
 
 #include <algorithm>
@@ -46,6 +47,13 @@ RobotDescription describeRobot(const RobotParams& params) {
   robot.scanner_height_m = params.laser.at.z();
   robot.scan_latency_s = params.laser.latency_s;
   robot.wheels_latency_s = params.wheels_latency_s;
+  if (params.floor_camera) {
+    CameraSetup& floor = robot.floor_camera.emplace();
+    floor.sensor = SensorKind::kRgbd;
+    floor.camera.left = pinholeOf(*params.floor_camera);
+    floor.T_base_camera = mountedCamera(params.floor_camera->at, params.floor_camera->pitch_rad);
+    floor.is_configured = true;
+  }
   return robot;
 }
 

@@ -79,19 +79,25 @@ void FaultySensors::comeLate(double now_s) {
     const double stamp_s = frame.stamp_s;
     pictures_.put(comes_s(latencies_.camera_s), stamp_s, {std::move(frame), result_.pair_gap_s});
   }
+  if (result_.floor != nullptr) {
+    Frame frame = *result_.floor;
+    frame.depth_m = frame.depth_m.clone();
+    floors_.put(comes_s(latencies_.camera_s), frame.stamp_s, std::move(frame));
+  }
   if (result_.scan != nullptr) {
     scans_.put(comes_s(latencies_.laser_s), result_.stamp_s, *result_.scan);
   }
   if (result_.odometry) {
     odometries_.put(comes_s(latencies_.wheels_s), result_.stamp_s, *result_.odometry);
   }
-  result_.frame = nullptr;
+  result_.frame = result_.floor = nullptr;
   result_.scan = nullptr;
   result_.odometry.reset();
   if (pictures_.take(now_s)) {
     result_.frame = &pictures_.come->reading.frame;
     result_.pair_gap_s = pictures_.come->reading.pair_gap_s;
   }
+  if (floors_.take(now_s)) result_.floor = &floors_.come->reading;
   if (scans_.take(now_s)) {
     result_.scan = &scans_.come->reading;
     result_.scan_stamp_s = scans_.come->stamp_s;
@@ -103,6 +109,12 @@ void FaultySensors::comeLate(double now_s) {
 }
 
 void FaultySensors::readImages(const Readings& readings) {
+  if (readings.floor_depth_m != nullptr &&
+      active(Fault::Kind::kNoCamera, readings.stamp_s) == nullptr) {
+    floor_.stamp_s = result_.stamp_s;
+    floor_.depth_m = *readings.floor_depth_m;
+    result_.floor = &floor_;
+  }
   if (readings.stereo == nullptr) return;
   const double stamp_s = readings.stamp_s;
   const cv::Mat right = readings.stereo->right_bgr;

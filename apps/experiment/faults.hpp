@@ -17,7 +17,7 @@ namespace heel {
 /// Something that is wrong for a while.
 struct Fault {
   enum class Kind {
-    kNoCamera,       ///< No images.
+    kNoCamera,       ///< No images, of none.
     kNoLaser,        ///< No scans.
     kWheelsSlip,     ///< The wheels turn a third faster than the robot moves, and to the left.
     kNoise,          ///< Images of noise.
@@ -78,12 +78,13 @@ class FaultySensors {
   std::vector<Fault> faults_;
   Latencies latencies_;
   Queue<Picture> pictures_;
+  Queue<Frame> floors_;
   Queue<LaserScan> scans_;
   Queue<FloorPose> odometries_;
   std::uint64_t readings_ = 0;
   std::uint64_t seed_;
   RobotReadings result_;
-  Frame frame_;
+  Frame frame_, floor_;
   cv::Mat older_right_;
   std::optional<FloorPose> true_odometry_, odometry_;
 };

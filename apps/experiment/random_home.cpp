@@ -422,6 +422,7 @@ Scene randomEpisode(std::uint64_t seed, const std::filesystem::path& scenes,
   camera.height = 240;
   camera.rate_hz = params.camera_rate_hz;
   camera.drawn_light = true;
+  home.scene.robot.floor_camera.emplace();
   LaserParams& laser = home.scene.robot.laser;
   laser.view_rad = 2.0 * M_PI;  // People who pass by the robot stay in view of it.
   laser.beams = 361;

@@ -56,7 +56,7 @@ Follower::Follower(const RobotDescription& robot, std::shared_ptr<const WallMap>
       walls_(std::move(walls)),
       start_(start.value_or(FloorPose{})),
       floor_(walls_ ? walls_->floorGrid({0.05, robot.height_m}) : openFloor(start_.position)),
-      watch_(robot.camera, params_.watch),
+      watch_(robot.camera, params_.watch, robot.floor_camera),
       things_(robot, params_, floor_),
       people_(params_),
       legs_(params_.legs),
@@ -214,12 +214,9 @@ void Follower::lookAround(const RobotReadings& readings) {
   things_.feel(step_.velocity, speed_, now_.elapsed_s);
   obstacles_age_s_ += now_.elapsed_s;
   if (readings.frame != nullptr && obstacles_age_s_ > params_.obstacles_every_s - 1e-6) {
-    const std::vector<Eigen::Vector3f>& points = things_.look(*readings.frame);
-    const FloorPose T_base_then = motion_.seenFromNow(frame_s_);
-    const FloorPose then = pose * T_base_then;
-    last_gate_.addPoints(points, motion_.at(frame_s_), frame_s_, things_.stepsFrom(then));
-    things_.addPoints(points, T_base_then);
+    takeIn(RobotCamera::kAhead, *readings.frame, frame_s_);
     if (search_) {
+      const FloorPose then = pose * motion_.seenFromNow(frame_s_);
       search_->look(then, obstacles_age_s_,
                     [sight = things_.sight(), T_then_world = then.inverse()](const Vector2d& p) {
                       return sight.at(T_then_world * p) == Sight::kHidden;
@@ -227,9 +224,20 @@ void Follower::lookAround(const RobotReadings& readings) {
     }
     obstacles_age_s_ = 0.0;
   }
+  if (readings.floor != nullptr) {
+    takeIn(RobotCamera::kFloor, *readings.floor, steady_s_ - watch_.floorAge_s());
+  }
   things_.finish();
   people_.step(steady_s_, *perception_, last_gate_.sight(), motion_.pose() * pose.inverse(), now_);
   pilot_.setAround(things_.apartFrom(now_.people), people_.resting());
+}
+
+void Follower::takeIn(RobotCamera by, const Frame& frame, double stamp_s) {
+  const std::vector<Eigen::Vector3f>& points = things_.look(by, frame);
+  const FloorPose T_base_then = motion_.seenFromNow(stamp_s);
+  last_gate_.addPoints(static_cast<int>(by), points, motion_.at(stamp_s), stamp_s,
+                       things_.stepsFrom(step_.robot.pose * T_base_then));
+  things_.addPoints(by, points, T_base_then);
 }
 
 // Phase 1 (section 2).

@@ -106,6 +106,7 @@ class Follower {
   void localize(const RobotReadings& readings);
   void findOnMap(const LaserScan* scan);
   void lookAround(const RobotReadings& readings);
+  void takeIn(RobotCamera by, const Frame& frame, double stamp_s);
   void learn(const Frame& frame);
   void see(const Frame* frame);
   void noteTarget();

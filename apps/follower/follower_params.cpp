@@ -27,6 +27,19 @@ void check(const FollowerParams& p) {
                                        w.doorway_depth_m, w.apart_m});
 }
 
+// Things at the rim are half seen.
+CameraView viewOf(const CameraSetup& setup, const ObstaclePointsParams& points) {
+  CameraView view;
+  view.T_base_camera = setup.T_base_camera;
+  const PinholeCamera& camera = setup.camera.left;
+  if (camera.fx > 0.0 && camera.fy > 0.0) {
+    view.half_view = 0.45 * Eigen::Array2d(camera.width / camera.fx, camera.height / camera.fy);
+  }
+  view.nearest_m = points.nearest_m;
+  view.range_m = points.max_range_m;
+  return view;
+}
+
 }  // namespace
 
 FollowerParams::FollowerParams() {
@@ -38,6 +51,8 @@ FollowerParams::FollowerParams() {
   drive.margin_m = 0.06;        // the map's walls are as far off as localization is
   drive.terms.weights[static_cast<std::size_t>(DriveTerm::kView)] = 4.0;  // or the target is lost
   obstacles.min_points = 6;  // coarse stereo errs in specks
+  floor_points.nearest_m = 0.2;
+  floor_points.needs_floor = true;
 }
 
 double RobotDescription::halfView_rad() const {
@@ -48,7 +63,8 @@ double RobotDescription::halfView_rad() const {
 FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   check(params);
   requireNotNegative("RobotDescription", {robot.scan_latency_s, robot.wheels_latency_s});
-  params.obstacles.max_height_m = params.obstacle_points.max_height_m = robot.height_m;
+  params.obstacles.max_height_m = params.obstacle_points.max_height_m =
+      params.floor_points.max_height_m = robot.height_m;
   params.obstacles.min_height_m = 0.0;  // All that obstacle_points gives is something.
   params.obstacles.laser_height_m = robot.scanner_height_m;
   params.gate.eye_height_m = robot.camera.T_base_camera.translation().z();
@@ -64,15 +80,11 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   gate.limits = robot.drive;
   gate.sight.T_base_scanner = robot.T_base_scanner;
   gate.wheels_latency_s = robot.wheels_latency_s;
-  gate.sight.T_base_camera = robot.camera.T_base_camera;
-  const PinholeCamera& left = robot.camera.camera.left;
-  if (left.fx > 0.0 && left.fy > 0.0) {  // Things at the rim are half seen.
-    gate.sight.camera_half_view =
-        0.45 * Eigen::Array2d(left.width / left.fx, left.height / left.fy);
-  }
-  gate.sight.camera_nearest_m = params.obstacle_points.nearest_m;
   gate.sight.min_points = params.obstacles.min_points;
-  gate.sight.camera_range_m = params.obstacle_points.max_range_m;
+  gate.sight.cameras = {viewOf(robot.camera, params.obstacle_points)};
+  if (robot.floor_camera) {
+    gate.sight.cameras.push_back(viewOf(*robot.floor_camera, params.floor_points));
+  }
   if (const double half_rad = robot.halfView_rad(); half_rad > 0.0) {
     // A narrow camera sees no more than it does; a wide one sees badly at its rims.
     double& field_rad = params.search.map.field_of_view_rad;

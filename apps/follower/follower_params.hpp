@@ -20,6 +20,8 @@
 #include <heel/planning/local_planner.hpp>
 #include <heel/planning/wayside.hpp>
 
+#include <optional>
+
 namespace heel {
 
 /// The robot, as far as following needs to know it.
@@ -29,6 +31,8 @@ struct RobotDescription {
   FloorPose T_base_scanner;       ///< Where the laser scanner is, in the base frame.
   double scanner_height_m = 0.3;  ///< Height of the laser's plane over the floor.
   CameraSetup camera;             ///< Its camera, which looks ahead along the base frame's X axis.
+  /// A depth camera that looks at the floor ahead, for steps down and what the others do not see.
+  std::optional<CameraSetup> floor_camera;
   /// A scan that comes without a stamp of its own was measured so long before.
   double scan_latency_s = 0.0;
   /// A command acts on the wheels at most so long after it was sent, and odometry that comes
@@ -41,8 +45,8 @@ struct RobotDescription {
 /// All that can be set of a Follower. Some of it the robot tells, whatever is written here:
 /// drive.limits, search.map.limits, paths.robot_radius_m, goal.radius_m, wayside.radius_m,
 /// obstacles.min_height_m, obstacles.max_height_m, obstacles.laser_height_m,
-/// obstacle_points.max_height_m, gate.eye_height_m, and of last_gate all but margin_m and
-/// sight.remembers_s; see fittedTo().
+/// obstacle_points.max_height_m, floor_points.max_height_m, gate.eye_height_m, and of last_gate all
+/// but margin_m and sight.remembers_s; see fittedTo().
 struct FollowerParams {
   LearnPersonParams learn;
   PerceptionParams perception;
@@ -51,6 +55,7 @@ struct FollowerParams {
   LocalizationParams localization;
   ObstacleLayerParams obstacles;
   ObstaclePointsParams obstacle_points;
+  ObstaclePointsParams floor_points;  ///< Of the camera that looks at the floor.
   SensorWatchParams watch;
   GlobalPlannerParams paths;
   LocalPlannerParams drive;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace heel {
@@ -127,6 +128,20 @@ void ObstaclePoints::findTexture() {
   cv::dilate(texture_, texture_, cv::Mat());
 }
 
+// Where it is seen through the floor, if that is near.
+void ObstaclePoints::addStep(int v, int u, float within_m) {
+  const Eigen::Vector3f eye = T_base_camera_.translation();
+  for (const double across : {-0.25, 0.25}) {
+    for (const double down : {-0.25, 0.25}) {
+      const Eigen::Vector3f ray =
+          T_base_camera_.linear() * rayOf(camera_.left, u + across, v + down).cast<float>();
+      const Eigen::Vector2f away = -eye.z() / ray.z() * ray.head<2>();
+      if (!(ray.z() < 0.0F && away.norm() < within_m)) continue;
+      points_.emplace_back(eye.x() + away.x(), eye.y() + away.y(), 0.0F);
+    }
+  }
+}
+
 void ObstaclePoints::collect() {
   points_.clear();
   const PinholeCamera& camera = camera_.left;
@@ -138,19 +153,15 @@ void ObstaclePoints::collect() {
   for (int v = 0; v < depth_m_.rows; ++v) {
     const float* depth = depth_m_.ptr<float>(v);
     for (int u = 0; u < depth_m_.cols; ++u) {
-      if (!(depth[u] > nearest && std::isfinite(depth[u]))) continue;  // NaN too
+      if (!(depth[u] > nearest && std::isfinite(depth[u]))) {  // NaN too
+        if (params_.needs_floor) addStep(v, u, range);
+        continue;
+      }
       if (isBlank(v, u)) continue;
       const Eigen::Vector3f seen = rayOf(camera, u, v).cast<float>() * depth[u];
       const Eigen::Vector3f point = T_base_camera_ * seen;
       if (point.z() < -deepAt(depth[u])) {
-        for (const double across : {-0.25, 0.25}) {
-          for (const double down : {-0.25, 0.25}) {
-            const Eigen::Vector3f ray =
-                T_base_camera_.linear() * rayOf(camera, u + across, v + down).cast<float>();
-            const Eigen::Vector3f there = eye - eye.z() / ray.z() * ray;
-            points_.emplace_back(there.x(), there.y(), 0.0F);
-          }
-        }
+        addStep(v, u, std::numeric_limits<float>::infinity());
         continue;
       }
       if (point.z() < low || point.z() > high) continue;

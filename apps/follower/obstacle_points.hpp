@@ -30,6 +30,8 @@ struct ObstaclePointsParams {
   /// A match is trusted only where the image changes by this much from one column to the next (of
   /// 256 levels): in blank surfaces it runs on from their rims. Rims are obstacle enough.
   int min_texture = 8;
+  /// What gives no depth where floor should is a step, too: of a depth camera that looks down.
+  bool needs_floor = false;
 };
 
 /// Dense depth on small images: a table top of the size of a hand is enough of an obstacle, so a
@@ -53,6 +55,7 @@ class ObstaclePoints {
 
  private:
   void findTexture();
+  void addStep(int v, int u, float within_m);
   bool isBlank(int v, int u) const;
   float deepAt(float depth_m) const;
   float heightAt(int v, int u) const;

@@ -19,12 +19,16 @@ bool isUsable(const LaserScan& scan) {
                      [](float range_m) { return range_m > 0.0F; });
 }
 
+cv::Size sizeOf(const CameraSetup& setup) {
+  return {setup.camera.left.width, setup.camera.left.height};
+}
+
 }  // namespace
 
-SensorWatch::SensorWatch(const CameraSetup& camera, const SensorWatchParams& params)
-    : params_(params),
-      sensor_(camera.sensor),
-      image_size_(camera.camera.left.width, camera.camera.left.height) {
+SensorWatch::SensorWatch(const CameraSetup& camera, const SensorWatchParams& params,
+                         const std::optional<CameraSetup>& floor_camera)
+    : params_(params), sensor_(camera.sensor), image_size_(sizeOf(camera)) {
+  if (floor_camera) floor_size_ = sizeOf(*floor_camera);
   requireNotNegative(
       "SensorWatchParams",
       {params.max_image_age_s, params.max_scan_age_s, params.max_odometry_age_s, params.max_gap_s,
@@ -41,6 +45,11 @@ RobotReadings SensorWatch::step(const RobotReadings& readings) {
 
   image_is_good_ = isUsable(readings);
   image_age_s_ = image_is_good_ ? ageOf(readings.frame->stamp_s) : image_age_s_ + elapsed_s_;
+
+  const bool floor_is_good = floor_size_ && readings.floor != nullptr &&
+                             readings.floor->depth_m.size() == *floor_size_ &&
+                             readings.floor->depth_m.type() == CV_32FC1;
+  floor_age_s_ = floor_is_good ? ageOf(readings.floor->stamp_s) : floor_age_s_ + elapsed_s_;
 
   scan_is_good_ = readings.scan != nullptr && heel::isUsable(*readings.scan);
   scan_age_s_ = scan_is_good_ ? ageOf(readings.scan_stamp_s.value_or(readings.stamp_s))
@@ -60,11 +69,13 @@ RobotReadings SensorWatch::step(const RobotReadings& readings) {
   blindness_.clear();
   if (time_jumped_) blindness_ = "the clock jumped";
   if (odometry_age_s_ > params_.max_odometry_age_s) blindness_ = "no odometry";
+  if (floor_size_ && floor_age_s_ > params_.max_image_age_s) blindness_ = "no image of the floor";
   if (image_age_s_ > params_.max_image_age_s) blindness_ = "no usable image";
   if (scan_age_s_ > params_.max_scan_age_s) blindness_ = "no laser scan";
 
   RobotReadings usable = readings;
   if (!image_is_good_) usable.frame = nullptr;
+  if (!floor_is_good) usable.floor = nullptr;
   if (!scan_is_good_) usable.scan = nullptr;
   if (!odometry_is_good_) usable.odometry.reset();
   return usable;

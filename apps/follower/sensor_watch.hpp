@@ -24,6 +24,7 @@ struct RobotReadings {
   double stamp_s = 0.0;          ///< Now.
   const Frame* frame = nullptr;  ///< With the stamp of when it was taken.
   double pair_gap_s = 0.0;       ///< Between the frame's left and right image.
+  const Frame* floor = nullptr;  ///< The depth of the camera that looks at the floor.
   const LaserScan* scan = nullptr;
   /// When the scan was measured; absent: RobotDescription::scan_latency_s ago.
   std::optional<double> scan_stamp_s;
@@ -34,7 +35,8 @@ struct RobotReadings {
 
 /// How old readings may be before the robot stops.
 struct SensorWatchParams {
-  double max_image_age_s = 0.6;  ///< The robot stops when the last good image is older than this.
+  /// The robot stops when the last good image of one of its cameras is older than this.
+  double max_image_age_s = 0.6;
   double max_scan_age_s = 0.35;  ///< The robot stops when the last scan is older than this.
   /// The robot stops when the last odometry is older than this.
   double max_odometry_age_s = 0.35;
@@ -48,9 +50,11 @@ struct SensorWatchParams {
 /// Looks at what came in, and when.
 class SensorWatch {
  public:
-  /// @param camera  What images must fit.
+  /// @param camera        What images must fit.
+  /// @param floor_camera  And those of the floor; absent: none are needed.
   /// @throws std::invalid_argument  if a parameter is out of its range.
-  explicit SensorWatch(const CameraSetup& camera, const SensorWatchParams& params = {});
+  explicit SensorWatch(const CameraSetup& camera, const SensorWatchParams& params = {},
+                       const std::optional<CameraSetup>& floor_camera = std::nullopt);
 
   /// @return What of these readings can be used: a senseless one is absent, as if its sensor had
   ///         not measured.
@@ -60,6 +64,7 @@ class SensorWatch {
   double elapsed_s() const { return elapsed_s_; }
   /// How long ago the newest good reading was measured.
   double imageAge_s() const { return image_age_s_; }
+  double floorAge_s() const { return floor_age_s_; }
   double scanAge_s() const { return scan_age_s_; }
   double odometryAge_s() const { return odometry_age_s_; }
   bool timeJumped() const { return time_jumped_; }
@@ -83,10 +88,11 @@ class SensorWatch {
   SensorWatchParams params_;
   SensorKind sensor_;
   cv::Size image_size_;
+  std::optional<cv::Size> floor_size_;
   bool begun_ = false;
   double stamp_s_ = 0.0;
   double elapsed_s_ = 0.0;
-  double image_age_s_ = 0.0, scan_age_s_ = 0.0, odometry_age_s_ = 0.0;
+  double image_age_s_ = 0.0, floor_age_s_ = 0.0, scan_age_s_ = 0.0, odometry_age_s_ = 0.0;
   bool time_jumped_ = false;
   bool image_is_good_ = false, scan_is_good_ = false, odometry_is_good_ = false;
   std::optional<FloorPose> odometry_;  // the last that was a number, good or not,

@@ -31,8 +31,10 @@ ThingsAround::ThingsAround(const RobotDescription& robot, const FollowerParams& 
       person_m_(params.target_radius_m),
       floor_(floor),
       layer_(params.obstacles),
-      picture_(robot.camera, params.obstacle_points),
-      apart_(layer_.window()) {}
+      apart_(layer_.window()) {
+  pictures_.emplace_back(robot.camera, params.obstacle_points);
+  if (robot.floor_camera) pictures_.emplace_back(*robot.floor_camera, params.floor_points);
+}
 
 void ThingsAround::begin(double stamp_s, const FloorPose& robot,
                          const std::optional<FloorDisc>& target,
@@ -67,7 +69,7 @@ const std::vector<Vector2d>& ThingsAround::stepsFrom(const FloorPose& then) {
   return steps_;
 }
 
-void ThingsAround::addPoints(const std::vector<Eigen::Vector3f>& points,
+void ThingsAround::addPoints(RobotCamera by, const std::vector<Eigen::Vector3f>& points,
                              const FloorPose& T_base_then) {
   unmapped_.clear();
   for (const Eigen::Vector3f& point : points) {
@@ -78,7 +80,7 @@ void ThingsAround::addPoints(const std::vector<Eigen::Vector3f>& points,
   layer_.addPoints(unmapped_);
   layer_.clear([&, T_then_base = T_base_then.inverse()](const Eigen::Vector3f& point) {
     const Eigen::Vector2f seen = (T_then_base * floorOf(point)).cast<float>();
-    return picture_.seesThrough({seen.x(), seen.y(), point.z()});
+    return pictures_.at(indexOf(by)).seesThrough({seen.x(), seen.y(), point.z()});
   });
 }
 

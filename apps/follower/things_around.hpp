@@ -15,6 +15,9 @@
 
 namespace heel {
 
+/// A camera of the robot: ahead for people and things, or at the floor.
+enum class RobotCamera { kAhead, kFloor };
+
 /// An ObstacleLayer of what is not on the map. One step is begin(), what there is of addScan(),
 /// feel(), look() and addPoints(), then finish() and apartFrom().
 class ThingsAround {
@@ -31,14 +34,17 @@ class ThingsAround {
   void feel(const VelocityCommand& asked, const VelocityCommand& measured, double elapsed_s);
 
   /// What a picture shows: points in the base frame of then; valid until the next call.
-  const std::vector<Eigen::Vector3f>& look(const Frame& frame) { return picture_.of(frame); }
+  const std::vector<Eigen::Vector3f>& look(RobotCamera by, const Frame& frame) {
+    return pictures_.at(indexOf(by)).of(frame);
+  }
   /// The steps down that are known, in that frame.
   const std::vector<Eigen::Vector2d>& stepsFrom(const FloorPose& then);
   /// Takes in those points, and what the picture sees through.
   /// @param T_base_then  The base frame of then, in that of now.
-  void addPoints(const std::vector<Eigen::Vector3f>& points, const FloorPose& T_base_then);
-  /// What the last picture shows of places in its base frame.
-  DepthSight sight() const { return picture_.sight(); }
+  void addPoints(RobotCamera by, const std::vector<Eigen::Vector3f>& points,
+                 const FloorPose& T_base_then);
+  /// What the last picture ahead shows of places in its base frame.
+  DepthSight sight() const { return pictures_.front().sight(); }
 
   void finish() { layer_.finish(); }
   /// What is no part of these people; valid until the next call.
@@ -47,13 +53,14 @@ class ThingsAround {
   const ObstacleLayer& layer() const { return layer_; }
 
  private:
+  static std::size_t indexOf(RobotCamera by) { return static_cast<std::size_t>(by); }
   bool isMapped(const Eigen::Vector2d& place) const;
 
   DriveLimits body_;
   double wheels_latency_s_, mapped_within_m_, beside_people_m_, person_m_;
   const OccupancyGrid& floor_;
   ObstacleLayer layer_;
-  ObstaclePoints picture_;
+  std::vector<ObstaclePoints> pictures_;  // of each camera
   FloorPose robot_;
   OccupancyGrid apart_;                    // the layer's window, people apart
   double stalled_s_ = 0.0;                 // so long the wheels have not turned, though they should

@@ -6,12 +6,13 @@
 #include <heel/apps/recording/bags/bag_recording.hpp>
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace heel {
 
 LiveReadings::LiveReadings(const BagSurvey& survey, const BagTopics& topics)
-    : pose_messages_(survey.form), poses_(survey, topics) {
+    : pose_messages_(survey.form), poses_(survey, topics), floor_topic_(topics.floor) {
   auto camera_messages = std::make_unique<FedBagReader>(survey.form);
   auto laser_messages = std::make_unique<FedBagReader>(survey.form);
   camera_messages_ = camera_messages.get();
@@ -23,7 +24,9 @@ LiveReadings::LiveReadings(const BagSurvey& survey, const BagTopics& topics)
   pose_messages_.select(survey.queryOf(poses_.topics(), true));
   for (const BagTopicSummary& t : survey.topics) {
     const std::string& name = t.topic.name;
-    if (camera_messages_->wants(name) || laser_messages_->wants(name)) topics_.push_back(name);
+    if (camera_messages_->wants(name) || laser_messages_->wants(name) || name == floor_topic_) {
+      topics_.push_back(name);
+    }
   }
 }
 
@@ -33,7 +36,30 @@ bool LiveReadings::take(const BagTopic& topic, std::int64_t stamp_ns,
     reader->feed(topic, stamp_ns, bytes);
   }
   if (camera_messages_->wants(topic.name)) takeFrames(clock_s);
+  if (topic.name == floor_topic_) takeFloor(topic, bytes, clock_s);
   return has_next_;
+}
+
+// Of a robot whose images can't be read its Follower says that there are none.
+void LiveReadings::takeFloor(const BagTopic& topic, const std::vector<std::uint8_t>& bytes,
+                             double clock_s) {
+  const auto read = [&](auto message) {
+    readMessage(pose_messages_.form(), bytes.data(), bytes.size(), message);
+    floor_images_.readDepth(message, floor_.depth_m);
+    floor_.stamp_s = secondsOf(message.header.stamp.ns);
+  };
+  has_floor_ = false;
+  try {
+    if (topic.holds<CompressedImageMsg>()) {
+      read(CompressedImageMsg());
+    } else {
+      read(ImageMsg());
+    }
+  } catch (const std::runtime_error&) {
+    return;
+  }
+  has_floor_ = true;
+  notice(floor_.stamp_s, clock_s);
 }
 
 void LiveReadings::takeFrames(double clock_s) {
@@ -60,6 +86,7 @@ const RobotReadings& LiveReadings::read(double clock_s) {
     frame_came_s_ = next_came_s_;
     has_next_ = false;
   }
+  if (std::exchange(has_floor_, false)) readings_.floor = &floor_;
   while (laser_->next(scan_)) {
     readings_.scan = &scan_.scan;
     readings_.scan_stamp_s = scan_.stamp_s;

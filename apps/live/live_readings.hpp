@@ -7,6 +7,7 @@
 
 #include <heel/apps/bag/fed_bag_reader.hpp>
 #include <heel/apps/follower/sensor_watch.hpp>
+#include <heel/apps/recording/bags/bag_image_reader.hpp>
 #include <heel/apps/recording/bags/bag_odometry.hpp>
 #include <heel/apps/recording/laser_log.hpp>
 #include <heel/apps/recording/recording.hpp>
@@ -55,6 +56,7 @@ class LiveReadings {
  private:
   void notice(double stamp_s, double clock_s);
   void takeFrames(double clock_s);
+  void takeFloor(const BagTopic& topic, const std::vector<std::uint8_t>& bytes, double clock_s);
 
   FedBagReader* camera_messages_ = nullptr;  // the recording's,
   FedBagReader* laser_messages_ = nullptr;   // and the laser's
@@ -63,7 +65,10 @@ class LiveReadings {
   std::unique_ptr<LaserLog> laser_;
   BagPoses poses_;
   std::vector<std::string> topics_;
-  Frame frame_, next_frame_;
+  std::string floor_topic_;
+  BagImageReader floor_images_;
+  Frame frame_, next_frame_, floor_;
+  bool has_floor_ = false;
   bool has_next_ = false;
   LaserReading scan_;
   RobotReadings readings_;

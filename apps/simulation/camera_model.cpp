@@ -18,6 +18,11 @@ int stepOf(float signal) {
   return static_cast<int>(std::clamp(signal, 0.0F, 1.0F) * static_cast<float>(kSteps - 1) + 0.5F);
 }
 
+PinholeCamera centred(int width, int height, double view_rad) {
+  const double f = width / 2.0 / std::tan(view_rad / 2.0);
+  return {width, height, f, f, (width - 1) / 2.0, (height - 1) / 2.0};
+}
+
 /// Three taps of a Gaussian.
 cv::Mat_<float> lensBlur(double sigma_px) {
   const double side = sigma_px > 0.0 ? std::exp(-0.5 / (sigma_px * sigma_px)) : 0.0;
@@ -48,8 +53,20 @@ float rowGain(const CameraLight& light, double down) {
 }  // namespace
 
 PinholeCamera pinholeOf(const CameraParams& params) {
-  const double f = params.width / 2.0 / std::tan(params.horizontal_view_rad / 2.0);
-  return {params.width, params.height, f, f, (params.width - 1) / 2.0, (params.height - 1) / 2.0};
+  return centred(params.width, params.height, params.horizontal_view_rad);
+}
+
+PinholeCamera pinholeOf(const FloorCameraParams& params) {
+  return centred(params.width, params.height, params.horizontal_view_rad);
+}
+
+Eigen::Isometry3d mountedCamera(const Eigen::Vector3d& at, double pitch_rad) {
+  Eigen::Matrix3d optical;  // Columns: the optical axes in a frame that looks forward.
+  optical << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translation() = at;
+  T.linear() = Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) * optical;
+  return T;
 }
 
 CameraModel::CameraModel(const CameraParams& params, std::uint64_t seed, double gamma)

@@ -10,6 +10,7 @@
 #include <heel/apps/simulation/scene.hpp>
 #include <heel/cloud/pinhole_camera.hpp>
 
+#include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>
 
 #include <cstdint>
@@ -19,6 +20,10 @@ namespace heel {
 
 /// The left camera of the pair, without distortion.
 PinholeCamera pinholeOf(const CameraParams& params);
+PinholeCamera pinholeOf(const FloorCameraParams& params);
+
+/// Where a camera in this place, which looks so far down, is in the base frame.
+Eigen::Isometry3d mountedCamera(const Eigen::Vector3d& at, double pitch_rad);
 
 /// Turns radiance into the picture that a camera would give.
 class CameraModel {

@@ -7,25 +7,15 @@
 #include <cmath>
 
 namespace heel {
-namespace {
-
-double towards(double from, double to, double most) {
-  return from + std::clamp(to - from, -most, most);
-}
-
-}  // namespace
 
 DriveBase::DriveBase(const RobotParams& params)
     : params_(params), pose_{params.start, params.start_yaw_rad} {}
 
 void DriveBase::accelerate(double dt_s, const VelocityCommand& command) {
   const DriveLimits& p = params_.drive;
-  speed_.forward_mps = towards(speed_.forward_mps,
-                               std::clamp(command.forward_mps, -p.max_speed_mps, p.max_speed_mps),
-                               p.max_acceleration_mps2 * dt_s);
-  speed_.turn_radps = towards(speed_.turn_radps,
-                              std::clamp(command.turn_radps, -p.max_turn_radps, p.max_turn_radps),
-                              p.max_turn_acceleration_radps2 * dt_s);
+  const VelocityCommand asked{std::clamp(command.forward_mps, -p.max_speed_mps, p.max_speed_mps),
+                              std::clamp(command.turn_radps, -p.max_turn_radps, p.max_turn_radps)};
+  speed_ = speedAfter(p, speed_, asked, dt_s);
 }
 
 FloorPose DriveBase::ahead(double dt_s) const {

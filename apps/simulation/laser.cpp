@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <heel/apps/simulation/camera_model.hpp>
 #include <heel/apps/simulation/laser.hpp>
 #include <heel/apps/simulation/random.hpp>
 
@@ -13,7 +14,7 @@ namespace {
 
 constexpr float kBehind_m = 1e-3F;  // A beam that goes on starts so far behind the surface.
 
-LaserEcho echoOf(const RayHit& hit, const Geometry& geometry) {
+LaserEcho materialOf(const RayHit& hit, const Geometry& geometry) {
   const auto index = static_cast<std::size_t>(hit.index);
   switch (hit.kind) {
     case RayHit::Kind::kNothing:
@@ -26,6 +27,19 @@ LaserEcho echoOf(const RayHit& hit, const Geometry& geometry) {
       break;
   }
   return LaserEcho::kReturned;
+}
+
+// How far a ray goes that hits this first, in lengths of its direction; infinite without an echo.
+double echoOf(RayHit hit, const RayWorld& world, const Geometry& geometry,
+              const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) {
+  float passed = 0.0F;
+  while (materialOf(hit, geometry) == LaserEcho::kPassed) {
+    passed += hit.distance + kBehind_m;
+    hit = world.trace(origin + passed * direction, direction);
+  }
+  return materialOf(hit, geometry) == LaserEcho::kReturned
+             ? static_cast<double>(passed + hit.distance)
+             : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -49,18 +63,42 @@ void measureLaser(const RayWorld& world, const Geometry& geometry, const LaserPa
     }
     world.trace(origin, directions.data(), count, hits);
     for (int i = 0; i < count; ++i) {
-      RayHit hit = hits[static_cast<std::size_t>(i)];
-      const Eigen::Vector3f& direction = directions[static_cast<std::size_t>(i)];
-      float passed_m = 0.0F;
-      while (echoOf(hit, geometry) == LaserEcho::kPassed) {
-        passed_m += hit.distance + kBehind_m;
-        hit = world.trace(origin + passed_m * direction, direction);
-      }
-      const double range = passed_m + hit.distance + params.noise_m * random.gaussian();
-      const bool seen =
-          echoOf(hit, geometry) == LaserEcho::kReturned && range <= params.max_range_m;
+      const auto at = static_cast<std::size_t>(i);
+      const double range = echoOf(hits[at], world, geometry, origin, directions[at]) +
+                           params.noise_m * random.gaussian();
       scan.ranges_m[static_cast<std::size_t>(beam + i)] =
-          seen ? static_cast<float>(std::max(range, 0.0)) : std::numeric_limits<float>::infinity();
+          range <= params.max_range_m ? static_cast<float>(std::max(range, 0.0))
+                                      : std::numeric_limits<float>::infinity();
+    }
+  }
+}
+
+void measureFloor(const RayWorld& world, const Geometry& geometry, const FloorCameraParams& params,
+                  const FloorPose& robot, std::uint64_t noise, cv::Mat& depth_m) {
+  const PinholeCamera camera = pinholeOf(params);
+  const Eigen::Isometry3f T_world_camera =
+      (basePose(robot) * mountedCamera(params.at, params.pitch_rad)).cast<float>();
+  const Eigen::Vector3f origin = T_world_camera.translation();
+  depth_m.create(params.height, params.width, CV_32FC1);
+  RandomStream random(noise);
+  std::array<Eigen::Vector3f, RayWorld::kPacket> directions;
+  std::array<RayHit, RayWorld::kPacket> hits;
+  for (int v = 0; v < params.height; ++v) {
+    auto* const row = depth_m.ptr<float>(v);
+    for (int first = 0; first < params.width; first += RayWorld::kPacket) {
+      const int count = std::min(RayWorld::kPacket, params.width - first);
+      for (int i = 0; i < count; ++i) {
+        directions[static_cast<std::size_t>(i)] =
+            T_world_camera.linear() * rayOf(camera, first + i, v).cast<float>();
+      }
+      world.trace(origin, directions.data(), count, hits);
+      for (int i = 0; i < count; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        const double depth = echoOf(hits[at], world, geometry, origin, directions[at]) +
+                             params.noise_m * random.gaussian();
+        row[first + i] = depth <= params.max_range_m ? static_cast<float>(depth)
+                                                     : std::numeric_limits<float>::quiet_NaN();
+      }
     }
   }
 }

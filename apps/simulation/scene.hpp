@@ -161,6 +161,18 @@ struct CameraParams {
   bool drawn_light = false;
 };
 
+/// A depth camera over the robot's front rim that looks at the floor.
+struct FloorCameraParams {
+  Eigen::Vector3d at{0.22, 0.0, 1.0};   ///< Its place in the robot's base frame [m].
+  double pitch_rad = 0.87266462599716;  ///< How far it looks down.
+  int width = 128;                      ///< Width of the images [px].
+  int height = 96;                      ///< Height of the images [px].
+  double horizontal_view_rad = 1.4;     ///< Horizontal field of view.
+  double rate_hz = 10.0;                ///< Pictures per second.
+  double max_range_m = 4.0;             ///< It sees nothing further away than this.
+  double noise_m = 0.01;                ///< Standard deviation of a depth.
+};
+
 /// A planar laser scanner, mounted on the robot.
 struct LaserParams {
   Eigen::Vector3d at{0.12, 0.0, 0.3};  ///< Place of the laser in the robot's base frame [m].
@@ -193,6 +205,7 @@ struct RobotParams {
   /// late.
   double wheels_latency_s = 0.0;
   CameraParams camera;
+  std::optional<FloorCameraParams> floor_camera;
   LaserParams laser;
   OdometryParams odometry;
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <optional>
 #include <sstream>
 #include <type_traits>
 
@@ -43,6 +44,10 @@ struct RobotReader {
       inner->done();
     }
   }
+  template <typename Part>
+  void part(const char* key, std::optional<Part>& value) {
+    if (map.has(key)) part(key, value.emplace());
+  }
 };
 
 /// Writes them, each with what it is.
@@ -78,6 +83,10 @@ struct RobotWriter {
     RobotWriter writer{out, indent + "  "};
     visit(writer, value);
   }
+  template <typename Part>
+  void part(const char* key, const std::optional<Part>& value) {
+    if (value) part(key, *value);
+  }
 };
 
 // One list of the keys, for reading (the parts change) and for writing (they are const).
@@ -100,6 +109,15 @@ void visit(Keys& keys, Part& p) {
     keys.number("vignetting", p.vignetting, kShare, "simulated: share lost in the corners");
     keys.number("blur_px", p.blur_px, {0.0, 3.0}, "[px] simulated");
     keys.flag("drawn_light", p.drawn_light, "simulated: exposure and colours drawn from the seed");
+  } else if constexpr (kIs<Part, FloorCameraParams>) {
+    keys.place("at", p.at, "[m] its place in the base frame: ahead, left, up");
+    keys.angle("pitch_deg", p.pitch_rad, {0, 90}, "[deg] how far it looks down");
+    keys.integer("width", p.width, 16, 4096, "[px]");
+    keys.integer("height", p.height, 16, 4096, "[px]");
+    keys.angle("view_deg", p.horizontal_view_rad, {5, 150}, "[deg] horizontal field of view");
+    keys.number("rate_hz", p.rate_hz, kPositive, "[1/s] pictures; of a simulated robot");
+    keys.number("max_range_m", p.max_range_m, kPositive, "[m] simulated");
+    keys.number("noise_m", p.noise_m, kNotNegative, "[m] simulated: standard deviation");
   } else if constexpr (kIs<Part, LaserParams>) {
     keys.place("at", p.at, "[m] its place in the base frame: ahead, left, up");
     keys.angle("view_deg", p.view_rad, {1, 360}, "[deg] from the first beam to the last");
@@ -127,13 +145,14 @@ void visit(Keys& keys, Part& p) {
     keys.number("max_speed_mps", drive.max_speed_mps, kPositive, "[m/s] forwards");
     keys.number("max_reverse_mps", drive.max_reverse_mps, kPositive, "[m/s] backwards");
     keys.number("max_turn_radps", drive.max_turn_radps, kPositive, "[rad/s]");
-    keys.number("max_acceleration_mps2", drive.max_acceleration_mps2, kPositive,
-                "[m/s2] and deceleration");
+    keys.number("max_acceleration_mps2", drive.max_acceleration_mps2, kPositive, "[m/s2]");
+    keys.number("max_braking_mps2", drive.max_braking_mps2, kPositive, "[m/s2] when it slows down");
     keys.number("max_turn_acceleration_radps2", drive.max_turn_acceleration_radps2, kPositive,
                 "[rad/s2]");
     keys.number("wheels_latency_s", p.wheels_latency_s, {0.0, 1.0},
                 "[s] a command acts, and odometry comes, at most so late");
     keys.part("camera", p.camera);
+    keys.part("floor_camera", p.floor_camera);
     keys.part("laser", p.laser);
     keys.part("odometry", p.odometry);
   }

@@ -68,6 +68,7 @@ SensorBag sensorBag(std::unique_ptr<BagWriter> writer, const Simulator& simulato
 void addTo(SensorBag& bag, const Readings& readings) {
   if (readings.odometry) bag.addOdometry(readings.stamp_s, *readings.odometry);
   if (readings.laser != nullptr) bag.add(readings.stamp_s, *readings.laser);
+  if (readings.floor_depth_m != nullptr) bag.addFloor(readings.stamp_s, *readings.floor_depth_m);
   if (readings.stereo == nullptr) return;
   Frame frame;
   frame.stamp_s = readings.stamp_s;

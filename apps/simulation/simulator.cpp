@@ -20,15 +20,6 @@ constexpr double kTick_s = 0.01;
 constexpr int kTicksPerStride = 2;   // People decide where to step every other tick.
 constexpr double kMoves_mps = 0.02;  // Slower is no move of the robot's towards somebody.
 
-Eigen::Isometry3d mountedCamera(const CameraParams& params) {
-  Eigen::Matrix3d optical;  // Columns: the optical axes in a frame that looks forward.
-  optical << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.translation() = params.at;
-  T.linear() = Eigen::AngleAxisd(params.pitch_rad, Eigen::Vector3d::UnitY()) * optical;
-  return T;
-}
-
 /// Counts the measurements that a sensor should have made.
 class SensorClock {
  public:
@@ -64,6 +55,7 @@ struct Simulator::State {
         camera_clock(scene.robot.camera.rate_hz),
         laser_clock(scene.robot.laser.rate_hz),
         odometry_clock(scene.robot.odometry.rate_hz) {
+    if (scene.robot.floor_camera) floor_clock.emplace(scene.robot.floor_camera->rate_hz);
     walkers.reserve(scene.people.size());
     for (const ScenePerson& person : scene.people) walkers.emplace_back(person);
     if (!options.render) return;
@@ -101,6 +93,7 @@ struct Simulator::State {
   DriveBase robot;
   WheelOdometry odometry;
   SensorClock camera_clock, laser_clock, odometry_clock;
+  std::optional<SensorClock> floor_clock;
   std::int64_t ticks = 0;
   struct Given {
     std::int64_t acts = 0;  // at this tick
@@ -111,6 +104,7 @@ struct Simulator::State {
   Readings readings;
   StereoReading stereo;
   LaserScan scan;
+  cv::Mat floor_depth_m;
   RenderedView left, right;
 };
 
@@ -198,7 +192,7 @@ void Simulator::State::placeBodies() {
 void Simulator::State::render() {
   const CameraParams& params = scene.robot.camera;
   const PinholeCamera pinhole = pinholeOf(params);
-  const Eigen::Isometry3d T_world_left = basePose(robot.pose()) * mountedCamera(params);
+  const Eigen::Isometry3d T_world_left = basePose(robot.pose()) * mountedCamera(params.at, params.pitch_rad);
   const Eigen::Isometry3d T_world_right =
       T_world_left * Eigen::Translation3d(params.baseline_m, 0.0, 0.0);
   const std::uint64_t picture = hashOf(options.seed, 3, camera_clock.count());
@@ -254,16 +248,23 @@ const Readings& Simulator::step(double dt_s, const VelocityCommand& command) {
   s.readings.stamp_s = now_s;
   s.readings.stereo = nullptr;
   s.readings.laser = nullptr;
+  s.readings.floor_depth_m = nullptr;
   s.readings.odometry.reset();
   s.tellTruth();
   const bool camera_due = s.camera_clock.due(now_s) && s.options.render;
   const bool laser_due = s.laser_clock.due(now_s);
-  if (camera_due || laser_due) s.placeBodies();
+  const bool floor_due = s.floor_clock && s.floor_clock->due(now_s);
+  if (camera_due || laser_due || floor_due) s.placeBodies();
   if (camera_due) s.render();
   if (laser_due) {
     measureLaser(s.world, s.geometry, s.scene.robot.laser, s.robot.pose(),
                  hashOf(s.options.seed, 4, s.laser_clock.count()), s.scan);
     s.readings.laser = &s.scan;
+  }
+  if (floor_due) {
+    measureFloor(s.world, s.geometry, *s.scene.robot.floor_camera, s.robot.pose(),
+                 hashOf(s.options.seed, 7, s.floor_clock->count()), s.floor_depth_m);
+    s.readings.floor_depth_m = &s.floor_depth_m;
   }
   if (s.odometry_clock.due(now_s)) s.readings.odometry = s.odometry.pose();
   return s.readings;
@@ -276,7 +277,8 @@ StereoCamera Simulator::camera() const {
 }
 
 Eigen::Isometry3d Simulator::T_base_camera() const {
-  return mountedCamera(state_->scene.robot.camera);
+  const CameraParams& camera = state_->scene.robot.camera;
+  return mountedCamera(camera.at, camera.pitch_rad);
 }
 
 bool Simulator::everyoneIsDone() const {

@@ -61,6 +61,8 @@ struct Readings {
   double stamp_s = 0.0;
   const StereoReading* stereo = nullptr;  ///< Valid until the next step.
   const LaserScan* laser = nullptr;       ///< Valid until the next step.
+  /// Of the camera that looks at the floor: CV_32FC1, NaN = none; valid until the next step.
+  const cv::Mat* floor_depth_m = nullptr;
   std::optional<FloorPose> odometry;      ///< Since the start, drifting; frame of the first pose.
   WorldTruth truth;
 };

@@ -23,8 +23,16 @@ TEST(Drive, SpeedsUpAndBrakesWithinItsLimits) {
   EXPECT_NEAR(faster.pose.yaw_rad, 0.01, 1e-12);       // mean of 0 and 0.2, for 0.1 s
   DriveState state{{}, {0.3, 0.0}};
   while (state.speed.forward_mps > 0.0) state = driven(limits, state, {}, 0.1);
-  EXPECT_NEAR(state.pose.position.x(), stoppingDistance(limits, 0.3, 0.0), 1e-9);  // 0.09 m
-  EXPECT_NEAR(speedToStopWithin(limits, 0.09), 0.3, 1e-12);
+  EXPECT_NEAR(state.pose.position.x(), stoppingDistance(limits, 0.3, 0.0), 1e-9);  // 0.045 m
+  EXPECT_NEAR(speedToStopWithin(limits, 0.045), 0.3, 1e-12);
+}
+
+TEST(Drive, BrakesToAStandBeforeItGoesTheOtherWay) {
+  const DriveLimits limits;  // 1 m/s2 to a stand, 0.5 m/s2 from it
+  EXPECT_NEAR(speedAfter(limits, {0.3, 0.0}, {0.1, 0.0}, 0.1).forward_mps, 0.2, 1e-12);
+  EXPECT_NEAR(speedAfter(limits, {-0.1, 0.0}, {0.3, 0.0}, 0.3).forward_mps, 0.1, 1e-12);
+  EXPECT_NEAR(speedAfter(limits, {0.1, 0.0}, {-0.3, 0.0}, 9.0).forward_mps, -0.3, 1e-12);
+  EXPECT_EQ(speedAfter(limits, {0.3, 0.0}, {0.3, 0.0}, 0.1).forward_mps, 0.3);
 }
 
 TEST(Drive, RefusesLimitsThatAreNotPositive) {

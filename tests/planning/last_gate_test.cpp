@@ -32,9 +32,11 @@ Eigen::Isometry3d cameraAhead(const Eigen::Vector3d& at) {
 
 LastGateParams usual() {
   LastGateParams params;
+  params.limits.max_braking_mps2 = 0.5;
   params.sight.T_base_scanner.position = {0.1, 0.0};
-  params.sight.T_base_camera = cameraAhead({0.05, 0.0, 0.8});
-  params.sight.camera_half_view = {0.5, 0.4};
+  CameraView& camera = params.sight.cameras.emplace_back();
+  camera.T_base_camera = cameraAhead({0.05, 0.0, 0.8});
+  camera.half_view = {0.5, 0.4};
   return params;
 }
 
@@ -500,38 +502,53 @@ TEST(LastGate, KnowsATableThatLeftThePicture) {
   Gate at(9.0);
   std::vector<Eigen::Vector3f> table(20, Eigen::Vector3f(0.6F, 0.0F, 0.7F));
   table.push_back({1.1F, 0.1F, 0.7F});  // an error of the stereo
-  at.gate.addPoints(table, {}, 9.9);
-  at.gate.addPoints(table, {}, 10.0);
+  at.gate.addPoints(0, table, {}, 9.9);
+  at.gate.addPoints(0, table, {}, 10.0);
   const DriveState near{{{0.25, 0.0}, 0.0}, {0.3, 0.0}};
   EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.0).reason, GateReason::kThing);
-  at.gate.addPoints({}, near.pose, 10.1);  // It is too near to be seen now.
+  at.gate.addPoints(0, {}, near.pose, 10.1);  // It is too near to be seen now.
   EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.1).reason, GateReason::kThing);
-  at.gate.addPoints({}, {}, 10.2);  // From there it would be seen.
+  at.gate.addPoints(0, {}, {}, 10.2);  // From there it would be seen.
   EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.2).reason, GateReason::kFree);
-  at.gate.addPoints(table, {}, 10.3);
+  at.gate.addPoints(0, table, {}, 10.3);
   EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.3).reason, GateReason::kThing);
-  at.gate.addPoints({}, near.pose, 10.4);  // One picture alone may be wrong.
+  at.gate.addPoints(0, {}, near.pose, 10.4);  // One picture alone may be wrong.
   EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.4).reason, GateReason::kFree);
+}
+
+TEST(LastGate, KnowsWhatOnlyOneCameraSees) {
+  LastGateParams params = usual();
+  params.sight.cameras.push_back(params.sight.cameras.front());
+  LastGate gate(params);
+  gate.addScan(wallAhead(9.0), {}, 10.0);
+  const std::vector<Eigen::Vector3f> table(20, Eigen::Vector3f(0.6F, 0.0F, 0.7F));
+  const DriveState near{{{0.25, 0.0}, 0.0}, {0.3, 0.0}};
+  gate.addPoints(1, table, {}, 9.9);
+  gate.addPoints(0, {}, {}, 9.95);  // The other looks there, too.
+  EXPECT_EQ(gate.pass({0.3, 0.0}, near, 0.0, 10.0).reason, GateReason::kThing);
+  gate.addPoints(1, {}, {}, 10.0);
+  EXPECT_EQ(gate.pass({0.3, 0.0}, near, 0.0, 10.0).reason, GateReason::kFree);
+  EXPECT_THROW(gate.addPoints(2, table, {}, 10.1), std::out_of_range);
 }
 
 TEST(LastGate, KnowsAChestThatIsBelowThePicture) {
   Gate at(9.0);
   const std::vector<Eigen::Vector3f> chest(20, Eigen::Vector3f(1.0F, 0.0F, 0.3F));
-  at.gate.addPoints(chest, {}, 9.9);
-  at.gate.addPoints(chest, {}, 10.0);
+  at.gate.addPoints(0, chest, {}, 9.9);
+  at.gate.addPoints(0, chest, {}, 10.0);
   const DriveState near{{{0.65, 0.0}, 0.0}, {0.3, 0.0}};
-  at.gate.addPoints({}, {{0.4, 0.0}, 0.0}, 10.1);  // From there the picture ends 0.58 m up,
+  at.gate.addPoints(0, {}, {{0.4, 0.0}, 0.0}, 10.1);  // From there the picture ends 0.58 m up,
   EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.1).reason, GateReason::kThing);
-  at.gate.addPoints({}, {{-0.5, 0.0}, 0.0}, 10.2);  // and 0.22 m from there.
+  at.gate.addPoints(0, {}, {{-0.5, 0.0}, 0.0}, 10.2);  // and 0.22 m from there.
   EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.2).reason, GateReason::kFree);
 }
 
 TEST(LastGate, StopsBeforeAStepThatIsKnownFromBefore) {
   Gate at(9.0);
   const DriveState near{{{0.25, 0.0}, 0.0}, {0.3, 0.0}};
-  at.gate.addPoints({}, near.pose, 10.0, {{0.35, 0.0}, {3.0, 0.0}});
+  at.gate.addPoints(0, {}, near.pose, 10.0, {{0.35, 0.0}, {3.0, 0.0}});
   EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.0).reason, GateReason::kThing);
-  at.gate.addPoints({}, near.pose, 10.1, {{3.0, 0.0}});  // Floor was seen there.
+  at.gate.addPoints(0, {}, near.pose, 10.1, {{3.0, 0.0}});  // Floor was seen there.
   EXPECT_EQ(at.gate.pass({0.3, 0.0}, near, 0.0, 10.1).reason, GateReason::kFree);
 }
 
@@ -562,7 +579,7 @@ TEST(LastGate, AllocatesNothingOnceWarm) {
     if (i == 100) warm = test::allocations();
     const double now_s = 0.1 * i;
     gate.addScan(scan, {}, now_s);
-    gate.addPoints(points, {}, now_s);
+    gate.addPoints(0, points, {}, now_s);
     gate.pass({0.3, 0.1}, {}, 0.0, now_s);
   }
   EXPECT_EQ(test::allocations(), warm);
@@ -579,6 +596,7 @@ class WithoutMargin {
     params_.limits.back_m = seed % 2 == 0 ? 0.0 : between(-0.4, 0.0);
     params_.limits.max_speed_mps = 0.5;
     params_.limits.max_acceleration_mps2 = between(0.3, 1.5);
+    params_.limits.max_braking_mps2 = between(0.3, 2.0);
     params_.wheels_latency_s = between(0.0, 0.3);
   }
 

@@ -58,7 +58,7 @@ TEST(LocalPlanner, DrivesStraightAtFullSpeedAndStopsAtTheGoal) {
 /// How far it is from somebody when it stands, if they come up to it as soon as it has decided.
 double roomWhenItStands(const LocalPlannerParams& params, double mps, double room_m,
                         double comes_mps, double most_mps) {
-  const double brakes_s = mps / params.limits.max_acceleration_mps2;
+  const double brakes_s = mps / params.limits.max_braking_mps2;
   double left_m = room_m - mps * (params.reacts_s + 0.5 * brakes_s);
   constexpr double kStep_s = 1e-4;
   for (double t = 0.0; t < params.reacts_s + brakes_s; t += kStep_s) {
@@ -69,7 +69,8 @@ double roomWhenItStands(const LocalPlannerParams& params, double mps, double roo
 }
 
 TEST(LocalPlanner, StandsWhenWhoStandsWalksOrHidesAheadCouldReachIt) {
-  const LocalPlannerParams params;
+  LocalPlannerParams params;
+  params.limits.max_braking_mps2 = 0.5;
   const Path ahead{{0, 0}, {3, 0}};
   const auto open = [](const Vector2d&) { return 10.0; };
   for (const double comes_mps : {-0.4, 0.0, 0.4, params.appears_mps}) {
@@ -139,7 +140,7 @@ TEST(LocalPlanner, StopsWithinItsStoppingDistanceWhenSomethingAppears) {
   while (loop.time_s() < 4.0) loop.step(path);
   const double before = loop.state().pose.position.x(), speed = loop.state().speed.forward_mps;
   ASSERT_NEAR(speed, 0.3, 0.01);
-  loop.floor.boxes.push_back({{before + 0.26 + 0.12, -4.9}, {before + 1.0, 4.9}});
+  loop.floor.boxes.push_back({{before + 0.26 + 0.075, -4.9}, {before + 1.0, 4.9}});
   loop.step(path);
   EXPECT_LE(loop.plan().command.forward_mps, 0.0);
   for (int i = 0; i < 20; ++i) loop.step(path);

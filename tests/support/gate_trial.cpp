@@ -64,6 +64,7 @@ void World::draw(std::mt19937_64& random, std::uint64_t seed) {
   limits.max_speed_mps = between(0.2, 1.0);
   limits.max_reverse_mps = limits.max_speed_mps;
   limits.max_acceleration_mps2 = between(0.3, 1.5);
+  limits.max_braking_mps2 = between(0.3, 2.0);
   std::mt19937_64 body(seed);
   is_long = seed / 8 % 2 == 1;
   const double longest_m = is_long ? 0.4 : 0.0;

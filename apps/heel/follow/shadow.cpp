@@ -99,6 +99,7 @@ Follower makeFollower(const ShadowParams& params, const PetriPlan& plan, const C
                       const std::optional<FloorPose>& odometry) {
   RobotDescription robot = describeRobot(params.config.robot);
   robot.camera = setup;
+  robot.floor_camera.reset();  // No log has its images.
   robot.T_base_scanner = laser.T_base_scanner;
   robot.scanner_height_m = laser.height_m;
   const auto start = [&]() -> std::optional<FloorPose> {

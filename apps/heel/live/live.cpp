@@ -102,6 +102,7 @@ RobotDescription describeFound(const LiveOptions& options, const FoundRobot& fou
                                const RobotConfig& config, LogMap& map) {
   const LaserLog& laser = found.readings->laser();
   RobotDescription robot = describeRobot(config.robot);
+  if (options.topics.floor.empty()) robot.floor_camera.reset();
   if (!options.config.empty()) map.setScanner(robot.T_base_scanner, robot.scanner_height_m);
   robot.camera = found.camera;
   robot.T_base_scanner =
@@ -148,6 +149,11 @@ void run(const LiveOptions& options) {
   if (!options.config.empty()) {
     inputs.push_back(robotFile(options.config));
     config = loadRobotConfig(inputs.back().string());
+  }
+  if (config.robot.floor_camera && options.topics.floor.empty()) {
+    warn("nothing is heard of the robot's floor_camera without --floor-topic: it sees no steps");
+  } else if (!config.robot.floor_camera && !options.topics.floor.empty()) {
+    throw std::runtime_error("--floor-topic needs a robot with a floor_camera (--config)");
   }
   FollowOutput output(options.out, false, {}, inputs);
   LiveCommands commands(openNetwork(options.network), tellCommand);
@@ -315,6 +321,9 @@ void addLive(CLI::App& app) {
   addLogMap(*verb, options->map, options->topics);
   addCameraTopics(*verb, options->topics);
   addOdometryTopic(*verb, options->topics);
+  verb->add_option("--floor-topic", options->topics.floor,
+                   "depth images of the robot's floor_camera")
+      ->type_name("TOPIC");
   const std::vector<CLI::Option*> of_robots = verb->get_options([](const CLI::Option* option) {
     const std::string name = option->get_name();
     return name != "--help" && name != "--model" && name != "--limit";

@@ -14,6 +14,7 @@ struct BagTopics {
   std::string left, right;   ///< Topics of the left and the right stereo image.
   std::string color, depth;  ///< Topics of the colour and the depth image of an RGB-D camera.
   std::string cloud;         ///< Topic of clouds (PointCloud2) with colours.
+  std::string floor;         ///< Topic of the depth image of a camera that looks at the floor.
   std::string scan;          ///< Topic of laser scans (LaserScan).
   std::string odometry;      ///< Topic of the wheels' odometry.
   std::string truth;         ///< Topic of odometry that tells where the robot really was.

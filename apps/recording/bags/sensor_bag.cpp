@@ -19,6 +19,7 @@ constexpr const char* kMap = "map";
 constexpr const char* kOdom = "odom";
 constexpr const char* kBase = "base_footprint";
 constexpr const char* kCamera = "camera_optical";
+constexpr const char* kFloorCamera = "floor_camera_optical";
 constexpr const char* kScanner = "laser";
 
 }  // namespace
@@ -60,11 +61,11 @@ void SensorBag::writeStatic(double stamp_s) {
   bag_->write("/tf_static", nanosecondsOf(stamp_s), static_, true);
 }
 
-void SensorBag::writeRaw(const std::string& topic, double stamp_s, const cv::Mat& image,
+void SensorBag::writeRaw(const std::string& topic, const HeaderMsg& header, const cv::Mat& image,
                          const char* encoding) {
   const cv::Mat whole = image.isContinuous() ? image : image.clone();
   ImageMsg message;
-  message.header = header(stamp_s, kCamera);
+  message.header = header;
   message.width = static_cast<std::uint32_t>(whole.cols);
   message.height = static_cast<std::uint32_t>(whole.rows);
   message.encoding = encoding;
@@ -74,9 +75,11 @@ void SensorBag::writeRaw(const std::string& topic, double stamp_s, const cv::Mat
 }
 
 void SensorBag::writeImage(const std::string& topic, double stamp_s, const cv::Mat& image_bgr) {
-  if (!packs_images_) return writeRaw(topic + "/image_rect_color", stamp_s, image_bgr, "bgr8");
   CompressedImageMsg message;
   message.header = header(stamp_s, kCamera);
+  if (!packs_images_) {
+    return writeRaw(topic + "/image_rect_color", message.header, image_bgr, "bgr8");
+  }
   message.format = "bgr8; png compressed bgr8";
   if (!cv::imencode(".png", image_bgr, message.data)) {
     throw std::runtime_error(topic + ": an image can't be encoded");
@@ -110,12 +113,16 @@ void SensorBag::add(const Frame& frame) {
   } else if (camera_.sensor == SensorKind::kRgbd) {
     writeInfo("/camera/rgb", s, 0.0);
     writeImage("/camera/rgb", s, frame.image_bgr);
-    writeRaw("/camera/depth_registered/image_rect", s, frame.depth_m, "32FC1");
+    writeRaw("/camera/depth_registered/image_rect", header(s, kCamera), frame.depth_m, "32FC1");
   } else {
     PointCloud2Msg message = toCloudMsg(*frame.cloud);
     message.header = header(s, kCamera);
     bag_->write("/camera/points", message.header.stamp.ns, message);
   }
+}
+
+void SensorBag::addFloor(double stamp_s, const cv::Mat& depth_m) {
+  writeRaw("/floor_camera/depth/image_rect", header(stamp_s, kFloorCamera), depth_m, "32FC1");
 }
 
 void SensorBag::add(double stamp_s, const LaserScan& scan) {

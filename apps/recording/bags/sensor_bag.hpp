@@ -29,6 +29,7 @@ Eigen::Isometry3d asInBags(const Eigen::Isometry3d& T);
 /// | `/camera/{rgb/image_rect_color/compressed,depth_registered/image_rect}` | RGB-D, depth 32FC1 |
 /// | `/camera/points` | clouds |
 /// | `.../camera_info` | what the camera measures, at every frame |
+/// | `/floor_camera/depth/image_rect` | depth 32FC1 of a camera that looks at the floor |
 /// | `/scan`, `/odom` | laser ranges and wheel odometry |
 /// | `/tf`, `/tf_static` | odom to base_footprint; base_footprint to the sensors; map to odom |
 /// | `/ground_truth/odom`, `/ground_truth/people` | where the robot and people truly were, in map |
@@ -43,6 +44,7 @@ class SensorBag {
   void setScanner(const Eigen::Isometry3d& T_base_scanner, float max_range_m);
 
   void add(const Frame& frame);
+  void addFloor(double stamp_s, const cv::Mat& depth_m);
   void add(double stamp_s, const LaserScan& scan);
   void addOdometry(double stamp_s, const FloorPose& odometry);
   void addTruth(double stamp_s, const FloorPose& robot, const std::vector<FloorPose>& people);
@@ -52,7 +54,7 @@ class SensorBag {
 
  private:
   HeaderMsg header(double stamp_s, const char* frame);
-  void writeRaw(const std::string& topic, double stamp_s, const cv::Mat& image,
+  void writeRaw(const std::string& topic, const HeaderMsg& header, const cv::Mat& image,
                 const char* encoding);
   void writeImage(const std::string& topic, double stamp_s, const cv::Mat& image_bgr);
   void writeInfo(const std::string& topic, double stamp_s, double baseline_m);

@@ -39,6 +39,8 @@ class Faults : public testing::Test {
     stereo_.right_bgr.setTo(cv::Scalar::all(110 + steps_));
     truth_.stereo = &stereo_;
     truth_.laser = &scan_;
+    floor_m_.setTo(cv::Scalar(0.1 * steps_));
+    truth_.floor_depth_m = &floor_m_;
     truth_.odometry = FloorPose{{0.1 * steps_, 0.0}, 0.0};
     ++steps_;
     return sensors_.read(truth_);
@@ -56,6 +58,8 @@ class Faults : public testing::Test {
     EXPECT_TRUE(isSame(read.frame->image_bgr, stereo_.left_bgr));
     EXPECT_TRUE(isSame(read.frame->right_bgr, stereo_.right_bgr));
     EXPECT_EQ(read.pair_gap_s, 0.0);
+    ASSERT_NE(read.floor, nullptr);
+    EXPECT_TRUE(isSame(read.floor->depth_m, floor_m_));
   }
   void expectTrueRest(const RobotReadings& read) const {
     EXPECT_EQ(read.scan, &scan_);
@@ -70,6 +74,7 @@ class Faults : public testing::Test {
 
   FaultySensors sensors_{{}};
   StereoReading stereo_;
+  cv::Mat floor_m_{cv::Size(8, 6), CV_32FC1};
   LaserScan scan_;
   Readings truth_;
   int steps_ = 0;
@@ -217,7 +222,7 @@ TEST_F(Faults, LateReadingsKeepTheirStampsAndTheirOrder) {
   latencies.camera_s = 0.25;
   latencies.laser_s = latencies.wheels_s = 0.1;
   sensors_ = FaultySensors({}, 7, latencies);
-  int pictures = 0, scans = 0;
+  int pictures = 0, floors = 0, scans = 0;
   double picture_s = -1.0;
   for (int i = 0; i < 20; ++i) {
     const RobotReadings& read = next();
@@ -231,6 +236,12 @@ TEST_F(Faults, LateReadingsKeepTheirStampsAndTheirOrder) {
       EXPECT_EQ(read.frame->image_bgr.at<cv::Vec3b>(0, 0)[0], 10 + std::lround(10.0 * picture_s))
           << "the picture of then";
     }
+    if (read.floor != nullptr) {
+      ++floors;
+      const double stamp_s = read.floor->stamp_s;
+      EXPECT_GE(read.stamp_s - stamp_s, 0.125 - 1e-6);
+      EXPECT_NEAR(read.floor->depth_m.at<float>(0, 0), stamp_s, 1e-6) << "the image of then";
+    }
     if (read.scan != nullptr) {
       ++scans;
       EXPECT_NEAR(read.stamp_s - *read.scan_stamp_s, 0.1, 1e-6) << "the next step's";
@@ -239,6 +250,7 @@ TEST_F(Faults, LateReadingsKeepTheirStampsAndTheirOrder) {
     }
   }
   EXPECT_GT(pictures, 10);
+  EXPECT_GT(floors, 10);
   EXPECT_EQ(scans, 19);
 }
 
@@ -247,6 +259,7 @@ TEST_F(Faults, SeveralCanBeAtOnce) {
   EXPECT_NE(next().frame, nullptr);
   const RobotReadings& read = next();
   EXPECT_EQ(read.frame, nullptr);
+  EXPECT_EQ(read.floor, nullptr);
   EXPECT_EQ(read.scan, nullptr);
   EXPECT_TRUE(read.odometry);
 }

@@ -54,6 +54,7 @@ TEST_F(RobotConfigFile, WhatIsChangedIsReadBackChanged) {
   config.robot.drive.max_speed_mps = 0.7;
   config.robot.laser.at = {0.2, -0.01, 0.1};
   config.robot.laser.latency_s = 0.04;
+  config.robot.floor_camera.emplace().pitch_rad = 0.9;
   config.follow.far_m = 1.7;
   config.follow.paths.unknown_is_free = true;
   config.follow.perception.tracker.confirm_frames = 2;
@@ -62,6 +63,8 @@ TEST_F(RobotConfigFile, WhatIsChangedIsReadBackChanged) {
   EXPECT_EQ(toYaml(back), toYaml(config));
   EXPECT_EQ(describeRobot(back.robot).drive.max_speed_mps, 0.7);
   EXPECT_EQ(describeRobot(back.robot).scan_latency_s, 0.04);
+  ASSERT_TRUE(describeRobot(back.robot).floor_camera);
+  EXPECT_FALSE(describeRobot({}).floor_camera);
 }
 
 TEST_F(RobotConfigFile, AFootprintIsDrivenAsTheDiscAroundIt) {

@@ -157,6 +157,24 @@ TEST(ObstaclePoints, ThePictureOfABlankThingIsItsRim) {
   }
 }
 
+TEST(ObstaclePoints, WhereFloorIsNeededNoDepthIsAStepAsFarAsItSees) {
+  const CameraSetup setup = setupOf(SensorKind::kRgbd);
+  ObstaclePointsParams params;
+  const Frame blank = flat(setup, std::numeric_limits<float>::quiet_NaN());
+  EXPECT_TRUE(ObstaclePoints(setup, params).of(blank).empty());
+  params.needs_floor = true;
+  params.max_range_m = 2.5;
+  ObstaclePoints obstacles(setup, params);
+  const auto& points = obstacles.of(blank);
+  ASSERT_GT(points.size(), 500U);
+  const double nearest_m = 1.0 / (240.0 / 500.0);  // The picture ends there.
+  for (const Eigen::Vector3f& p : points) {
+    ASSERT_EQ(p.z(), 0.0F);
+    ASSERT_GT(p.x(), 0.05 + nearest_m - 0.02);
+    ASSERT_LT((p.head<2>() - Eigen::Vector2f(0.05F, 0.06F)).norm(), 2.5F);
+  }
+}
+
 TEST(ObstaclePoints, MeasuredDepthNeedsNoTexture) {
   const CameraSetup setup = setupOf(SensorKind::kRgbd);
   ObstaclePoints obstacles(setup);

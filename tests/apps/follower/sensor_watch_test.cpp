@@ -71,6 +71,23 @@ TEST_F(SensorWatchTest, LetsARobotMoveWhoseSensorsWork) {
   EXPECT_FALSE(watch.timeJumped());
 }
 
+TEST_F(SensorWatchTest, ARobotWithAFloorCameraNeedsItsImages) {
+  watch = SensorWatch(cameraOf(SensorKind::kStereo), {}, cameraOf(SensorKind::kRgbd));
+  Frame floor;
+  floor.depth_m = cv::Mat(12, 16, CV_32FC1, cv::Scalar(1.0));
+  readings.floor = &floor;
+  for (int i = 0; i < 10; ++i) {
+    floor.stamp_s = readings.stamp_s + 0.1;
+    step();
+  }
+  EXPECT_EQ(watch.blindness(), "");
+  EXPECT_EQ(usable.floor, &floor);
+  EXPECT_NEAR(watch.floorAge_s(), 0.0, 1e-9);
+  floor.depth_m = cv::Mat(12, 12, CV_32FC1, cv::Scalar(1.0));  // of another camera
+  EXPECT_EQ(after(10), "no image of the floor");
+  EXPECT_EQ(usable.floor, nullptr);
+}
+
 TEST_F(SensorWatchTest, TellsHowOldReadingsAreByTheirStamps) {
   after(5);
   readings.stamp_s += 0.1;

@@ -64,6 +64,7 @@ class Robot {
     frame.image_bgr = cv::Mat(6, 8, CV_8UC3, cv::Scalar::all(tick));
     frame.right_bgr = cv::Mat(6, 8, CV_8UC3, cv::Scalar::all(tick + 100));
     bag_.add(frame);
+    bag_.addFloor(stamp_s, cv::Mat(3, 4, CV_32FC1, cv::Scalar(0.01 * tick)));
   }
 
  private:
@@ -76,7 +77,9 @@ std::unique_ptr<LiveReadings> begin() {
   FedBagReader messages(BagForm::kRos2);
   Robot robot([&](const BagTopic& t, std::int64_t ns, const auto& b) { messages.feed(t, ns, b); });
   for (int tick = 0; tick < 20; ++tick) robot.measure(tick);
-  return std::make_unique<LiveReadings>(surveyMessages(messages, "the network"), BagTopics());
+  BagTopics topics;
+  topics.floor = "/floor_camera/depth/image_rect";
+  return std::make_unique<LiveReadings>(surveyMessages(messages, "the network"), topics);
 }
 
 TEST(LiveReadings, GivesTheNewestOfEachSensorOnce) {
@@ -97,9 +100,13 @@ TEST(LiveReadings, GivesTheNewestOfEachSensorOnce) {
   EXPECT_NEAR(*now.scan_stamp_s, 1001.1, 1e-9);
   EXPECT_NEAR(now.odometry->position.x(), 0.22, 1e-9);
   EXPECT_NEAR(*now.odometry_stamp_s, 1001.1, 1e-9);
+  ASSERT_NE(now.floor, nullptr);
+  EXPECT_FLOAT_EQ(now.floor->depth_m.at<float>(0, 0), 0.22F);
+  EXPECT_NEAR(now.floor->stamp_s, 1001.1, 1e-9);
   EXPECT_EQ(readings->odometryFrame(), "odom");
   const RobotReadings& then = readings->read(clock_s);
   EXPECT_EQ(then.frame, nullptr);
+  EXPECT_EQ(then.floor, nullptr);
   EXPECT_EQ(then.scan, nullptr);
   EXPECT_FALSE(then.odometry);
 }

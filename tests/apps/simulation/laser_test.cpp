@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "tests/apps/simulation/scenes.hpp"
+#include <heel/apps/simulation/camera_model.hpp>
 #include <heel/apps/simulation/simulator.hpp>
 
 #include <gtest/gtest.h>
@@ -108,6 +109,31 @@ TEST(Laser, GoesThroughGlassAndHasNoEchoOfVelvet) {
   EXPECT_NEAR(ahead_m("wood"), 1.475F, 1e-3F);
   EXPECT_NEAR(ahead_m("frosted glass"), 2.94F, 1e-3F) << "the wall behind it";
   EXPECT_TRUE(std::isinf(ahead_m("velvet")));
+}
+
+TEST(FloorCamera, MeasuresTheFloorAndWhatStandsOnIt) {
+  Scene scene = test::squareRoom();
+  FurniturePart chest;
+  chest.base = {1.0, 0.0, 0.0};
+  chest.size_m = {0.4, 0.8, 0.5};
+  scene.furniture.push_back({"chest", true, {chest}});
+  scene.robot.floor_camera.emplace().noise_m = 0.0;
+  const FloorCameraParams& params = *scene.robot.floor_camera;
+  Simulator simulator(scene, {1, 0, false});
+  const cv::Mat& depth_m = *simulator.step(0.0).floor_depth_m;
+  ASSERT_EQ(depth_m.size(), cv::Size(params.width, params.height));
+  const Eigen::Isometry3d T = mountedCamera(params.at, params.pitch_rad);
+  int on_floor = 0, on_chest = 0;
+  for (int v = 0; v < depth_m.rows; ++v) {
+    for (int u = 0; u < depth_m.cols; ++u) {
+      const double depth = depth_m.at<float>(v, u);
+      const Eigen::Vector3d seen = T * (depth * rayOf(pinholeOf(params), u, v));
+      on_floor += std::abs(seen.z()) < 1e-3 ? 1 : 0;
+      on_chest += std::abs(seen.z() - 0.5) < 1e-3 && std::abs(seen.x() - 1.0) < 0.2 + 1e-3 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(on_floor, 5000);
+  EXPECT_GT(on_chest, 1000);
 }
 
 TEST(Laser, SeesNothingBeyondItsRange) {

@@ -12,7 +12,7 @@
 namespace heel::test {
 
 inline std::string sceneFile(const std::string& name) {
-  return std::string(HEEL_SCENES) + "/" + name + ".yaml";
+  return std::string(HEEL_SOURCE_DIR) + "/apps/scenes/" + name + ".yaml";
 }
 
 /// A square room of 6 m with a lamp and a small camera 1 m above the floor, in its middle, that
