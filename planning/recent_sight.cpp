@@ -340,12 +340,20 @@ void RecentSight::keep(const SeenThing& thing) {
   things_.push_back(thing);
 }
 
-bool RecentSight::isLeg(const SeenThing& thing) const {
-  const auto isOfIt = [&](const SeenThing& other) {
-    return other.is_somebody && other.seen_s == newest_s() &&
-           (other.place - thing.place).squaredNorm() < kLeg_m * kLeg_m;
-  };
-  return isOfIt(thing) && std::count_if(things_.begin(), things_.end(), isOfIt) > 1;
+std::optional<Vector2d> RecentSight::bodyAround(const SeenThing& thing) const {
+  const auto isSeen = [&](const SeenThing& t) { return t.is_somebody && t.seen_s == newest_s(); };
+  if (!isSeen(thing)) return std::nullopt;
+  Vector2d sum = Vector2d::Zero();
+  int of_leg = 0, of_body = 0;
+  for (const SeenThing& other : things_) {
+    const double away2 = (other.place - thing.place).squaredNorm();
+    if (!isSeen(other) || away2 > kBody_m * kBody_m) continue;
+    sum += other.place;
+    ++of_body;
+    of_leg += away2 < kLeg_m * kLeg_m ? 1 : 0;
+  }
+  if (of_leg < 2) return std::nullopt;
+  return sum / of_body;
 }
 
 // What clearance() reads, in a row.

@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace heel {
@@ -93,9 +94,10 @@ class RecentSight {
   /// When the newest scan was measured.
   double newest_s() const { return looks_[newest_].stamp_s; }
 
-  /// Whether two beams or more of the newest scan see somebody there: a leg is as wide as that, and
-  /// one alone is an error.
-  bool isLeg(const SeenThing& thing) const;
+  /// The middle of the body that a thing is a part of, as far as the newest scan sees it: of all
+  /// that is somebody's within a body's width. Absent unless two beams or more see somebody there: a
+  /// leg is as wide as that, and one alone is an error.
+  std::optional<Eigen::Vector2d> bodyAround(const SeenThing& thing) const;
 
   /// Distance from a place to the nearest of them [m].
   double clearance(const Eigen::Vector2d& place) const;

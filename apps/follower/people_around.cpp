@@ -86,15 +86,16 @@ void PeopleAround::addComers(const RecentSight& sight, const FloorPose& T_world_
   const Eigen::Rotation2Dd turn(T_world_frame.yaw_rad);
   for (const SeenThing& thing : sight.things()) {
     if (!thing.is_somebody) continue;
-    const Vector2d place = T_world_frame * thing.place;
-    if (isNear(place, now.target) ||
+    const Vector2d leg = T_world_frame * thing.place;
+    if (isNear(leg, now.target) ||
         std::any_of(now.people.begin(), now.people.end(),
-                    [&](const MovingPerson& person) { return isNear(place, person); }) ||
-        !sight.isLeg(thing)) {
+                    [&](const MovingPerson& person) { return isNear(leg, person); })) {
       continue;
     }
-    now.people.push_back(
-        {place, turn * thing.velocity, MovingPerson().radius_m, thing.gait_mps, !thing.roams});
+    if (const std::optional<Vector2d> body = sight.bodyAround(thing)) {
+      now.people.push_back({T_world_frame * *body, turn * thing.velocity, MovingPerson().radius_m,
+                            thing.gait_mps, !thing.roams});
+    }
   }
 }
 

@@ -292,10 +292,27 @@ TEST(RecentSight, OneBeamAloneIsNoLeg) {
   int news = 0, legs = 0;
   for (const SeenThing& thing : sight.things()) {
     news += thing.is_somebody;
-    legs += sight.isLeg(thing);
+    legs += sight.bodyAround(thing).has_value();
   }
   EXPECT_EQ(news, 4);
   EXPECT_EQ(legs, 3);
+}
+
+// Bug: somebody's place was that of whichever leg came first in the scan.
+TEST(RecentSight, ABodyIsInTheMiddleOfItsLegs) {
+  RecentSight sight({}, 3.0);
+  LaserScan scan = wallAhead(2.0);
+  sight.addScan(scan, {}, 0.1);
+  for (const std::size_t beam : {174, 175, 176, 184, 185, 186}) scan.ranges_m[beam] = 1.0F;
+  sight.addScan(scan, {}, 0.5);
+  int legs = 0;
+  for (const SeenThing& thing : sight.things()) {
+    const auto body = sight.bodyAround(thing);
+    if (!body) continue;
+    ++legs;
+    EXPECT_LT((*body - Eigen::Vector2d(1.0, 0.0)).norm(), 0.01);
+  }
+  EXPECT_EQ(legs, 6);
 }
 
 // Bug: the robot set off along somebody who had come up to it unseen.
