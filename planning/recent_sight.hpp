@@ -35,7 +35,7 @@ struct RecentSightParams {
   double remembers_s = 4.0;
   /// So many of a picture's points in a cell of 5 cm are a thing; fewer are errors of the stereo.
   int min_points = 6;
-  std::vector<CameraView> cameras;
+  std::vector<CameraView> cameras;  ///< Each is told by its place here.
 };
 
 /// A point of what was seen.

@@ -31,7 +31,8 @@ struct RobotDescription {
   FloorPose T_base_scanner;       ///< Where the laser scanner is, in the base frame.
   double scanner_height_m = 0.3;  ///< Height of the laser's plane over the floor.
   CameraSetup camera;             ///< Its camera, which looks ahead along the base frame's X axis.
-  /// A depth camera that looks at the floor ahead, for steps down and what the others do not see.
+  /// A depth camera (SensorKind::kRgbd, without colours) that looks at the floor ahead, for steps
+  /// down and what the others do not see.
   std::optional<CameraSetup> floor_camera;
   /// A scan that comes without a stamp of its own was measured so long before.
   double scan_latency_s = 0.0;
