@@ -14,7 +14,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kLooks = 20;       // So many are kept of the time that all is known,
 constexpr std::size_t kMostLooks = 160;  // of all: for half a minute, if 4 s are remembered;
 constexpr std::size_t kSpares = 4;       // and each so many'th is asked who came.
@@ -31,8 +30,8 @@ constexpr double kManyScans = 100.0;    // A mean over more forgets the oldest.
 constexpr double kMedianStep = 0.954;   // Of two normal errors' difference: 0.6745 * sqrt(2) sigma.
 constexpr double kBody_m = 0.4;         // So far apart are parts of one body.
 constexpr double kLeg_m = 0.12;         // So wide is one.
-constexpr double kGait_mps = 0.4;       // A leg stands, or swings at twice its owner's speed.
-constexpr double kOldestLook_s = 1.0;   // Of a look from which to reckon who walks.
+constexpr double kStride_s = 0.5;       // So long takes a step of somebody who walks.
+constexpr double kGait_mps = 0.4;       // So far off may be how somebody seems to walk.
 constexpr double kRounding_rad = 1e-9;
 
 }  // namespace
@@ -129,32 +128,6 @@ const RecentSight::Look& RecentSight::lookBefore(std::size_t count) const {
   return looks_[(newest_ + looks_.size() - count) % looks_.size()];
 }
 
-// The beam that ends nearest to a place, which is in the look's own axes; none within reach: the
-// number of beams.
-std::size_t RecentSight::nearestBeam(const Look& look, const Vector2d& at, double reach_m) {
-  const std::size_t beams = look.scan.ranges_m.size();
-  std::size_t nearest = beams;
-  if (beams == 0 || !at.allFinite()) return nearest;
-  const double away_m = at.norm(), step_rad = std::abs(look.scan.step_rad);
-  const auto turn = static_cast<long>(std::round(2.0 * M_PI / step_rad));
-  const auto half = std::min(
-      static_cast<long>(std::asin(std::min(reach_m / away_m, 1.0)) / step_rad) + 1, turn / 2);
-  const auto middle = static_cast<long>(beamTo(look, at));
-  double least2 = reach_m * reach_m;
-  for (long k = middle - half; k <= middle + half; ++k) {
-    const auto i = static_cast<std::size_t>((k + turn) % turn);
-    if (i >= beams) continue;
-    const auto range_m = static_cast<double>(look.scan.ranges_m[i]);
-    if (!(std::abs(range_m - away_m) < reach_m)) continue;
-    const double angle = look.scan.angle(i);
-    const double off2 = (at - range_m * Vector2d(std::cos(angle), std::sin(angle))).squaredNorm();
-    if (off2 >= least2) continue;
-    least2 = off2;
-    nearest = i;
-  }
-  return nearest;
-}
-
 // Whether a look saw nothing where another sees something. Seen from elsewhere, an error of the
 // range is one aside: so an edge is no news beside itself.
 bool RecentSight::wasFree(const Vector2d& place, const Look& now, const Look& before) const {
@@ -178,17 +151,40 @@ double RecentSight::lastFree(const Vector2d& place) const {
   return kNotYet;
 }
 
-// How what is seen at a place has come there since a look: from the nearest that it saw; not a
-// number if it was too fast to tell, or the look is too old.
-Vector2d RecentSight::velocityOf(const Vector2d& place, const Look& before, double dt_s) {
-  if (dt_s > kOldestLook_s) return Vector2d::Constant(kUnknown);
-  const Vector2d at = before.turn * (place - before.scanner);
-  const std::size_t from = nearestBeam(before, at, kFastestWalk_mps * dt_s);
-  if (from == before.scan.ranges_m.size()) return Vector2d::Constant(kUnknown);
-  const double angle = before.scan.angle(from);
-  const auto range_m = static_cast<double>(before.scan.ranges_m[from]);
-  const Vector2d came = at - range_m * Vector2d(std::cos(angle), std::sin(angle));
-  return before.turn.transpose() * came / dt_s;
+// The middle of what was somebody's within a body's width of `at` in one scan; false if nothing was.
+bool RecentSight::middleOf(Parts first, Parts end, Vector2d& at) {
+  Vector2d sum = Vector2d::Zero();
+  int count = 0;
+  for (Parts part = first; part != end; ++part) {
+    if ((part->place - at).squaredNorm() > kBody_m * kBody_m) continue;
+    sum += part->place;
+    ++count;
+  }
+  if (count > 0) at = sum / count;
+  return count > 0;
+}
+
+// How somebody walks by the middle of their parts, from scan to scan back for a stride: one leg
+// stands while the other swings.
+void RecentSight::tellWalk(SeenThing& thing) const {
+  thing.velocity.setZero();
+  thing.gait_mps = kFastestWalk_mps;
+  Vector2d at = thing.place, now = at;
+  for (Parts end = parts_.end(); end != parts_.begin();) {
+    const double stamp_s = std::prev(end)->stamp_s;
+    const Parts first = std::lower_bound(parts_.begin(), end, stamp_s,
+                                         [](const Part& p, double s) { return p.stamp_s < s; });
+    if (!middleOf(first, end, at)) break;
+    end = first;
+    const double in_s = thing.seen_s - stamp_s;
+    if (in_s == 0.0) {
+      now = at;
+      continue;
+    }
+    const bool stands = in_s > 0.5 * kStride_s && (now - at).norm() < surface_m_;
+    thing.velocity = stands ? Vector2d::Zero() : Vector2d((now - at) / in_s);
+    thing.gait_mps = stands ? 0.0 : kGait_mps;
+  }
 }
 
 // Most of what a standing robot sees stands, too. A thing that moved is beyond errors, or too few.
@@ -245,33 +241,22 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
                        return (is_old && !is_kept) || (by_laser && sees(look, thing.place));
                      }),
       things_.end());
-  const Look& before = lookBefore(1);
-  const double dt_s = stamp_s - before.stamp_s;
-  roaming_.clear();
+  const auto is_old = [&](const Part& part) { return stamp_s - part.stamp_s > kStride_s; };
+  parts_.erase(parts_.begin(), std::find_if_not(parts_.begin(), parts_.end(), is_old));
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range_m = static_cast<double>(scan.ranges_m[i]);
     if (!(range_m > 0.0 && range_m < range_m_)) continue;
     const double angle = scan.angle(i);
     const Vector2d place = scanner * Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));
     const double free_s = lastFree(place);
-    const bool moves = free_s == before.stamp_s;
-    const Vector2d velocity = moves ? velocityOf(place, before, dt_s) : Vector2d::Zero();
+    const bool is_somebody = free_s > kNotYet;
     const bool roams = stamp_s - free_s <= params_.remembers_s;
-    if (roams) roaming_.push_back({place, velocity});
-    keep({place, 0.0, stamp_s, SeenThing::kByLaser, true, roams, free_s > kNotYet, velocity, 0.0});
+    if (is_somebody) parts_.push_back({place, stamp_s});
+    keep({place, 0.0, stamp_s, SeenThing::kByLaser, true, roams, is_somebody, Vector2d::Zero(),
+          0.0});
   }
   for (SeenThing& thing : things_) {
-    if (!thing.roams || thing.seen_s != stamp_s) continue;
-    Vector2d sum = Vector2d::Zero();
-    int count = 0;
-    for (const Roaming& other : roaming_) {
-      if ((other.place - thing.place).squaredNorm() > kBody_m * kBody_m) continue;
-      if (!other.velocity.allFinite()) continue;
-      sum += other.velocity;
-      ++count;
-    }
-    thing.velocity = count > 0 ? Vector2d(sum / count) : Vector2d::Zero();
-    thing.gait_mps = count == 0 ? kFastestWalk_mps : thing.velocity.isZero() ? 0.0 : kGait_mps;
+    if (thing.roams && thing.seen_s == stamp_s) tellWalk(thing);
   }
   layOut();
 }
@@ -341,19 +326,17 @@ void RecentSight::keep(const SeenThing& thing) {
 }
 
 std::optional<Vector2d> RecentSight::bodyAround(const SeenThing& thing) const {
-  const auto isSeen = [&](const SeenThing& t) { return t.is_somebody && t.seen_s == newest_s(); };
-  if (!isSeen(thing)) return std::nullopt;
-  Vector2d sum = Vector2d::Zero();
-  int of_leg = 0, of_body = 0;
-  for (const SeenThing& other : things_) {
-    const double away2 = (other.place - thing.place).squaredNorm();
-    if (!isSeen(other) || away2 > kBody_m * kBody_m) continue;
-    sum += other.place;
-    ++of_body;
-    of_leg += away2 < kLeg_m * kLeg_m ? 1 : 0;
+  if (!thing.is_somebody || thing.seen_s != newest_s()) return std::nullopt;
+  const auto isSeen = [&](const Part& part) { return part.stamp_s == newest_s(); };
+  const Parts first = std::find_if(parts_.begin(), parts_.end(), isSeen);
+  const auto isOfLeg = [&](const Part& part) {
+    return (part.place - thing.place).squaredNorm() < kLeg_m * kLeg_m;
+  };
+  Vector2d at = thing.place;
+  if (std::count_if(first, parts_.end(), isOfLeg) < 2 || !middleOf(first, parts_.end(), at)) {
+    return std::nullopt;
   }
-  if (of_leg < 2) return std::nullopt;
-  return sum / of_body;
+  return at;
 }
 
 // What clearance() reads, in a row.

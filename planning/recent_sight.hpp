@@ -49,7 +49,7 @@ struct SeenThing {
   bool is_sure;              ///< By the laser, or in two pictures one after the other.
   bool roams;                ///< It came from elsewhere in the last `remembers_s`,
   bool is_somebody;          ///< or in the last half minute (at most 8 times that).
-  Eigen::Vector2d velocity;  ///< Of what roams, the mean of all that is within a body's width.
+  Eigen::Vector2d velocity;  ///< Of what roams: of the middle of all within a body's width.
   double gait_mps;  ///< Its owner's velocity is so far from that, any way; 0 for who stands.
 };
 
@@ -122,9 +122,11 @@ class RecentSight {
     double driven_m = 0.0, turned_rad = 0.0;  // since the first
     LaserScan scan;
   };
-  struct Roaming {
-    Eigen::Vector2d place, velocity;
+  struct Part {
+    Eigen::Vector2d place;
+    double stamp_s;
   };
+  using Parts = std::vector<Part>::const_iterator;
   struct Cell {
     std::uint16_t points = 0;
     bool is_sure = false;
@@ -138,11 +140,11 @@ class RecentSight {
   bool sees(const Look& look, const Eigen::Vector2d& thing) const;
   static bool sawFree(const Look& look, const Eigen::Vector2d& place, double short_m);
   bool isInPicture(const SeenThing& thing, const FloorPose& T_base_world) const;
-  static std::size_t nearestBeam(const Look& look, const Eigen::Vector2d& at, double reach_m);
   const Look& lookBefore(std::size_t count) const;
   bool wasFree(const Eigen::Vector2d& place, const Look& now, const Look& before) const;
   double lastFree(const Eigen::Vector2d& place) const;
-  static Eigen::Vector2d velocityOf(const Eigen::Vector2d& place, const Look& before, double dt_s);
+  static bool middleOf(Parts first, Parts end, Eigen::Vector2d& at);
+  void tellWalk(SeenThing& thing) const;
   void keep(const SeenThing& thing);
   void layOut();
   void measureErrors(const Look& look, const Look& last);
@@ -158,7 +160,7 @@ class RecentSight {
   std::vector<Look> looks_;  // a ring; looks_[newest_] is the last,
   std::size_t newest_ = 0;
   Look next_;                     // and this the one to come
-  std::vector<Roaming> roaming_;  // in the last scan
+  std::vector<Part> parts_;       // of somebody, in the scans of the last stride, as they came
   std::size_t saw_ = 0;           // the look that saw the last place that was asked for
   std::vector<Cell> cells_;
   std::vector<double> points_s_;  // of each camera's last picture
