@@ -31,7 +31,7 @@ constexpr double kMedianStep = 0.954;   // Of two normal errors' difference: 0.6
 constexpr double kBody_m = 0.4;         // So far apart are parts of one body.
 constexpr double kLeg_m = 0.12;         // So wide is one.
 constexpr double kStride_s = 0.5;       // So long takes a step of somebody who walks.
-constexpr double kGait_mps = 0.4;       // So far off may be how somebody seems to walk.
+constexpr double kGait_mps = 0.4;  // So far off how somebody seems to walk is, at most: 95 of 100.
 constexpr double kRounding_rad = 1e-9;
 
 }  // namespace
@@ -151,7 +151,8 @@ double RecentSight::lastFree(const Vector2d& place) const {
   return kNotYet;
 }
 
-// The middle of what was somebody's within a body's width of `at` in one scan; false if nothing was.
+// The middle of what was somebody's within a body's width of `at` in one scan; false if nothing
+// was.
 bool RecentSight::middleOf(Parts first, Parts end, Vector2d& at) {
   Vector2d sum = Vector2d::Zero();
   int count = 0;
