@@ -41,9 +41,9 @@ double untilThere(const DriveLimits& limits, const VelocityCommand& from,
                   const VelocityCommand& to) {
   const double a = from.forward_mps, b = to.forward_mps;
   const bool stops = a * b < 0.0, brakes = stops || std::abs(b) < std::abs(a);
-  return std::min(
-      untilThere(a, stops ? 0.0 : b, brakes ? limits.max_braking_mps2 : limits.max_acceleration_mps2),
-      untilThere(from.turn_radps, to.turn_radps, limits.max_turn_acceleration_radps2));
+  return std::min(untilThere(a, stops ? 0.0 : b,
+                             brakes ? limits.max_braking_mps2 : limits.max_acceleration_mps2),
+                  untilThere(from.turn_radps, to.turn_radps, limits.max_turn_acceleration_radps2));
 }
 
 }  // namespace

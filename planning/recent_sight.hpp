@@ -95,8 +95,8 @@ class RecentSight {
   double newest_s() const { return looks_[newest_].stamp_s; }
 
   /// The middle of the body that a thing is a part of, as far as the newest scan sees it: of all
-  /// that is somebody's within a body's width. Absent unless two beams or more see somebody there: a
-  /// leg is as wide as that, and one alone is an error.
+  /// that is somebody's within a body's width. Absent unless two beams or more see somebody there:
+  /// a leg is as wide as that, and one alone is an error.
   std::optional<Eigen::Vector2d> bodyAround(const SeenThing& thing) const;
 
   /// Distance from a place to the nearest of them [m].
@@ -159,9 +159,9 @@ class RecentSight {
   Eigen::ArrayX2d places_;   // theirs, in the first rows
   std::vector<Look> looks_;  // a ring; looks_[newest_] is the last,
   std::size_t newest_ = 0;
-  Look next_;                     // and this the one to come
-  std::vector<Part> parts_;       // of somebody, in the scans of the last stride, as they came
-  std::size_t saw_ = 0;           // the look that saw the last place that was asked for
+  Look next_;                // and this the one to come
+  std::vector<Part> parts_;  // of somebody, in the scans of the last stride, as they came
+  std::size_t saw_ = 0;      // the look that saw the last place that was asked for
   std::vector<Cell> cells_;
   std::vector<double> points_s_;  // of each camera's last picture
 };

@@ -189,7 +189,8 @@ std::string toYaml(const RobotConfig& config) {
   std::ostringstream out;
   out << "# A robot, and how it follows: heel follow SCENE --config FILE.\n"
          "# What is left out has its default. Base frame: X ahead, Y left, Z up, on the floor.\n"
-         "# With 'floor_camera: {}' it has a depth camera that looks at the floor, and sees steps.\n"
+         "# With 'floor_camera: {}' it has a depth camera that looks at the floor, and sees "
+         "steps.\n"
          "robot:\n"
       << toYaml(config.robot, "  ") << "# Each with when one changes it.\n";
   writePart(out, "follow", false, settings);

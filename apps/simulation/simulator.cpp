@@ -192,7 +192,8 @@ void Simulator::State::placeBodies() {
 void Simulator::State::render() {
   const CameraParams& params = scene.robot.camera;
   const PinholeCamera pinhole = pinholeOf(params);
-  const Eigen::Isometry3d T_world_left = basePose(robot.pose()) * mountedCamera(params.at, params.pitch_rad);
+  const Eigen::Isometry3d T_world_left =
+      basePose(robot.pose()) * mountedCamera(params.at, params.pitch_rad);
   const Eigen::Isometry3d T_world_right =
       T_world_left * Eigen::Translation3d(params.baseline_m, 0.0, 0.0);
   const std::uint64_t picture = hashOf(options.seed, 3, camera_clock.count());

@@ -63,7 +63,7 @@ struct Readings {
   const LaserScan* laser = nullptr;       ///< Valid until the next step.
   /// Of the camera that looks at the floor: CV_32FC1, NaN = none; valid until the next step.
   const cv::Mat* floor_depth_m = nullptr;
-  std::optional<FloorPose> odometry;      ///< Since the start, drifting; frame of the first pose.
+  std::optional<FloorPose> odometry;  ///< Since the start, drifting; frame of the first pose.
   WorldTruth truth;
 };
 
