@@ -109,9 +109,11 @@ std::optional<Intent> SearchForTarget::step(const Situation& now, const Ways& wa
     intent.reason = "waits: there is no map";
     return intent;
   }
+  // From near a place that it can not reach, a shut door's, it does not see what it would from there.
   const auto way_m = [&](const Vector2d& place) {
     const GlobalPlan& plan = ways.plan(now.robot.position, place);
-    return plan.found() ? plan.length_m : std::numeric_limits<double>::infinity();
+    return plan.status == PlanStatus::kFound ? plan.length_m
+                                             : std::numeric_limits<double>::infinity();
   };
   intent.is_new = search_->choose(now.elapsed_s, now.robot, std::exchange(is_there_, false), way_m);
   if (const std::optional<SearchView>& view = search_->view()) {

@@ -19,11 +19,13 @@ const std::vector<DoorwayOnMap> kDoorway = {{{0.0, 0.0}, {1.0, 0.0}, 0.9}};  // 
 struct Floor {
   GlobalPlan straight;
   double room_m = 10.0;
+  std::optional<Vector2d> barred;  // and half a metre around it
 
   std::optional<Intent> ask(Behaviour& behaviour, const Situation& now) {
     const auto room = [this](const Vector2d&) { return room_m; };
     const auto plan = [this](const Vector2d& from, const Vector2d& to) -> const GlobalPlan& {
-      straight.status = PlanStatus::kFound;
+      const bool is_barred = barred && (to - *barred).norm() < 0.5;
+      straight.status = is_barred ? PlanStatus::kFoundNearby : PlanStatus::kFound;
       straight.path = {from, to};
       straight.length_m = (to - from).norm();
       straight.end = to;
@@ -146,6 +148,21 @@ TEST_F(BehavioursTest, LooksFromAPlaceThenGoesOn) {
   const Intent next = *floor.ask(behaviour, now);
   EXPECT_TRUE(next.is_new);
   EXPECT_GT((*next.go_to - *first.go_to).norm(), 0.5) << "nobody is there";
+}
+
+// Bug: the robot stood before a shut door for minutes, and looked at it.
+TEST_F(BehavioursTest, LooksFromNoPlaceThatItCanNotReach) {
+  const OccupancyGrid map = test::DrawnMap{{8.0, 4.0}, 0.1, {{{4.0, 0.0}, {4.1, 2.5}}}}.grid();
+  PersonSearch search(map, map);
+  SearchForTarget behaviour(&search);
+  now.robot.position = {2.0, 2.0};
+  const auto goesTo = [&] {
+    search.lose({{6.0, 1.0}, {0.0, 0.0}}, 1.0, 1.0);
+    behaviour.begin(now);
+    return *floor.ask(behaviour, now)->go_to;
+  };
+  floor.barred = goesTo();
+  EXPECT_GT((goesTo() - *floor.barred).norm(), 0.5);
 }
 
 struct MakeRoomTest : BehavioursTest {
