@@ -46,6 +46,12 @@ Eigen::Vector2d CoarseFloor::center(int cell) const {
   return map_.origin_m() + cell_size_m_ * Eigen::Vector2d(cell % width_ + 0.5, cell / width_ + 0.5);
 }
 
+int CoarseFloor::cellAt(const Eigen::Vector2d& point) const {
+  const Eigen::Array2d at = ((point - map_.origin_m()) / cell_size_m_).array().floor();
+  const bool is_inside = (at >= 0.0).all() && at.x() < width_ && at.y() < height_;
+  return is_inside ? static_cast<int>(at.y()) * width_ + static_cast<int>(at.x()) : -1;
+}
+
 int CoarseFloor::nearestFree(const Eigen::Vector2d& point) const {
   int nearest = -1;
   double least = std::numeric_limits<double>::infinity();

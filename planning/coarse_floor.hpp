@@ -40,6 +40,7 @@ class CoarseFloor {
 
   bool isFree(int cell) const { return is_free_[static_cast<std::size_t>(cell)] != 0; }
   Eigen::Vector2d center(int cell) const;
+  int cellAt(const Eigen::Vector2d& point) const;  ///< -1 beyond the map.
   /// The free cell that is nearest to a point, the first of equals; -1 if none is free.
   int nearestFree(const Eigen::Vector2d& point) const;
   /// The free cell one step along kWays[way]; -1 if there is none. No step cuts a corner.

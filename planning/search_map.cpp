@@ -40,7 +40,7 @@ SearchMap::SearchMap(const OccupancyGrid& floor, const OccupancyGrid& sight,
       next_(shares_),
       belief_(shares_.size(), 0.0),
       others_(shares_),
-      hidings_(shares_.size()),
+      screens_(shares_.size()),
       reached_s_(shares_.size(), std::numeric_limits<double>::infinity()),
       speed_mps_(params.usual_speed_mps) {
   if (floor_.nearestFree(floor.origin_m()) < 0) {
@@ -169,7 +169,8 @@ void SearchMap::walk() {
       }
       const double steps = way % 2 == 0 ? 1.0 : std::sqrt(0.5);
       const bool is_too_far = reached_s_[index(to)] > clock_s_;
-      const double walks = is_too_far ? 0.0 : steps * speed_mps_ / kFastestWalk_mps;
+      const bool is_barred = is_too_far || bars(screens_[index(to)]);
+      const double walks = is_barred ? 0.0 : steps * speed_mps_ / kFastestWalk_mps;
       next_[index(to)][way] += walks * share;
       next_[c][way] += (1.0 - walks) * share;
     }
@@ -177,24 +178,65 @@ void SearchMap::walk() {
   shares_.swap(next_);
 }
 
+// What a look goes through does not stand there any more.
 void SearchMap::look(const FloorPose& camera, double elapsed_s,
-                     FunctionRef<bool(const Eigen::Vector2d&)> is_hidden) {
+                     FunctionRef<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)> hiding) {
+  seen_.clear();
   thin(elapsed_s, [&](int cell) {
     const Eigen::Vector2d place = floor_.center(cell);
     if (!isInView(camera, place)) return false;
-    const bool hides = is_hidden(place);
-    hide(hidings_[index(cell)], hides, camera.position);
-    return !hides;
+    const std::optional<Eigen::Vector2d> by = hiding(place);
+    if (!by) {
+      seen_.push_back(cell);
+    } else if (const int at = floor_.cellAt(*by); at >= 0) {
+      Screen& screen = screens_[index(at)];
+      if (!screen.stands) screen = {true, clock_s_, clock_s_};
+      screen.last_s = clock_s_;
+    }
+    return !by;
   });
+  for (const int cell : seen_) {
+    forCellsBetween(camera.position, floor_.center(cell), [&](int between) {
+      Screen& screen = screens_[index(between)];
+      screen.stands = screen.stands && screen.last_s == clock_s_;
+    });
+  }
 }
 
-// From wherever else it is hidden, too, it is so from all between.
-void SearchMap::hide(Hiding& hiding, bool hides, const Eigen::Vector2d& from) const {
-  if (!hides || !hiding.hides || clock_s_ - hiding.last_s > kStays_s) {
-    hiding = {hides, from, params_.view_spacing_m, clock_s_, clock_s_};
+// What has stood for a time stays for as long again,
+bool SearchMap::bars(const Screen& screen) const {
+  return screen.stands &&
+         clock_s_ - screen.last_s <= screen.last_s - screen.first_s + params_.look_s;
+}
+
+// and by then has gone by the half.
+double SearchMap::passes(const Screen& screen, double in_s) const {
+  if (!screen.stands) return 1.0;
+  const double since_s = clock_s_ - screen.last_s + in_s;
+  return since_s / (since_s + screen.last_s - screen.first_s + params_.look_s);
+}
+
+// What is in the way is one thing, in however many cells.
+double SearchMap::passes(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                         double in_s) const {
+  double least = 1.0;
+  forCellsBetween(from, to, [&](int between) {
+    least = std::min(least, passes(screens_[index(between)], in_s));
+  });
+  return least;
+}
+
+template <typename Use>
+void SearchMap::forCellsBetween(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                                Use use) const {
+  const int steps = static_cast<int>(std::ceil((to - from).norm() / (0.5 * floor_.cellSize_m())));
+  int last = -1;
+  for (int i = 0; i <= steps; ++i) {
+    const int cell =
+        floor_.cellAt(from + static_cast<double>(i) / std::max(steps, 1) * (to - from));
+    if (cell >= 0 && cell != last) use(cell);
+    last = cell;
   }
-  hiding.within_m = std::max(hiding.within_m, (from - hiding.from).norm() + params_.view_spacing_m);
-  hiding.last_s = clock_s_;
 }
 
 void SearchMap::scan(const LaserScan& scan, const FloorPose& scanner, double elapsed_s) {
@@ -296,12 +338,6 @@ SearchMap::Bearings SearchMap::chancesAround(std::size_t view, double in_s) cons
   const int cell = view_cells_[view];
   const int x0 = cell % floor_.width(), y0 = cell / floor_.width();
   const Eigen::Vector2d from = floor_.center(cell);
-  // What has hidden a place for a time goes on for that time: it has gone by then by the half.
-  const auto shows = [&](const Hiding& hiding) {
-    if (!hiding.isFrom(from)) return 1.0;
-    const double since_s = clock_s_ - hiding.last_s + in_s;
-    return since_s / (since_s + hiding.last_s - hiding.first_s + params_.look_s);
-  };
   const int high_x = std::min(floor_.width() - 1, x0 + reach_cells_);
   const int high_y = std::min(floor_.height() - 1, y0 + reach_cells_);
   for (int y = std::max(0, y0 - reach_cells_); y <= high_y; ++y) {
@@ -310,7 +346,7 @@ SearchMap::Bearings SearchMap::chancesAround(std::size_t view, double in_s) cons
       if (belief_[index(c)] < kNoChance || !is_visible_[visibleIndex(view, c)]) continue;
       const double turns = std::atan2(y - y0, x - x0) / (2.0 * kPi) + 1.0;
       chances[static_cast<std::size_t>(turns * kBearings) % kBearings] +=
-          shows(hidings_[index(c)]) * belief_[index(c)];
+          passes(from, floor_.center(c), in_s) * belief_[index(c)];
     }
   }
   return chances;

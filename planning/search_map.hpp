@@ -77,12 +77,14 @@ class SearchMap {
   void spread(double elapsed_s);
 
   /// The camera has looked from here for a while, and the person was not found.
-  /// @param is_hidden  Whether something that the map does not show stands before a place. It is
-  ///                   taken to hide it from all around here for as long again as it has till then.
+  /// @param hiding  Where something that the map does not show hides a place, if it does. It is
+  ///                taken to stand there, and nobody to walk through it, for as long again as it
+  ///                has till then.
   void look(const FloorPose& camera, double elapsed_s,
-            FunctionRef<bool(const Eigen::Vector2d&)> is_hidden);
+            FunctionRef<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)> hiding);
   void look(const FloorPose& camera, double elapsed_s) {
-    look(camera, elapsed_s, [](const Eigen::Vector2d&) { return false; });
+    look(camera, elapsed_s,
+         [](const Eigen::Vector2d&) -> std::optional<Eigen::Vector2d> { return std::nullopt; });
   }
 
   /// The laser has scanned from here for a while: nobody is where its beams went through.
@@ -108,22 +110,20 @@ class SearchMap {
   using Shares = std::array<double, kHeadings>;    ///< Of one cell, by way.
   using Bearings = std::array<double, kBearings>;  ///< Of what is in view, to the left from +X.
 
-  /// Something that the map does not show stood before a cell.
-  struct Hiding {
-    bool hides = false;
-    Eigen::Vector2d from = Eigen::Vector2d::Zero();  ///< As seen from here,
-    double within_m = 0.0;                           ///< and so far around,
-    double first_s = 0.0, last_s = 0.0;              ///< on the clock.
-
-    bool isFrom(const Eigen::Vector2d& place) const {
-      return hides && (place - from).norm() <= within_m;
-    }
+  /// Something that the map does not show stands in a cell, and hides what is behind it.
+  struct Screen {
+    bool stands = false;
+    double first_s = 0.0, last_s = 0.0;  ///< When it was seen, on the clock.
   };
 
   void turn();
   void walk();
   void sumUp();
-  void hide(Hiding& hiding, bool hides, const Eigen::Vector2d& from) const;
+  bool bars(const Screen& screen) const;
+  double passes(const Screen& screen, double in_s) const;
+  double passes(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double in_s) const;
+  template <typename Use>
+  void forCellsBetween(const Eigen::Vector2d& from, const Eigen::Vector2d& to, Use use) const;
   void findViews();
   void thin(double elapsed_s, FunctionRef<bool(int cell)> is_empty);
   bool isSeenThrough(const LaserScan& scan, const FloorPose& scanner,
@@ -139,7 +139,8 @@ class SearchMap {
   std::vector<Shares> next_;
   std::vector<double> belief_;
   std::vector<Shares> others_;     ///< Memory of start(), as the next are.
-  std::vector<Hiding> hidings_;    ///< By cell.
+  std::vector<Screen> screens_;    ///< By cell.
+  std::vector<int> seen_;          ///< Cells in a look; memory of look().
   std::vector<float> walked_m_;    ///< From where the person was last seen.
   std::vector<double> reached_s_;  ///< On the clock: nobody can have walked there sooner.
   CoarseFloor::Open open_;

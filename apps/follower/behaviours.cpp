@@ -109,7 +109,8 @@ std::optional<Intent> SearchForTarget::step(const Situation& now, const Ways& wa
     intent.reason = "waits: there is no map";
     return intent;
   }
-  // From near a place that it can not reach, a shut door's, it does not see what it would from there.
+  // From near a place that it can not reach, a shut door's, it does not see what it would from
+  // there.
   const auto way_m = [&](const Vector2d& place) {
     const GlobalPlan& plan = ways.plan(now.robot.position, place);
     return plan.status == PlanStatus::kFound ? plan.length_m

@@ -4,11 +4,13 @@
 #include <heel/apps/follower/depth_sight.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace heel {
 namespace {
 
+constexpr std::array<double, 3> kTrunk_m = {0.9, 1.2, 1.5};  // Heights of somebody's trunk.
 constexpr double kClose_m = 0.3;  // As much apart a surface may be and still go on.
 // Shares of what is observed in simulated rooms, of people and of things: those that are seen
 // through, and as many whose surface goes on at both sides.
@@ -17,26 +19,26 @@ constexpr double kOfThings = 0.2;
 
 }  // namespace
 
-DepthSight::Depth DepthSight::compare(const Eigen::Vector2d& place_m, double height_m,
-                                      double tolerance_m) const {
+DepthSight::Seen DepthSight::compare(const Eigen::Vector2d& place_m, double height_m,
+                                     double tolerance_m) const {
   const Eigen::Vector3d p = T_camera_frame_ * Eigen::Vector3d(place_m.x(), place_m.y(), height_m);
   const Eigen::Vector2d pixel = project(camera_, p);
   const Eigen::Array2d size(depth_m_.cols, depth_m_.rows);
   if (!(p.z() > 0.1 && (pixel.array() >= 0.0).all() && (pixel.array() < size).all())) {
-    return Depth::kOutside;
+    return {Depth::kOutside, 0.0};
   }
   const Eigen::Vector2i at = pixel.cast<int>();
   const auto depth = static_cast<double>(depth_m_.at<float>(at.y(), at.x()));
-  if (!(depth > 0.0)) return Depth::kNone;
-  const double behind_m = depth - p.z();
-  if (behind_m > tolerance_m) return Depth::kFarther;
-  return behind_m < -tolerance_m ? Depth::kNearer : Depth::kSame;
+  if (!(depth > 0.0)) return {Depth::kNone, 0.0};
+  const double behind_m = depth - p.z(), share = depth / p.z();
+  if (behind_m > tolerance_m) return {Depth::kFarther, share};
+  return {behind_m < -tolerance_m ? Depth::kNearer : Depth::kSame, share};
 }
 
 Sight DepthSight::at(const Eigen::Vector2d& place_m, double tolerance_m) const {
   int hidden = 0, free = 0, outside = 0;
-  for (const double height_m : {0.9, 1.2, 1.5}) {
-    const Depth depth = compare(place_m, height_m, tolerance_m);
+  for (const double height_m : kTrunk_m) {
+    const Depth depth = compare(place_m, height_m, tolerance_m).depth;
     outside += depth == Depth::kOutside ? 1 : 0;
     free += depth == Depth::kFarther ? 1 : 0;
     hidden += depth == Depth::kNearer ? 1 : 0;
@@ -44,6 +46,17 @@ Sight DepthSight::at(const Eigen::Vector2d& place_m, double tolerance_m) const {
   if (outside >= 2) return Sight::kOutside;
   if (free >= 2) return Sight::kFree;
   return hidden >= 2 ? Sight::kHidden : Sight::kUnknown;
+}
+
+std::optional<Eigen::Vector2d> DepthSight::hiding(const Eigen::Vector2d& place_m) const {
+  if (at(place_m) != Sight::kHidden) return std::nullopt;
+  double nearest = 1.0;
+  for (const double height_m : kTrunk_m) {
+    const Seen seen = compare(place_m, height_m, 0.0);
+    if (seen.depth == Depth::kNearer) nearest = std::min(nearest, seen.share);
+  }
+  const Eigen::Vector2d camera_m = T_camera_frame_.inverse().translation().head<2>();
+  return camera_m + nearest * (place_m - camera_m);
 }
 
 double DepthSight::logPerson(const Eigen::Vector2d& place_m, const Eigen::Vector2d& side_m,
@@ -56,7 +69,7 @@ double DepthSight::logPerson(const Eigen::Vector2d& place_m, const Eigen::Vector
   for (const double side : {-1.0, 1.0}) {
     int same = 0, farther = 0;
     for (const double height_m : {0.5, 0.7, 0.9, 1.1, 1.3, 1.5}) {
-      const Depth depth = compare(place_m + side * side_m, height_m, tolerance_m);
+      const Depth depth = compare(place_m + side * side_m, height_m, tolerance_m).depth;
       same += depth == Depth::kSame ? 1 : 0;
       farther += depth == Depth::kFarther ? 1 : 0;
     }

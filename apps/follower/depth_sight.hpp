@@ -11,6 +11,8 @@
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>
 
+#include <optional>
+
 namespace heel {
 
 /// Places are in the frame that T_camera_frame maps from: x, y on the floor, z up.
@@ -24,6 +26,9 @@ class DepthSight {
   /// By three points of somebody's trunk there: depths as near to it as this may be theirs.
   Sight at(const Eigen::Vector2d& place_m, double tolerance_m = 0.4) const;
 
+  /// Where what hides a place is, on the way to it; absent unless something does.
+  std::optional<Eigen::Vector2d> hiding(const Eigen::Vector2d& place_m) const;
+
   /// Logarithm of the odds that what was observed there is a person, not a thing, by its shape: a
   /// person's trunk is not seen through, and what is as far away does not go on at both sides.
   /// @param side_m  To the left, as seen from the camera: as long as nobody's body is wide.
@@ -33,7 +38,11 @@ class DepthSight {
 
  private:
   enum class Depth { kNone, kOutside, kNearer, kSame, kFarther };
-  Depth compare(const Eigen::Vector2d& place_m, double height_m, double tolerance_m) const;
+  struct Seen {
+    Depth depth;
+    double share;  // of the way to the place, on which it is
+  };
+  Seen compare(const Eigen::Vector2d& place_m, double height_m, double tolerance_m) const;
 
   const cv::Mat& depth_m_;
   PinholeCamera camera_;

@@ -218,8 +218,11 @@ void Follower::lookAround(const RobotReadings& readings) {
     if (search_) {
       const FloorPose then = pose * motion_.seenFromNow(frame_s_);
       search_->look(then, obstacles_age_s_,
-                    [sight = things_.sight(), T_then_world = then.inverse()](const Vector2d& p) {
-                      return sight.at(T_then_world * p) == Sight::kHidden;
+                    [&then, sight = things_.sight(),
+                     T_then_world = then.inverse()](const Vector2d& p) -> std::optional<Vector2d> {
+                      const auto by = sight.hiding(T_then_world * p);
+                      if (!by) return std::nullopt;
+                      return then * *by;
                     });
     }
     obstacles_age_s_ = 0.0;

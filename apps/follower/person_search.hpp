@@ -34,8 +34,8 @@ class PersonSearch {
   void wait(double elapsed_s) { map_.spread(elapsed_s); }
   /// They were not before the camera, which looked from here. @param is_hidden  See SearchMap.
   void look(const FloorPose& camera, double elapsed_s,
-            FunctionRef<bool(const Eigen::Vector2d&)> is_hidden) {
-    map_.look(camera, elapsed_s, is_hidden);
+            FunctionRef<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)> hiding) {
+    map_.look(camera, elapsed_s, hiding);
   }
   /// Nor where the laser's beams went through.
   void scan(const LaserScan& scan, const FloorPose& scanner, double elapsed_s) {

@@ -7,9 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
 namespace heel {
@@ -162,12 +164,19 @@ TEST(SearchMap, WhatTheCameraLookedAtLosesItsShare) {
   EXPECT_GT(hidden_gain, 1.0);
 }
 
+/// Something stands a little before each place, as seen from here.
+std::optional<Eigen::Vector2d> justBefore(const Eigen::Vector2d& place,
+                                          const Eigen::Vector2d& eye) {
+  return place - 0.3 * (place - eye).normalized();
+}
+
 TEST(SearchMap, WhoIsHiddenByWhatNoMapShowsMayBeThere) {
   SearchMap looks = threeRooms();
   looks.start(kMiddle, {0.0, 0.0});
   looks.spread(10.0);
   const std::vector<double> before = looks.belief();
-  looks.look({{2.71, 2.13}, 0.0}, 1.0, [](const Eigen::Vector2d&) { return true; });
+  const Eigen::Vector2d eye(2.71, 2.13);
+  looks.look({eye, 0.0}, 1.0, [&](const Eigen::Vector2d& p) { return justBefore(p, eye); });
   for (std::size_t c = 0; c < before.size(); ++c) ASSERT_NEAR(looks.belief()[c], before[c], 1e-12);
 }
 
@@ -176,8 +185,7 @@ TEST(SearchMap, LooksFromElsewhereAtWhatIsHidden) {
   map.start({7.5, 3.7}, {0.0, 0.0});
   map.spread(0.5);
   const FloorPose robot = map.nextView({kMiddle, 0.0})->camera;
-  const auto is_hidden = [](const Eigen::Vector2d&) { return true; };
-  map.look(robot, 1.0, is_hidden);
+  map.look(robot, 1.0, [&](const Eigen::Vector2d& p) { return justBefore(p, robot.position); });
   const auto next = map.nextView(robot);
   ASSERT_TRUE(next);
   EXPECT_GT((next->camera.position - robot.position).norm(), 0.6);
@@ -185,7 +193,7 @@ TEST(SearchMap, LooksFromElsewhereAtWhatIsHidden) {
   EXPECT_GT(next->chance, 0.5);
 
   map.look(robot, 1.0);
-  EXPECT_LT((map.nextView(robot)->camera.position - robot.position).norm(), 0.61)
+  EXPECT_LT((map.nextView(robot)->camera.position - robot.position).norm(), 0.9)
       << "nothing hides them any more";
 }
 
@@ -196,11 +204,54 @@ TEST(SearchMap, WhatIsHiddenFromEverywhereIsLookedForAllTheSame) {
   for (double x = 0.5; x < 8.0; x += 0.5) {
     for (double y = 0.5; y < 4.0; y += 0.5) {
       for (double yaw = -3.0; yaw < 3.0; yaw += 0.5) {
-        map.look({{x, y}, yaw}, 0.1, [](const Eigen::Vector2d&) { return true; });
+        const Eigen::Vector2d eye(x, y);
+        map.look({eye, yaw}, 0.1, [&](const Eigen::Vector2d& p) { return justBefore(p, eye); });
       }
     }
   }
   EXPECT_TRUE(map.nextView({kMiddle, 0.0}));
+}
+
+/// A door at X = kRightDoor - 0.1 is shut.
+std::optional<Eigen::Vector2d> byShutDoor(const Eigen::Vector2d& place,
+                                          const Eigen::Vector2d& eye) {
+  const double door_x = kRightDoor - 0.1;
+  if (place.x() < door_x || eye.x() > door_x) return std::nullopt;
+  return eye + (door_x - eye.x()) / (place.x() - eye.x()) * (place - eye);
+}
+
+// Bug: the robot looked at a shut door for minutes, from one place after the other.
+TEST(SearchMap, WhatAShutDoorHidesIsHiddenFromAllOfTheRoomBeforeIt) {
+  SearchMap map = threeRooms();
+  map.start({7.5, 3.7}, {0.0, 0.0});
+  map.spread(0.5);
+  const Eigen::Vector2d eye(4.0, 2.1);
+  for (int i = 0; i < 600; ++i) {
+    map.spread(0.1);
+    map.look({eye, 0.0}, 0.1, [&](const Eigen::Vector2d& p) { return byShutDoor(p, eye); });
+  }
+  const auto next = map.nextView({eye, 0.0});
+  ASSERT_TRUE(next);
+  EXPECT_GT(next->camera.position.x(), kRightDoor - 0.1) << "from before it, nothing is seen";
+}
+
+TEST(SearchMap, NobodyWalksThroughAShutDoor) {
+  const Eigen::Vector2d eye(4.0, 2.1);
+  std::array<double, 2> behind{};
+  for (const bool is_shut : {false, true}) {
+    SearchMap map = threeRooms();
+    map.start(kMiddle, {1.0, 0.0});
+    map.spread(0.3);
+    for (int i = 0; i < 200; ++i) {
+      map.spread(0.1);
+      map.look({eye, 0.0}, 0.0, [&](const Eigen::Vector2d& p) {
+        return is_shut ? byShutDoor(p, eye) : std::nullopt;
+      });
+    }
+    behind[is_shut ? 1 : 0] = rightRoom(map);
+  }
+  EXPECT_GT(behind[0], 0.1);
+  EXPECT_LT(behind[1], 0.2 * behind[0]);
 }
 
 TEST(SearchMap, WhatWasBelievedStaysAsFarAsItWasSomebodyElse) {

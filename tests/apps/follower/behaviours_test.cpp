@@ -143,7 +143,8 @@ TEST_F(BehavioursTest, LooksFromAPlaceThenGoesOn) {
   behaviour.note({true, true});
   now.robot = {*first.go_to, 0.0};
   for (double yaw = 0.0; yaw < 6.3; yaw += 0.5) {
-    search.look({now.robot.position, yaw}, 10.0, [](const Vector2d&) { return false; });
+    search.look({now.robot.position, yaw}, 10.0,
+                [](const Vector2d&) -> std::optional<Vector2d> { return std::nullopt; });
   }
   const Intent next = *floor.ask(behaviour, now);
   EXPECT_TRUE(next.is_new);

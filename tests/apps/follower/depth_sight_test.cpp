@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <optional>
 
 namespace heel {
 namespace {
@@ -41,6 +42,9 @@ class Depths {
     return sight().logPerson(kPlace, kSide, depth_sigma_m);
   }
   Sight at(const Eigen::Vector2d& place_m) const { return sight().at(place_m); }
+  std::optional<Eigen::Vector2d> hiding(const Eigen::Vector2d& place_m) const {
+    return sight().hiding(place_m);
+  }
 
  private:
   DepthSight sight() const { return {image_, kCamera, cameraFromFloor()}; }
@@ -54,6 +58,14 @@ TEST(DepthSight, TellsWhatIsBeforeAPlaceAndBehindIt) {
   EXPECT_EQ(wall.at({4.0, 0.0}), Sight::kHidden);
   EXPECT_EQ(wall.at({-2.0, 0.0}), Sight::kOutside);
   EXPECT_EQ(wall.at({2.0, 3.0}), Sight::kOutside);
+}
+
+TEST(DepthSight, TellsWhereWhatHidesAPlaceIs) {
+  const Depths board = Depths(6.0F).board(2.0, 0.5, 0.1);
+  ASSERT_TRUE(board.hiding({4.0, 0.4}));
+  EXPECT_LT((*board.hiding({4.0, 0.4}) - Eigen::Vector2d(2.0, 0.2)).norm(), 1e-6);
+  EXPECT_FALSE(board.hiding({4.0, -0.4})) << "it is seen beside the board";
+  EXPECT_FALSE(board.hiding({2.0, 0.0})) << "it is the board's";
 }
 
 TEST(DepthSight, WhoStandsInTheOpenIsRatherAPerson) {
