@@ -46,18 +46,20 @@ std::optional<std::array<cv::Point2f, 4>> cornersOf(const BodyView& view,
   return corners;
 }
 
-/// Whether at least half of whoever stands in the middle of the board is in the picture.
+/// Whether whoever stands in the middle of the board is in the picture from side to side, and at
+/// least half of their height.
 bool isInPicture(const std::array<cv::Point2f, 4>& corners, const cv::Size& picture) {
-  int in = 0, all = 0;
+  const cv::Rect2f all(cv::Point2f(), picture);
+  int in = 0;
   for (const float down : {0.2F, 0.35F, 0.5F, 0.65F, 0.8F}) {
-    for (const float right : {0.35F, 0.65F}) {
+    const auto isSideIn = [&](float right) {
       const cv::Point2f upper = corners[0] + right * (corners[1] - corners[0]);
       const cv::Point2f lower = corners[3] + right * (corners[2] - corners[3]);
-      in += cv::Rect2f(cv::Point2f(), picture).contains(upper + down * (lower - upper)) ? 1 : 0;
-      ++all;
-    }
+      return all.contains(upper + down * (lower - upper));
+    };
+    in += isSideIn(0.35F) && isSideIn(0.65F) ? 1 : 0;
   }
-  return 2 * in >= all;
+  return in >= 3;
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ class PersonOutline {
  public:
   PersonOutline();
 
-  /// The classifier's value; nothing where less than half of a person would be in the picture.
+  /// The classifier's value; nothing where a person would not be in the picture from side to side,
+  /// and at least half of their height.
   ///
   /// @param view     Its depth is not used.
   /// @param place_m  In the base frame.

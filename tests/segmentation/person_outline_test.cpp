@@ -74,6 +74,14 @@ TEST_F(PersonOutlineTest, SaysNothingOfWhoIsOutOfThePicture) {
   EXPECT_EQ(outline_.logPerson(view_, {-4.0, 0.0}), 0.0);
 }
 
+// Bug: who stood at the picture's edge was a thing, for they had but one side.
+TEST_F(PersonOutlineTest, SaysNothingOfWhoIsCutByThePicture) {
+  EXPECT_TRUE(outline_.classify(view_, {1.5, 0.0})) << "without feet";
+  EXPECT_FALSE(outline_.classify(view_, {1.0, 0.0})) << "too near";
+  EXPECT_TRUE(outline_.classify(view_, {4.0, 2.3}));
+  EXPECT_FALSE(outline_.classify(view_, {4.0, 2.5}));
+}
+
 TEST_F(PersonOutlineTest, OneLookIsNeverSure) {
   for (double y = -1.0; y < 1.0; y += 0.1) {
     EXPECT_LT(std::abs(outline_.logPerson(view_, {3.0, y})), 1.5);
