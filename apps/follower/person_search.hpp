@@ -32,7 +32,7 @@ class PersonSearch {
   void lose(const MovingPerson& last, double unseen_s, double probability);
   /// Time goes by without them.
   void wait(double elapsed_s) { map_.spread(elapsed_s); }
-  /// They were not before the camera, which looked from here. @param is_hidden  See SearchMap.
+  /// They were not before the camera, which looked from here. @param hiding  See SearchMap.
   void look(const FloorPose& camera, double elapsed_s,
             FunctionRef<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)> hiding) {
     map_.look(camera, elapsed_s, hiding);
