@@ -133,27 +133,18 @@ void SearchForTarget::tell(FollowingFacts& facts) const {
   facts[FollowingCondition::kSearchOver] = search_ != nullptr && search_->isOver();
 }
 
-// As the person is followed, but from where all of them is in view.
-GoalChooserParams LookWhoThatIs::fromFurther(GoalChooserParams goal, double further_m) {
-  for (double* away_m : {&goal.standoff_m, &goal.least_standoff_m, &goal.most_standoff_m}) {
-    *away_m += further_m;
-  }
-  return goal;
-}
-
 LookWhoThatIs::LookWhoThatIs(const Premises& premises, const FollowerParams& params)
     : first_looks_s_(params.first_looks_s),
       look_share_(params.look_share),
       ahead_rad_(params.ahead_rad),
-      further_m_(params.look_from_m - params.goal.standoff_m),
-      near_m_(params.goal.least_standoff_m + further_m_),
-      far_m_(params.far_m + further_m_),
-      there_(premises, fromFurther(params.goal, further_m_)) {}
+      near_m_(params.goal.least_standoff_m),
+      far_m_(params.far_m),
+      nearer_(premises, params.goal) {}
 
 void LookWhoThatIs::watch(const Situation& now) {
   if (!now.target) return;
   looked_s_ = 0.0;
-  there_.begin(now);
+  nearer_.begin(now);
 }
 
 bool LookWhoThatIs::wants(const Situation& now) const {
@@ -172,7 +163,7 @@ std::optional<Intent> LookWhoThatIs::step(const Situation& now, const Ways& ways
   if (off_m < near_m_ || (is_ahead && off_m > far_m_)) {
     MovingPerson person;
     person.position = place;
-    intent.go_to = there_.placeBy(person, now, ways);
+    intent.go_to = nearer_.placeBy(person, now, ways);
     intent.keep_in_view = place;
   }
   return intent;

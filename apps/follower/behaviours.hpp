@@ -125,10 +125,8 @@ class LookWhoThatIs : public Behaviour {
   std::optional<Intent> step(const Situation& now, const Ways& ways) override;
 
  private:
-  static GoalChooserParams fromFurther(GoalChooserParams goal, double further_m);
-
-  double first_looks_s_, look_share_, ahead_rad_, further_m_, near_m_, far_m_;
-  FollowTarget there_;
+  double first_looks_s_, look_share_, ahead_rad_, near_m_, far_m_;
+  FollowTarget nearer_;
   double looked_s_ = 0.0;  // since the person was lost
 };
 

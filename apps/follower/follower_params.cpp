@@ -12,13 +12,13 @@ namespace heel {
 namespace {
 
 void check(const FollowerParams& p) {
-  requireNotNegative("FollowerParams",
-                     {p.near_m,          p.far_m,           p.beside_m,        p.makes_room_s,
-                      p.waits_aside_s,   p.no_frame_s,      p.lost_after_s,    p.worth_a_look,
-                      p.walks_on_s,      p.first_looks_s,   p.look_share,      p.seek_radps,
-                      p.ahead_rad,       p.lost_turn_radps, p.give_up_s,       p.surely_person,
-                      p.beside_people_m, p.target_radius_m, p.mapped_within_m, p.obstacles_every_s,
-                      p.look_from_m});
+  requireNotNegative(
+      "FollowerParams",
+      {p.near_m,          p.far_m,           p.beside_m,        p.makes_room_s,
+       p.waits_aside_s,   p.no_frame_s,      p.lost_after_s,    p.worth_a_look,
+       p.walks_on_s,      p.first_looks_s,   p.look_share,      p.seek_radps,
+       p.ahead_rad,       p.lost_turn_radps, p.give_up_s,       p.surely_person,
+       p.beside_people_m, p.target_radius_m, p.mapped_within_m, p.obstacles_every_s});
   if (p.near_m > p.far_m) {
     throw std::invalid_argument("FollowerParams: near_m must not be greater than far_m");
   }
@@ -38,22 +38,6 @@ CameraView viewOf(const CameraSetup& setup, const ObstaclePointsParams& points) 
   view.nearest_m = points.nearest_m;
   view.range_m = points.max_range_m;
   return view;
-}
-
-// From where all of a person is in view, from the floor to their head; no further than people are
-// told apart well.
-double wholeInView_m(const CameraSetup& setup) {
-  constexpr double kPerson_m = 1.75, kLeast_m = 1.0, kMost_m = 3.0;
-  const PinholeCamera& camera = setup.camera.left;
-  const double eye_m = setup.T_base_camera.translation().z();
-  const double down_rad = -std::asin(std::clamp(setup.T_base_camera.linear()(2, 2), -1.0, 1.0));
-  const auto away_m = [](double height_m, double angle_rad) {
-    return angle_rad > 0.0 ? height_m / std::tan(angle_rad) : kMost_m;
-  };
-  const double half_rad = std::atan2(0.5 * camera.height, camera.fy);
-  return std::clamp(
-      std::max(away_m(eye_m, half_rad + down_rad), away_m(kPerson_m - eye_m, half_rad - down_rad)),
-      kLeast_m, kMost_m);
 }
 
 }  // namespace
@@ -100,9 +84,6 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   gate.sight.cameras = {viewOf(robot.camera, params.obstacle_points)};
   if (robot.floor_camera) {
     gate.sight.cameras.push_back(viewOf(*robot.floor_camera, params.floor_points));
-  }
-  if (isCalibrated(robot.camera.camera.left)) {
-    params.look_from_m = wholeInView_m(robot.camera);
   }
   if (const double half_rad = robot.halfView_rad(); half_rad > 0.0) {
     // A narrow camera sees no more than it does; a wide one sees badly at its rims.

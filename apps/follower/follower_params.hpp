@@ -47,7 +47,7 @@ struct RobotDescription {
 /// drive.limits, search.map.limits, paths.robot_radius_m, goal.radius_m, wayside.radius_m,
 /// obstacles.min_height_m, obstacles.max_height_m, obstacles.laser_height_m,
 /// obstacle_points.max_height_m, floor_points.max_height_m, gate.eye_height_m, and of last_gate all
-/// but margin_m and sight.remembers_s, and look_from_m; see fittedTo().
+/// but margin_m and sight.remembers_s; see fittedTo().
 struct FollowerParams {
   LearnPersonParams learn;
   PerceptionParams perception;
@@ -78,8 +78,6 @@ struct FollowerParams {
   double lost_after_s = 0.5;   ///< Without the target's place for longer, it is lost.
   /// While the target is lost, somebody who is it with more than this probability is looked at.
   double worth_a_look = 0.05;
-  /// Who that is, is looked at from so far away: then all of them is in view.
-  double look_from_m = 2.0;
   /// Somebody who walked is expected to walk on for so long: where they may be is looked at first,
   /// and avoided.
   double walks_on_s = 2.0;

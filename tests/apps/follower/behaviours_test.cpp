@@ -107,8 +107,8 @@ TEST_F(BehavioursTest, LooksAtWhoMayBeThePersonButNotForever) {
   EXPECT_FALSE(floor.ask(look, now)) << "nobody may be";
   now.suspect = Vector2d(0.0, 3.0);
   EXPECT_EQ(*floor.ask(look, now)->look_at, *now.suspect);
-  now.suspect = Vector2d(4.0, 0.0);
-  EXPECT_LT((*floor.ask(look, now)->go_to - Vector2d(4.0 - params.look_from_m, 0.0)).norm(), 0.1)
+  now.suspect = Vector2d(3.0, 0.0);
+  EXPECT_LT((*floor.ask(look, now)->go_to - Vector2d(2.0, 0.0)).norm(), 0.1)
       << "ahead: from nearer more is seen";
   now.suspect = Vector2d(0.5, 0.0);
   EXPECT_LT(floor.ask(look, now)->go_to->x(), -0.25) << "too near to see all of them";

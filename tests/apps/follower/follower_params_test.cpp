@@ -50,26 +50,6 @@ TEST(FollowerParams, ANarrowCameraSeesNoMoreThanItDoes) {
   EXPECT_LT(narrow.drive.terms.half_view_rad, 0.3);
 }
 
-TEST(FollowerParams, WhoSomebodyIsIsLookedAtFromWhereAllOfThemIsInView) {
-  const auto lookFrom_m = [](double eye_m, double down_rad) {
-    RobotDescription robot = robotWithHalfView(0.6);
-    PinholeCamera& camera = robot.camera.camera.left;
-    camera.height = 240;
-    camera.fy = 120.0 / std::tan(0.4);  // It sees 0.4 rad up, and as much down.
-    Eigen::Matrix3d ahead;
-    ahead << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-    robot.camera.T_base_camera.linear() =
-        Eigen::AngleAxisd(down_rad, Eigen::Vector3d::UnitY()) * ahead;
-    robot.camera.T_base_camera.translation().z() = eye_m;
-    return fittedTo(robot, {}).look_from_m;
-  };
-  EXPECT_NEAR(lookFrom_m(1.0, 0.0), 1.0 / std::tan(0.4), 1e-9) << "their feet";
-  EXPECT_NEAR(lookFrom_m(0.75, 0.0), 1.0 / std::tan(0.4), 1e-9) << "their head";
-  EXPECT_NEAR(lookFrom_m(1.0, 0.1), 0.75 / std::tan(0.3), 1e-9);
-  EXPECT_EQ(lookFrom_m(1.0, 0.5), 3.0) << "it never sees their head";
-  EXPECT_EQ(fittedTo({}, {}).look_from_m, FollowerParams().look_from_m) << "nothing is known";
-}
-
 TEST(FollowerParams, ThatMakeNoSenseAreRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<std::function<void(FollowerParams&)>> mistakes = {
