@@ -36,13 +36,10 @@ double untilThere(double from, double to, double acceleration) {
   return left_s > kSoon_s ? left_s : std::numeric_limits<double>::infinity();
 }
 
-// Or to a stand, from where on it changes otherwise.
 double untilThere(const DriveLimits& limits, const VelocityCommand& from,
                   const VelocityCommand& to) {
-  const double a = from.forward_mps, b = to.forward_mps;
-  const bool stops = a * b < 0.0, brakes = stops || std::abs(b) < std::abs(a);
-  return std::min(untilThere(a, stops ? 0.0 : b,
-                             brakes ? limits.max_braking_mps2 : limits.max_acceleration_mps2),
+  const EvenChange forward = changeOf(limits, from.forward_mps, to.forward_mps);
+  return std::min(untilThere(from.forward_mps, forward.to, forward.rate),
                   untilThere(from.turn_radps, to.turn_radps, limits.max_turn_acceleration_radps2));
 }
 

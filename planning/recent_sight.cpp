@@ -165,6 +165,11 @@ bool RecentSight::middleOf(Parts first, Parts end, Vector2d& at) {
   return count > 0;
 }
 
+RecentSight::Parts RecentSight::partsSince(Parts end, double stamp_s) const {
+  return std::lower_bound(parts_.begin(), end, stamp_s,
+                          [](const Part& part, double s) { return part.stamp_s < s; });
+}
+
 // How somebody walks by the middle of their parts, from scan to scan back for a stride: one leg
 // stands while the other swings.
 void RecentSight::tellWalk(SeenThing& thing) const {
@@ -173,8 +178,7 @@ void RecentSight::tellWalk(SeenThing& thing) const {
   Vector2d at = thing.place, now = at;
   for (Parts end = parts_.end(); end != parts_.begin();) {
     const double stamp_s = std::prev(end)->stamp_s;
-    const Parts first = std::lower_bound(parts_.begin(), end, stamp_s,
-                                         [](const Part& p, double s) { return p.stamp_s < s; });
+    const Parts first = partsSince(end, stamp_s);
     if (!middleOf(first, end, at)) break;
     end = first;
     const double in_s = thing.seen_s - stamp_s;
@@ -242,8 +246,7 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
                        return (is_old && !is_kept) || (by_laser && sees(look, thing.place));
                      }),
       things_.end());
-  const auto is_old = [&](const Part& part) { return stamp_s - part.stamp_s > kStride_s; };
-  parts_.erase(parts_.begin(), std::find_if_not(parts_.begin(), parts_.end(), is_old));
+  parts_.erase(parts_.begin(), partsSince(parts_.end(), stamp_s - kStride_s));
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range_m = static_cast<double>(scan.ranges_m[i]);
     if (!(range_m > 0.0 && range_m < range_m_)) continue;
@@ -328,8 +331,7 @@ void RecentSight::keep(const SeenThing& thing) {
 
 std::optional<Vector2d> RecentSight::bodyAround(const SeenThing& thing) const {
   if (!thing.is_somebody || thing.seen_s != newest_s()) return std::nullopt;
-  const auto isSeen = [&](const Part& part) { return part.stamp_s == newest_s(); };
-  const Parts first = std::find_if(parts_.begin(), parts_.end(), isSeen);
+  const Parts first = partsSince(parts_.end(), newest_s());
   const auto isOfLeg = [&](const Part& part) {
     return (part.place - thing.place).squaredNorm() < kLeg_m * kLeg_m;
   };

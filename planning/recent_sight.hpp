@@ -143,6 +143,7 @@ class RecentSight {
   const Look& lookBefore(std::size_t count) const;
   bool wasFree(const Eigen::Vector2d& place, const Look& now, const Look& before) const;
   double lastFree(const Eigen::Vector2d& place) const;
+  Parts partsSince(Parts end, double stamp_s) const;  // of those before `end`
   static bool middleOf(Parts first, Parts end, Eigen::Vector2d& at);
   void tellWalk(SeenThing& thing) const;
   void keep(const SeenThing& thing);

@@ -169,7 +169,7 @@ void SearchMap::walk() {
       }
       const double steps = way % 2 == 0 ? 1.0 : std::sqrt(0.5);
       const bool is_too_far = reached_s_[index(to)] > clock_s_;
-      const bool is_barred = is_too_far || bars(screens_[index(to)]);
+      const bool is_barred = is_too_far || passes(screens_[index(to)], 0.0) <= 0.5;
       const double walks = is_barred ? 0.0 : steps * speed_mps_ / kFastestWalk_mps;
       next_[index(to)][way] += walks * share;
       next_[c][way] += (1.0 - walks) * share;
@@ -203,13 +203,7 @@ void SearchMap::look(const FloorPose& camera, double elapsed_s,
   }
 }
 
-// What has stood for a time stays for as long again,
-bool SearchMap::bars(const Screen& screen) const {
-  return screen.stands &&
-         clock_s_ - screen.last_s <= screen.last_s - screen.first_s + params_.look_s;
-}
-
-// and by then has gone by the half.
+// What has stood for a time stays for that time: by then it has gone by the half.
 double SearchMap::passes(const Screen& screen, double in_s) const {
   if (!screen.stands) return 1.0;
   const double since_s = clock_s_ - screen.last_s + in_s;

@@ -119,7 +119,6 @@ class SearchMap {
   void turn();
   void walk();
   void sumUp();
-  bool bars(const Screen& screen) const;
   double passes(const Screen& screen, double in_s) const;
   double passes(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double in_s) const;
   template <typename Use>

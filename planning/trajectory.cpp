@@ -107,17 +107,24 @@ double roomAround(const DriveLimits& limits, const FloorPose& T_world_base, Clea
   return std::sqrt(std::max(least_m * least_m - beside_m * beside_m, 0.0)) - limits.radius_m;
 }
 
+EvenChange changeOf(const DriveLimits& limits, double from_mps, double to_mps) {
+  const bool stops = from_mps * to_mps < 0.0;
+  const bool brakes = stops || std::abs(to_mps) < std::abs(from_mps);
+  return {stops ? 0.0 : to_mps, brakes ? limits.max_braking_mps2 : limits.max_acceleration_mps2};
+}
+
 VelocityCommand speedAfter(const DriveLimits& limits, const VelocityCommand& from,
                            const VelocityCommand& to, double dt_s) {
   const auto towards = [](double a, double b, double most) {
     return a + std::clamp(b - a, -most, most);
   };
-  // Brakes first, as far as it gets.
-  const double a = from.forward_mps, b = to.forward_mps;
-  const double lowest = a * b > 0.0 ? std::copysign(std::min(std::abs(a), std::abs(b)), a) : 0.0;
-  const double braked = towards(a, lowest, limits.max_braking_mps2 * dt_s);
-  const double left_s = dt_s - std::abs(a - lowest) / limits.max_braking_mps2;
-  return {towards(braked, b, limits.max_acceleration_mps2 * std::max(left_s, 0.0)),
+  const EvenChange first = changeOf(limits, from.forward_mps, to.forward_mps);
+  const double left_s = dt_s - std::abs(first.to - from.forward_mps) / first.rate;
+  const double forward_mps =
+      first.to != to.forward_mps && left_s > 0.0
+          ? towards(first.to, to.forward_mps, limits.max_acceleration_mps2 * left_s)
+          : towards(from.forward_mps, first.to, first.rate * dt_s);
+  return {forward_mps,
           towards(from.turn_radps, to.turn_radps, limits.max_turn_acceleration_radps2 * dt_s)};
 }
 

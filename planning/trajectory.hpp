@@ -73,6 +73,16 @@ struct DriveState {
   VelocityCommand speed;
 };
 
+/// A speed that changes evenly: to there, at this rate.
+struct EvenChange {
+  double to;
+  double rate;
+};
+
+/// How a forward speed begins to change to another: one that is to go the other way brakes to a
+/// stand first.
+EvenChange changeOf(const DriveLimits& limits, double from_mps, double to_mps);
+
 /// The velocity `dt_s` later, if it goes from one to the other as fast as the limits allow.
 VelocityCommand speedAfter(const DriveLimits& limits, const VelocityCommand& from,
                            const VelocityCommand& to, double dt_s);

@@ -17,7 +17,7 @@ namespace heel {
 /// Something that is wrong for a while.
 struct Fault {
   enum class Kind {
-    kNoCamera,       ///< No images, of none.
+    kNoCamera,       ///< No images of any camera.
     kNoLaser,        ///< No scans.
     kWheelsSlip,     ///< The wheels turn a third faster than the robot moves, and to the left.
     kNoise,          ///< Images of noise.

@@ -4,13 +4,11 @@
 #include <heel/apps/follower/depth_sight.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace heel {
 namespace {
 
-constexpr std::array<double, 3> kTrunk_m = {0.9, 1.2, 1.5};  // Heights of somebody's trunk.
 constexpr double kClose_m = 0.3;  // As much apart a surface may be and still go on.
 // Shares of what is observed in simulated rooms, of people and of things: those that are seen
 // through, and as many whose surface goes on at both sides.
@@ -35,28 +33,26 @@ DepthSight::Seen DepthSight::compare(const Eigen::Vector2d& place_m, double heig
   return {behind_m < -tolerance_m ? Depth::kNearer : Depth::kSame, share};
 }
 
-Sight DepthSight::at(const Eigen::Vector2d& place_m, double tolerance_m) const {
+DepthSight::Trunk DepthSight::trunkAt(const Eigen::Vector2d& place_m, double tolerance_m) const {
   int hidden = 0, free = 0, outside = 0;
-  for (const double height_m : kTrunk_m) {
-    const Depth depth = compare(place_m, height_m, tolerance_m).depth;
-    outside += depth == Depth::kOutside ? 1 : 0;
-    free += depth == Depth::kFarther ? 1 : 0;
-    hidden += depth == Depth::kNearer ? 1 : 0;
+  double nearest = 1.0;
+  for (const double height_m : {0.9, 1.2, 1.5}) {
+    const Seen seen = compare(place_m, height_m, tolerance_m);
+    outside += seen.depth == Depth::kOutside ? 1 : 0;
+    free += seen.depth == Depth::kFarther ? 1 : 0;
+    hidden += seen.depth == Depth::kNearer ? 1 : 0;
+    if (seen.depth == Depth::kNearer) nearest = std::min(nearest, seen.share);
   }
-  if (outside >= 2) return Sight::kOutside;
-  if (free >= 2) return Sight::kFree;
-  return hidden >= 2 ? Sight::kHidden : Sight::kUnknown;
+  if (outside >= 2) return {Sight::kOutside, nearest};
+  if (free >= 2) return {Sight::kFree, nearest};
+  return {hidden >= 2 ? Sight::kHidden : Sight::kUnknown, nearest};
 }
 
 std::optional<Eigen::Vector2d> DepthSight::hiding(const Eigen::Vector2d& place_m) const {
-  if (at(place_m) != Sight::kHidden) return std::nullopt;
-  double nearest = 1.0;
-  for (const double height_m : kTrunk_m) {
-    const Seen seen = compare(place_m, height_m, 0.0);
-    if (seen.depth == Depth::kNearer) nearest = std::min(nearest, seen.share);
-  }
+  const Trunk trunk = trunkAt(place_m, kTolerance_m);
+  if (trunk.sight != Sight::kHidden) return std::nullopt;
   const Eigen::Vector2d camera_m = T_camera_frame_.inverse().translation().head<2>();
-  return camera_m + nearest * (place_m - camera_m);
+  return camera_m + trunk.nearest * (place_m - camera_m);
 }
 
 double DepthSight::logPerson(const Eigen::Vector2d& place_m, const Eigen::Vector2d& side_m,

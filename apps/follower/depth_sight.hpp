@@ -24,7 +24,9 @@ class DepthSight {
       : depth_m_(depth_m), camera_(camera), T_camera_frame_(T_camera_frame) {}
 
   /// By three points of somebody's trunk there: depths as near to it as this may be theirs.
-  Sight at(const Eigen::Vector2d& place_m, double tolerance_m = 0.4) const;
+  Sight at(const Eigen::Vector2d& place_m, double tolerance_m = kTolerance_m) const {
+    return trunkAt(place_m, tolerance_m).sight;
+  }
 
   /// Where what hides a place is, on the way to it; absent unless something does.
   std::optional<Eigen::Vector2d> hiding(const Eigen::Vector2d& place_m) const;
@@ -37,6 +39,13 @@ class DepthSight {
                    double depth_sigma_m) const;
 
  private:
+  static constexpr double kTolerance_m = 0.4;
+  struct Trunk {
+    Sight sight;
+    double nearest;  // share of the way to it, on which what hides it is
+  };
+  Trunk trunkAt(const Eigen::Vector2d& place_m, double tolerance_m) const;
+
   enum class Depth { kNone, kOutside, kNearer, kSame, kFarther };
   struct Seen {
     Depth depth;

@@ -221,8 +221,7 @@ void Follower::lookAround(const RobotReadings& readings) {
                     [&then, sight = things_.sight(),
                      T_then_world = then.inverse()](const Vector2d& p) -> std::optional<Vector2d> {
                       const auto by = sight.hiding(T_then_world * p);
-                      if (!by) return std::nullopt;
-                      return then * *by;
+                      return by ? std::optional<Vector2d>(then * *by) : std::nullopt;
                     });
     }
     obstacles_age_s_ = 0.0;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/simulation/camera_model.hpp>
+#include <heel/cloud/ground_plane.hpp>
 
 #include <opencv2/imgproc.hpp>
 #include <tbb/parallel_for.h>
@@ -61,11 +62,8 @@ PinholeCamera pinholeOf(const FloorCameraParams& params) {
 }
 
 Eigen::Isometry3d mountedCamera(const Eigen::Vector3d& at, double pitch_rad) {
-  Eigen::Matrix3d optical;  // Columns: the optical axes in a frame that looks forward.
-  optical << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T = baseFromCamera({at.z(), pitch_rad, 0.0});
   T.translation() = at;
-  T.linear() = Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) * optical;
   return T;
 }
 

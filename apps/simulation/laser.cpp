@@ -42,35 +42,44 @@ double echoOf(RayHit hit, const RayWorld& world, const Geometry& geometry,
              : std::numeric_limits<double>::infinity();
 }
 
+/// Measures along rays from one point: tells how far the i-th goes, in lengths of its direction,
+/// with noise; infinite without an echo.
+template <typename DirectionOf, typename Take>
+void measure(const RayWorld& world, const Geometry& geometry, const Eigen::Vector3f& origin,
+             int rays, double noise_m, std::uint64_t noise, DirectionOf directionOf, Take take) {
+  RandomStream random(noise);
+  std::array<Eigen::Vector3f, RayWorld::kPacket> directions;
+  std::array<RayHit, RayWorld::kPacket> hits;
+  for (int first = 0; first < rays; first += RayWorld::kPacket) {
+    const int count = std::min(RayWorld::kPacket, rays - first);
+    for (int i = 0; i < count; ++i)
+      directions[static_cast<std::size_t>(i)] = directionOf(first + i);
+    world.trace(origin, directions.data(), count, hits);
+    for (int i = 0; i < count; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      take(first + i,
+           echoOf(hits[at], world, geometry, origin, directions[at]) + noise_m * random.gaussian());
+    }
+  }
+}
+
 }  // namespace
 
 void measureLaser(const RayWorld& world, const Geometry& geometry, const LaserParams& params,
                   const FloorPose& robot, std::uint64_t noise, LaserScan& scan) {
-  const Eigen::Isometry3d T_world_base = basePose(robot);
-  const Eigen::Vector3f origin = (T_world_base * params.at).cast<float>();
   scan.first_rad = -params.view_rad / 2.0;
   scan.step_rad = params.view_rad / (params.beams - 1);
   scan.ranges_m.resize(static_cast<std::size_t>(params.beams));
-  RandomStream random(noise);
-  std::array<Eigen::Vector3f, RayWorld::kPacket> directions;
-  std::array<RayHit, RayWorld::kPacket> hits;
-  for (int beam = 0; beam < params.beams; beam += RayWorld::kPacket) {
-    const int count = std::min(RayWorld::kPacket, params.beams - beam);
-    for (int i = 0; i < count; ++i) {
-      const double angle = robot.yaw_rad + scan.first_rad + (beam + i) * scan.step_rad;
-      directions[static_cast<std::size_t>(i)] = {static_cast<float>(std::cos(angle)),
-                                                 static_cast<float>(std::sin(angle)), 0.0F};
-    }
-    world.trace(origin, directions.data(), count, hits);
-    for (int i = 0; i < count; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      const double range = echoOf(hits[at], world, geometry, origin, directions[at]) +
-                           params.noise_m * random.gaussian();
-      scan.ranges_m[static_cast<std::size_t>(beam + i)] =
-          range <= params.max_range_m ? static_cast<float>(std::max(range, 0.0))
-                                      : std::numeric_limits<float>::infinity();
-    }
-  }
+  const auto directionOf = [&](int beam) -> Eigen::Vector3f {
+    const double angle = robot.yaw_rad + scan.first_rad + beam * scan.step_rad;
+    return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0.0F};
+  };
+  measure(world, geometry, (basePose(robot) * params.at).cast<float>(), params.beams,
+          params.noise_m, noise, directionOf, [&](int beam, double range_m) {
+            scan.ranges_m[static_cast<std::size_t>(beam)] =
+                range_m <= params.max_range_m ? static_cast<float>(std::max(range_m, 0.0))
+                                              : std::numeric_limits<float>::infinity();
+          });
 }
 
 void measureFloor(const RayWorld& world, const Geometry& geometry, const FloorCameraParams& params,
@@ -78,29 +87,17 @@ void measureFloor(const RayWorld& world, const Geometry& geometry, const FloorCa
   const PinholeCamera camera = pinholeOf(params);
   const Eigen::Isometry3f T_world_camera =
       (basePose(robot) * mountedCamera(params.at, params.pitch_rad)).cast<float>();
-  const Eigen::Vector3f origin = T_world_camera.translation();
   depth_m.create(params.height, params.width, CV_32FC1);
-  RandomStream random(noise);
-  std::array<Eigen::Vector3f, RayWorld::kPacket> directions;
-  std::array<RayHit, RayWorld::kPacket> hits;
-  for (int v = 0; v < params.height; ++v) {
-    auto* const row = depth_m.ptr<float>(v);
-    for (int first = 0; first < params.width; first += RayWorld::kPacket) {
-      const int count = std::min(RayWorld::kPacket, params.width - first);
-      for (int i = 0; i < count; ++i) {
-        directions[static_cast<std::size_t>(i)] =
-            T_world_camera.linear() * rayOf(camera, first + i, v).cast<float>();
-      }
-      world.trace(origin, directions.data(), count, hits);
-      for (int i = 0; i < count; ++i) {
-        const auto at = static_cast<std::size_t>(i);
-        const double depth = echoOf(hits[at], world, geometry, origin, directions[at]) +
-                             params.noise_m * random.gaussian();
-        row[first + i] = depth <= params.max_range_m ? static_cast<float>(depth)
-                                                     : std::numeric_limits<float>::quiet_NaN();
-      }
-    }
-  }
+  const auto directionOf = [&](int i) -> Eigen::Vector3f {
+    return T_world_camera.linear() *
+           rayOf(camera, i % params.width, i / params.width).cast<float>();
+  };
+  measure(world, geometry, T_world_camera.translation(), params.width * params.height,
+          params.noise_m, noise, directionOf, [&](int i, double z_m) {
+            depth_m.at<float>(i / params.width, i % params.width) =
+                z_m <= params.max_range_m ? static_cast<float>(z_m)
+                                          : std::numeric_limits<float>::quiet_NaN();
+          });
 }
 
 }  // namespace heel

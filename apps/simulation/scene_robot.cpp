@@ -93,14 +93,20 @@ struct RobotWriter {
 template <typename Part, typename As>
 constexpr bool kIs = std::is_same_v<std::remove_const_t<Part>, As>;
 
+template <typename Keys, typename Camera>
+void visitPictures(Keys& keys, Camera& p, NumberRange pitch_deg, const char* place) {
+  keys.place("at", p.at, place);
+  keys.angle("pitch_deg", p.pitch_rad, pitch_deg, "[deg] how far it looks down");
+  keys.integer("width", p.width, 16, 4096, "[px]");
+  keys.integer("height", p.height, 16, 4096, "[px]");
+  keys.angle("view_deg", p.horizontal_view_rad, {5, 150}, "[deg] horizontal field of view");
+}
+
 template <typename Keys, typename Part>
 void visit(Keys& keys, Part& p) {
   if constexpr (kIs<Part, CameraParams>) {
-    keys.place("at", p.at, "[m] place of the left camera in the base frame: ahead, left, up");
-    keys.angle("pitch_deg", p.pitch_rad, {-60, 60}, "[deg] how far it looks down");
-    keys.integer("width", p.width, 16, 4096, "[px]");
-    keys.integer("height", p.height, 16, 4096, "[px]");
-    keys.angle("view_deg", p.horizontal_view_rad, {5, 150}, "[deg] horizontal field of view");
+    visitPictures(keys, p, {-60, 60},
+                  "[m] place of the left camera in the base frame: ahead, left, up");
     keys.number("baseline_m", p.baseline_m, kPositive, "[m] from the left camera to the right");
     keys.number("rate_hz", p.rate_hz, kPositive, "[1/s] pictures; of a simulated robot");
     keys.number("exposure", p.exposure, kPositive, "simulated: signal for a radiance of 1");
@@ -110,11 +116,7 @@ void visit(Keys& keys, Part& p) {
     keys.number("blur_px", p.blur_px, {0.0, 3.0}, "[px] simulated");
     keys.flag("drawn_light", p.drawn_light, "simulated: exposure and colours drawn from the seed");
   } else if constexpr (kIs<Part, FloorCameraParams>) {
-    keys.place("at", p.at, "[m] its place in the base frame: ahead, left, up");
-    keys.angle("pitch_deg", p.pitch_rad, {0, 90}, "[deg] how far it looks down");
-    keys.integer("width", p.width, 16, 4096, "[px]");
-    keys.integer("height", p.height, 16, 4096, "[px]");
-    keys.angle("view_deg", p.horizontal_view_rad, {5, 150}, "[deg] horizontal field of view");
+    visitPictures(keys, p, {0, 90}, "[m] its place in the base frame: ahead, left, up");
     keys.number("rate_hz", p.rate_hz, kPositive, "[1/s] pictures; of a simulated robot");
     keys.number("max_range_m", p.max_range_m, kPositive, "[m] simulated");
     keys.number("noise_m", p.noise_m, kNotNegative, "[m] simulated: standard deviation");

@@ -102,7 +102,6 @@ RobotDescription describeFound(const LiveOptions& options, const FoundRobot& fou
                                const RobotConfig& config, LogMap& map) {
   const LaserLog& laser = found.readings->laser();
   RobotDescription robot = describeRobot(config.robot);
-  if (options.topics.floor.empty()) robot.floor_camera.reset();
   if (!options.config.empty()) map.setScanner(robot.T_base_scanner, robot.scanner_height_m);
   robot.camera = found.camera;
   robot.T_base_scanner =
@@ -152,6 +151,7 @@ void run(const LiveOptions& options) {
   }
   if (config.robot.floor_camera && options.topics.floor.empty()) {
     warn("nothing is heard of the robot's floor_camera without --floor-topic: it sees no steps");
+    config.robot.floor_camera.reset();
   } else if (!config.robot.floor_camera && !options.topics.floor.empty()) {
     throw std::runtime_error("--floor-topic needs a robot with a floor_camera (--config)");
   }

@@ -75,11 +75,11 @@ void SensorBag::writeRaw(const std::string& topic, const HeaderMsg& header, cons
 }
 
 void SensorBag::writeImage(const std::string& topic, double stamp_s, const cv::Mat& image_bgr) {
+  if (!packs_images_) {
+    return writeRaw(topic + "/image_rect_color", header(stamp_s, kCamera), image_bgr, "bgr8");
+  }
   CompressedImageMsg message;
   message.header = header(stamp_s, kCamera);
-  if (!packs_images_) {
-    return writeRaw(topic + "/image_rect_color", message.header, image_bgr, "bgr8");
-  }
   message.format = "bgr8; png compressed bgr8";
   if (!cv::imencode(".png", image_bgr, message.data)) {
     throw std::runtime_error(topic + ": an image can't be encoded");
