@@ -106,6 +106,22 @@ double Reliability::expectedError() const {
   return count == 0 ? kNothing : off / count;
 }
 
+double Reliability::errorByChance() const {
+  double off = 0.0;
+  int count = 0;
+  for (const Bin& bin : bins) {
+    count += bin.count;
+    const double n = bin.count, p = bin.said / std::max(n, 1.0);
+    if (!(p > 0.0 && p < 1.0)) continue;
+    // The mean deviation of a binomial distribution (de Moivre).
+    const double k = std::floor(n * p) + 1.0;
+    off +=
+        2.0 * std::exp(std::log(k) + std::lgamma(n + 1.0) - std::lgamma(k + 1.0) -
+                       std::lgamma(n - k + 1.0) + k * std::log(p) + (n - k + 1.0) * std::log1p(-p));
+  }
+  return count == 0 ? kNothing : off / count;
+}
+
 TargetMetrics targetMetrics(const std::vector<TargetFrame>& frames, double match_distance_m) {
   TargetMetrics metrics;
   ReacquisitionClock clock(metrics);

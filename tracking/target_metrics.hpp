@@ -50,6 +50,9 @@ struct Reliability {
   void add(const Reliability& other);
   /// Expected calibration error: how far off a bin's mean probability is, weighed by count.
   double expectedError() const;
+  /// What it would be in the mean if the probabilities were exact, by chance: for as many frames,
+  /// each for itself. Frames are alike, so chance is worth more than this.
+  double errorByChance() const;
 };
 
 /// The counts and times of a run; the figures that have nothing to divide by are NaN.

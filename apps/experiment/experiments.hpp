@@ -54,17 +54,23 @@ TargetMetrics runFollowingExperiment(const std::filesystem::path& recording,
                                      const ExperimentParams& params);
 
 /// One person as the target: learned from the first half of the frames where their place is exact,
-/// and looked for in those of the second half; by looks in all frames from there on, also in those
-/// that they are not in.
+/// and looked for in all frames from somewhere on; by looks also in those that they are not in.
 struct TargetResult {
   std::string person;
+  std::filesystem::path learned_in, sought_in;
   TargetMetrics best_blob;  ///< The likeliest blob of each frame by its looks alone; no track.
   TargetMetrics started;    ///< Tracked, started at the person's true place.
   TargetMetrics cold;       ///< Tracked, found by looks.
+
+  void add(const TargetResult& other) {
+    best_blob.add(other.best_blob);
+    started.add(other.started);
+    cold.add(other.cold);
+  }
 };
-/// @param other  Where to look for them instead, in all frames; empty: in the same recording.
-std::vector<TargetResult> runTargetsExperiment(const std::filesystem::path& recording,
-                                               const ExperimentParams& params,
-                                               const std::filesystem::path& other = {});
+/// Everybody in each recording is looked for in the other recordings that they are in; who is in
+/// none of these, in the second half of their frames in the same.
+std::vector<TargetResult> runTargetsExperiment(const std::vector<std::filesystem::path>& recordings,
+                                               const ExperimentParams& params);
 
 }  // namespace heel

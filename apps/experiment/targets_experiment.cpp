@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -53,6 +54,7 @@ TargetResult lookFor(const std::string& person, const AppearanceModel& model,
   }
   TargetResult result;
   result.person = person;
+  result.sought_in = path;
   result.best_blob = targetMetrics(best_frames, params.tracker_distance_m);
   result.started = targetMetrics(started_frames, params.tracker_distance_m);
   result.cold = targetMetrics(cold_frames, params.tracker_distance_m);
@@ -61,27 +63,38 @@ TargetResult lookFor(const std::string& person, const AppearanceModel& model,
 
 }  // namespace
 
-std::vector<TargetResult> runTargetsExperiment(const std::filesystem::path& path,
-                                               const ExperimentParams& params,
-                                               const std::filesystem::path& other) {
-  const TruthFrames truth(path);
-  const TruthFrames other_truth(other.empty() ? path : other);
-  const CameraSetup setup = findCameraSetup(*openRecording(path));
-  const auto lessons = learnEveryone(path, setup, truth, {{"", params.appearance}}, params);
+std::vector<TargetResult> runTargetsExperiment(const std::vector<std::filesystem::path>& recordings,
+                                               const ExperimentParams& params) {
+  const std::vector<TruthFrames> truths(recordings.begin(), recordings.end());
   std::vector<TargetResult> results;
-  for (std::size_t i = 0; i < lessons.size(); ++i) {
-    const std::string& person = truth.people()[i];
-    const auto model = lessons[i].learn(0);
-    if (!model) throw std::runtime_error(person + ": nothing of them could be learned");
-    const auto exact = other_truth.exactFrames(person);
-    if (exact.empty()) continue;
-    const auto first = other.empty() ? exact.size() / 2 : 0;
-    results.push_back(lookFor(person, *model, other.empty() ? path : other, other_truth,
-                              {exact.begin() + static_cast<std::ptrdiff_t>(first), exact.end()},
-                              params));
-  }
-  if (results.empty()) {
-    throw std::runtime_error(other.string() + ": nobody of " + path.string() + " is in its truth");
+  for (std::size_t home = 0; home < recordings.size(); ++home) {
+    const std::vector<std::string>& people = truths[home].people();
+    const CameraSetup setup = findCameraSetup(*openRecording(recordings[home]));
+    const auto lessons =
+        learnEveryone(recordings[home], setup, truths[home], {{"", params.appearance}}, params);
+    std::vector<AppearanceModel> models;
+    for (std::size_t i = 0; i < lessons.size(); ++i) {
+      auto model = lessons[i].learn(0);
+      if (!model) throw std::runtime_error(people[i] + ": nothing of them could be learned");
+      models.push_back(std::move(*model));
+    }
+    std::vector<bool> is_elsewhere(people.size(), false);
+    for (std::size_t step = 1; step <= recordings.size(); ++step) {
+      const std::size_t where = (home + step) % recordings.size();  // Home is last.
+      for (std::size_t i = 0; i < people.size(); ++i) {
+        auto frames = truths[where].exactFrames(people[i]);
+        if (where == home) {
+          const auto half = static_cast<std::ptrdiff_t>(frames.size() / 2);
+          frames.erase(frames.begin(), frames.begin() + half);
+          if (is_elsewhere[i]) continue;
+        }
+        if (frames.empty()) continue;
+        is_elsewhere[i] = true;
+        results.push_back(lookFor(people[i], models[i], recordings[where], truths[where],
+                                  {frames.begin(), frames.end()}, params));
+        results.back().learned_in = recordings[home];
+      }
+    }
   }
   return results;
 }

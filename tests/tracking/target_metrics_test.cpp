@@ -121,8 +121,20 @@ TEST(TargetMetrics, ComparesProbabilitiesWithWhatIsSo) {
   EXPECT_EQ(twice.bins[9].count, 6);
   EXPECT_DOUBLE_EQ(twice.expectedError(), r.expectedError());
   EXPECT_TRUE(std::isnan(Reliability().expectedError()));
+  EXPECT_TRUE(std::isnan(Reliability().errorByChance()));
   EXPECT_THROW(twice.add(1.1, true), std::invalid_argument);
   EXPECT_THROW(twice.add(std::nan(""), true), std::invalid_argument);
+}
+
+TEST(Reliability, TellsTheErrorThatChanceMakes) {
+  Reliability r;
+  for (int i = 0; i < 3; ++i) r.add(0.25, false);
+  // Of 0 to 3 that are so, each off by its distance from 0.75.
+  const double p[] = {27.0 / 64, 27.0 / 64, 9.0 / 64, 1.0 / 64};
+  const double off = 0.75 * p[0] + 0.25 * p[1] + 1.25 * p[2] + 2.25 * p[3];
+  EXPECT_NEAR(r.errorByChance(), off / 3.0, 1e-12);
+  r.add(1.0, true);  // What is certain has no chance.
+  EXPECT_NEAR(r.errorByChance(), off / 4.0, 1e-12);
 }
 
 TEST(TargetMetrics, SaysNothingAboutNothing) {

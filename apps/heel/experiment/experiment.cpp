@@ -23,7 +23,7 @@ namespace {
 
 struct ExperimentOptions {
   std::filesystem::path recording;
-  std::filesystem::path other;
+  std::vector<std::filesystem::path> others;
   ExperimentParams params;
 };
 
@@ -60,9 +60,9 @@ void runProtocol(const ExperimentOptions& options) {
     std::printf("%s: %s learned in %d frames\n", offered.name.c_str(), result.person.c_str(),
                 result.learned.acquisition.person_frames);
     printRow(options.recording.filename().string(), result.following);
-    if (!options.other.empty()) {
-      printRow(options.other.filename().string(),
-               runFollowingExperiment(options.other, result.learned.model, result.person, params));
+    for (const std::filesystem::path& other : options.others) {
+      printRow(other.filename().string(),
+               runFollowingExperiment(other, result.learned.model, result.person, params));
     }
   }
 }
@@ -76,6 +76,11 @@ void printTarget(const std::string& name, const TargetResult& result) {
               cold.frames - cold.frames_in_view, cold.claimedShare(), cold.rightAnswerShare());
 }
 
+void printError(const Reliability& reliability) {
+  std::printf("  expected calibration error %.3f; exact probabilities would have %.3f by chance\n",
+              reliability.expectedError(), reliability.errorByChance());
+}
+
 void print(const Reliability& reliability) {
   std::printf("  said to be the target with      and is, of    each # is one in fifty\n");
   for (std::size_t i = 0; i < reliability.bins.size(); ++i) {
@@ -86,10 +91,12 @@ void print(const Reliability& reliability) {
                 0.1 * static_cast<double>(i + 1), bin.said / bin.count, is, bin.count,
                 std::string(static_cast<std::size_t>(std::lround(50.0 * is)), '#').c_str());
   }
-  std::printf("  expected calibration error %.3f\n", reliability.expectedError());
+  printError(reliability);
 }
 
 void runTargets(const ExperimentOptions& options) {
+  std::vector<std::filesystem::path> recordings = options.others;
+  recordings.insert(recordings.begin(), options.recording);
   std::printf(
       "each person as the target: recall and share of frames on a wrong person; found by\n"
       "looks, also the frames they are not in, and the shares claimed then and right of all\n");
@@ -98,16 +105,26 @@ void runTargets(const ExperimentOptions& options) {
     params.appearance = offered.params;
     std::printf("%s\n  %-26s %4s  best blob   started   by looks  not in  claimed right\n",
                 offered.name.c_str(), "person", "n");
-    TargetResult sum;
-    for (const TargetResult& result :
-         runTargetsExperiment(options.recording, params, options.other)) {
-      printTarget(result.person, result);
-      sum.best_blob.add(result.best_blob);
-      sum.started.add(result.started);
-      sum.cold.add(result.cold);
+    const auto results = runTargetsExperiment(recordings, params);
+    TargetResult part, all;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      printTarget(results[i].person, results[i]);
+      part.add(results[i]);
+      all.add(results[i]);
+      const bool is_last = i + 1 == results.size();
+      if (!is_last && results[i + 1].learned_in == results[i].learned_in &&
+          results[i + 1].sought_in == results[i].sought_in) {
+        continue;
+      }
+      if (is_last && recordings.size() == 1) break;
+      printTarget(results[i].learned_in.filename().string() + ", " +
+                      results[i].sought_in.filename().string(),
+                  part);
+      printError(part.cold.reliability);
+      part = {};
     }
-    printTarget("all", sum);
-    print(sum.cold.reliability);
+    printTarget("all", all);
+    print(all.cold.reliability);
   }
 }
 
@@ -164,10 +181,12 @@ void addExperiment(CLI::App& app) {
   auto [targets, targets_options] =
       add("targets", "Each person as the target, learned in one half and looked for in the other",
           runTargets);
-  targets->add_option("OTHER", targets_options->other, "look for them in this recording instead");
+  targets->add_option("OTHERS", targets_options->others,
+                      "more recordings; who is in two is learned in each and looked for in the "
+                      "other");
   auto [protocol, options] =
       add("protocol", "The first person learned while alone, then followed", runProtocol);
-  protocol->add_option("OTHER", options->other, "another recording of the same person");
+  protocol->add_option("OTHERS", options->others, "more recordings of the same person");
   addAppearanceExperiment(*verb);
   addFollowExperiment(*verb);
   addGateExperiment(*verb);

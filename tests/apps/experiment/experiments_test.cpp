@@ -48,7 +48,7 @@ TEST(ExperimentsOnRealPeople, TheFirstPersonIsFollowedByTheirLooks) {
 TEST(ExperimentsOnRealPeople, EachOfTheSixIsFollowedOnceStartedOn) {
   HEEL_NEED_DATA("six_people");
   int frames = 0, right = 0, wrong = 0;
-  const auto results = runTargetsExperiment(test::dataFolder() / "six_people", {});
+  const auto results = runTargetsExperiment({test::dataFolder() / "six_people"}, {});
   EXPECT_EQ(results.size(), 6U);
   for (const TargetResult& result : results) {
     frames += result.started.frames_in_view;
@@ -60,6 +60,21 @@ TEST(ExperimentsOnRealPeople, EachOfTheSixIsFollowedOnceStartedOn) {
   EXPECT_LE(wrong, 0.1 * frames);
   std::cout << "started on the person: recall " << static_cast<double>(right) / frames
             << ", wrong person " << static_cast<double>(wrong) / frames << "\n";
+}
+
+TEST(ExperimentsOnRealPeople, WhoIsInTwoRecordingsIsLookedForInTheOther) {
+  HEEL_NEED_DATA("corridor_1");
+  HEEL_NEED_DATA("corridor_2");
+  const std::filesystem::path one = test::dataFolder() / "corridor_1";
+  const std::filesystem::path two = test::dataFolder() / "corridor_2";
+  const auto results = runTargetsExperiment({one, two}, {});
+  ASSERT_EQ(results.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(results[i].learned_in, i < 2 ? one : two);
+    EXPECT_EQ(results[i].sought_in, i < 2 ? two : one);
+    EXPECT_GE(results[i].started.recall(), 0.9) << results[i].person;
+    EXPECT_EQ(results[i].cold.wrong_person, 0) << results[i].person;
+  }
 }
 
 }  // namespace
