@@ -112,12 +112,13 @@ void Gallery::takeApart(const Eigen::ArrayXXf& look) {
 }
 
 /// Over the parts that both the look and the person show, in the light that fits best; leaves their
-/// misfits in that light, -1 where there is none.
-double Gallery::likeness(const Person& person) {
+/// log odds and misfits in that light, 0 and -1 where there is none, and what that light says.
+void Gallery::likeness(const Person& person) {
   double best = -std::numeric_limits<double>::infinity();
   for (const Tint& tint : looks_.tints) {
     double sum = tint.log_prior;
     misfit_.setConstant(person.mean.cols(), -1.0);
+    parts_.setZero(person.mean.cols());
     for (std::size_t part = 0, i = 0; part < ends_.size(); i = ends_[part++]) {
       if (i == ends_[part] || !person.knows[part]) continue;
       const auto column = static_cast<Eigen::Index>(part);
@@ -134,14 +135,16 @@ double Gallery::likeness(const Person& person) {
       // Only against them: things of their colours may fit as well.
       const double against =
           kMisfitShape * (misfit * person.rate_gain[column] - person.log_rate_gain[column]);
-      sum += kLikenessOffset + likeness -
-             std::clamp(against, 0.0, -std::log(params_.misleading_share));
+      parts_[column] = kLikenessOffset + likeness -
+                       std::clamp(against, 0.0, -std::log(params_.misleading_share));
+      sum += parts_[column];
     }
     if (sum <= best) continue;
     best = sum;
+    best_light_ = tint.log_prior;
     best_misfit_.swap(misfit_);
+    best_parts_.swap(parts_);
   }
-  return best;
 }
 
 Tallness Gallery::logTallness(const Observation& seen) const {
@@ -166,21 +169,35 @@ double Gallery::logIfAnybody(const Tallness& log_tallness) const {
   return logMean(log_tallness, anybody_statures_);
 }
 
-Evidence Gallery::logLikelihood(const Observation& seen) {
-  Evidence evidence = Evidence::Constant(-std::numeric_limits<double>::infinity());
-  evidence[kThing] = evidence[kStranger] = evidence[kTarget] = 0.0;
+void Gallery::compare(const Observation& seen, LookEvidence& evidence) {
+  evidence.light.setConstant(-std::numeric_limits<double>::infinity());
+  evidence.light.head<kFirstOther>() = 0.0;
   for (int h = kFirstOther; h < kHypotheses; ++h) {
-    if (isKnown(h)) evidence[h] = 0.0;
+    if (isKnown(h)) evidence.light[h] = 0.0;
   }
-  if (seen.look == nullptr || anybody_.size() == 0) return evidence;
+  evidence.parts.setZero(kHypotheses, looks_.target.cols());
+  evidence.is_seen.setZero(looks_.target.cols());
+  if (seen.look == nullptr || anybody_.size() == 0) return;
   if (seen.look->rows() != looks_.target.rows() || seen.look->cols() != looks_.target.cols()) {
     throw std::invalid_argument("Gallery: a look needs the target's bins and parts");
   }
   takeApart(*seen.look);
-  if (look_.empty()) return evidence;
-  for (int h = kTarget; h < kHypotheses; ++h) {
-    if (isKnown(h)) evidence[h] = likeness(people_[index(h)]);
+  if (look_.empty()) return;
+  for (std::size_t part = 0, i = 0; part < ends_.size(); i = ends_[part++]) {
+    evidence.is_seen[static_cast<Eigen::Index>(part)] = i < ends_[part] ? 1.0 : 0.0;
   }
+  for (int h = kTarget; h < kHypotheses; ++h) {
+    if (!isKnown(h)) continue;
+    likeness(people_[index(h)]);
+    evidence.parts.row(h) = best_parts_.transpose();
+    evidence.light[h] = best_light_;
+  }
+}
+
+Evidence Gallery::logLikelihood(const LookEvidence& look, const Evidence& unseen) const {
+  Evidence evidence = look.light;
+  if (!(look.is_seen > 0.0).any()) return evidence;
+  evidence += look.parts.rowwise().sum() + unseen;
   for (int h = kTarget; h < kHypotheses; ++h) {
     if (!std::isfinite(evidence[h])) continue;
     const double mislead = params_.misleading_share;

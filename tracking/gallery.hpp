@@ -42,6 +42,15 @@ inline constexpr int kHypotheses = kFirstOther + kMostOthers;
 /// A value a hypothesis.
 using Evidence = Eigen::Array<double, kHypotheses, 1>;
 
+/// What a look's colours say, part by part.
+struct LookEvidence {
+  Eigen::ArrayXXd
+      parts;  ///< Log odds over a stranger, hypotheses x parts; 0 where nothing is said.
+  Eigen::ArrayXd is_seen;             ///< 1 of the parts that it shows, else 0.
+  Evidence light = Evidence::Zero();  ///< What the light says in which each fits best; -infinity of
+                                      ///< who is nobody.
+};
+
 /// Logarithm of the likelihood of looks at one body by its stature, in steps of 2 cm from 1.2 m.
 using Tallness = Eigen::Array<double, 51, 1>;
 
@@ -74,9 +83,12 @@ class Gallery {
   /// @throws std::invalid_argument  if a parameter is out of its range, or sizes do not fit.
   explicit Gallery(TargetLooks looks = {}, const GalleryParams& params = {});
 
+  /// Compares a look's colours with everybody's. What is not seen says nothing.
+  void compare(const Observation& seen, LookEvidence& evidence);
   /// Logarithm of the likelihood of a look's colours by each hypothesis, over a stranger's;
-  /// -infinity where there is nobody. What is not seen says nothing: without a look all are 0.
-  Evidence logLikelihood(const Observation& seen);
+  /// -infinity where there is nobody.
+  /// @param unseen  Sum over the parts that it does not show of what is known of them otherwise.
+  Evidence logLikelihood(const LookEvidence& look, const Evidence& unseen = Evidence::Zero()) const;
 
   /// What a look says of stature; 0 where it says nothing.
   Tallness logTallness(const Observation& seen) const;
@@ -111,7 +123,7 @@ class Gallery {
   void refresh(Person& person) const;
   static void average(Person& person, const Eigen::ArrayXXf& look, double weight);
   void takeApart(const Eigen::ArrayXXf& look);
-  double likeness(const Person& person);
+  void likeness(const Person& person);
   void mixLately();
 
   TargetLooks looks_;
@@ -129,6 +141,8 @@ class Gallery {
   std::vector<std::size_t> ends_;  // of the parts in look_
   std::vector<double> entropies_;  // sum of share * log(share) of each part
   Eigen::ArrayXd misfit_, best_misfit_;
+  Eigen::ArrayXd parts_, best_parts_;  // log odds
+  double best_light_ = 0.0;
 };
 
 }  // namespace heel

@@ -81,8 +81,10 @@ double Identity::targetProbability(int track_id) const {
 void Identity::look(const std::vector<Observation>& observations) {
   looks_.resize(observations.size());
   statures_.resize(observations.size());
+  if (parts_.size() < observations.size()) parts_.resize(observations.size());
   for (std::size_t i = 0; i < observations.size(); ++i) {
-    looks_[i] = gallery_.logLikelihood(observations[i]);
+    gallery_.compare(observations[i], parts_[i]);
+    looks_[i] = gallery_.logLikelihood(parts_[i]);
     looks_[i][kThing] -= observations[i].log_person;
     statures_[i] = gallery_.logTallness(observations[i]);
   }
@@ -248,9 +250,20 @@ void Identity::takeLook(Belief& belief, const Observation& seen, std::size_t loo
     view = View{seen.position_m, ray_m, stamp_s, news};
   }
   view.count = std::min(view.count + 1.0, kMostLooks);
+  const LookEvidence& parts = parts_[look];
+  if (belief.known_looks.size() == 0) {
+    belief.known_parts.setZero(kHypotheses, parts.is_seen.size());
+    belief.known_looks.setZero(parts.is_seen.size());
+  }
+  const Evidence unseen =
+      (belief.known_parts.rowwise() * (1.0 - parts.is_seen).transpose()).rowwise().sum();
+  belief.known_looks = (belief.known_looks + parts.is_seen).min(kMostLooks);
+  belief.known_parts += (parts.parts - belief.known_parts).rowwise() *
+                        (parts.is_seen / belief.known_looks.max(1.0)).transpose();
+  Evidence evidence = gallery_.logLikelihood(parts, unseen);
+  evidence[kThing] = looks_[look][kThing];
   for (int h = 0; h < kHypotheses; ++h) {
-    const double log = looks_[look][h];
-    if (std::isfinite(log)) view.mean[h] += (log - view.mean[h]) / view.count;
+    if (std::isfinite(evidence[h])) view.mean[h] += (evidence[h] - view.mean[h]) / view.count;
   }
   view.tallness += (statures_[look] - view.tallness) / view.count;
   belief.log_stature = gallery_.logLikelihood(belief.logTallness());
@@ -319,6 +332,7 @@ void Identity::mixIn(Belief& belief, const Past& other, double other_share) {
     belief.looks = 0.0;
     belief.sum.setZero();
   }
+  belief.known_parts *= 1.0 - other_share;
   const Past own = belief.past();
   const Evidence both = mix(own.log_all, other.log_all, other_share);
   belief.log_place = mix(own.log_place, other.log_place, other_share);
@@ -536,6 +550,7 @@ void Identity::meet(Belief& belief) {
         (*evidence)[h] = (*evidence)[kStranger];
       }
       other.log_place[h] += kLogMistaken;
+      if (other.known_parts.size() > 0) other.known_parts.row(h) = 0.0;
     }
   }
   belief.log_place[h] = belief.log_place[kStranger];
@@ -555,6 +570,7 @@ void Identity::makeTarget(int track_id, const Eigen::Vector2d& place_m, double s
   belief->log_stature.setZero();
   left_.clear();
   belief->view = {};
+  belief->known_looks.resize(0);
   belief->looks = 0.0;
   last_[kTarget] = Absence{place_m, stamp_s, 1.0, track_id};
   weighTogether();

@@ -119,7 +119,10 @@ class Identity {
     /// Of all views but the present one, and what all views say of it: a stature is one fact.
     Tallness log_tallness = Tallness::Zero();
     Evidence log_stature = Evidence::Zero();
-    double present = 1.0;  ///< Probability that whoever it is still is there.
+    /// Means of what looks said of each part, so that one that is out of view still counts,
+    Eigen::ArrayXXd known_parts;
+    Eigen::ArrayXd known_looks;  ///< of so many looks.
+    double present = 1.0;        ///< Probability that whoever it is still is there.
     bool is_alive = true;
 
     Tallness logTallness() const { return log_tallness + view.weight * view.tallness; }
@@ -158,7 +161,8 @@ class Identity {
   ClutterMap clutter_;
   std::vector<Belief> beliefs_;
   std::vector<Belief> left_;                  // of tracks that have ended, the last one last
-  std::vector<Evidence> looks_;               // of the step's observations,
+  std::vector<Evidence> looks_;               // of the step's observations, alone,
+  std::vector<LookEvidence> parts_;           // and part by part,
   std::vector<Tallness> statures_;            // and of these
   Evidence away_ = Evidence::Ones();          // of each person, that they are none of the tracks
   std::vector<std::optional<Absence>> last_;  // where each was seen last

@@ -22,8 +22,14 @@ using test::seen;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+Evidence of(Gallery& gallery, const Observation& seen) {
+  LookEvidence look;
+  gallery.compare(seen, look);
+  return gallery.logLikelihood(look);
+}
+
 Evidence of(Gallery& gallery, const Eigen::ArrayXXf& look) {
-  return gallery.logLikelihood(seen(0, 0, &look));
+  return of(gallery, seen(0, 0, &look));
 }
 
 // Truth for looks and portraits of whole colours, of which anybody wears each with 1/6. A bin of
@@ -65,12 +71,12 @@ TEST(Gallery, WhatIsNotSeenSaysNothing) {
   };
   Observation without_look = seen(0, 0);
   without_look.stature_m = 1.5;
-  says_nothing(gallery.logLikelihood(without_look));
+  says_nothing(of(gallery, without_look));
   says_nothing(of(gallery, Eigen::ArrayXXf::Zero(test::kColors, 2)));
   Gallery knows_nothing;
   says_nothing(of(knows_nothing, clothes(0, 1)));
   const int other = gallery.meet(clothes(2, 3), 1.0);
-  EXPECT_EQ(gallery.logLikelihood(without_look)[other], 0.0);
+  EXPECT_EQ(of(gallery, without_look)[other], 0.0);
 }
 
 TEST(Gallery, ALookHasTheLogOddsOfItsParts) {

@@ -132,6 +132,28 @@ void expectMarginals(const Home& home, const std::vector<int>& ids, const Eviden
   }
 }
 
+TEST(Identity, WhatOfSomebodyIsOutOfViewStillCounts) {
+  Eigen::ArrayXXf top = kPink, legs = kPink;
+  top.col(1) = 0.0F;
+  legs.col(0) = 0.0F;
+  Home near_only, whole_before, legs_before;
+  near_only.walk({1, {1, 0}, &top}, 2.0);
+  EXPECT_GT(near_only.target(1), 0.7);
+  whole_before.see({{1, {1, 0}, &kPink}}, 5);
+  const double before = whole_before.target(1);
+  whole_before.walk({1, {1, 0}, &top}, 2.0);
+  EXPECT_LT(whole_before.target(1), before) << "other legs are no less so for being out of view";
+  legs_before.see({{1, {1, 0}, &legs}}, 5);
+  legs_before.walk({1, {1, 0}, &top}, 2.0);
+  EXPECT_LT(legs_before.target(1), 0.5);
+
+  Home another;  // Whoever is there may be somebody else than whose legs were seen.
+  another.see({{1, {1, 0}, &kPink}}, 5);
+  another.see({{1, {1, 0}, &kPink, false}, {2, {3, 0}, &kBlue}}, 50);
+  another.walk({1, {1, 0}, &top}, 2.0);
+  EXPECT_GT(another.target(1), whole_before.target(1));
+}
+
 TEST(Identity, KnowsNothingOfATrackThatIsNot) {
   Home home;
   EXPECT_TRUE((home.identity.probabilities(7) == 0.0).all());
