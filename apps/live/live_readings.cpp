@@ -40,7 +40,6 @@ bool LiveReadings::take(const BagTopic& topic, std::int64_t stamp_ns,
   return has_next_;
 }
 
-// Of a robot whose images can't be read its Follower says that there are none.
 void LiveReadings::takeFloor(const BagTopic& topic, const std::vector<std::uint8_t>& bytes,
                              double clock_s) {
   const auto read = [&](auto message) {
@@ -55,11 +54,18 @@ void LiveReadings::takeFloor(const BagTopic& topic, const std::vector<std::uint8
     } else {
       read(ImageMsg());
     }
-  } catch (const std::runtime_error&) {
+  } catch (const std::runtime_error& error) {
+    floor_skipped_.push_back({floor_skipped_.size() + 1, topic.name + ": " + error.what()});
     return;
   }
   has_floor_ = true;
   notice(floor_.stamp_s, clock_s);
+}
+
+std::vector<SkippedFrame> LiveReadings::skipped() const {
+  std::vector<SkippedFrame> all = recording_->skipped();
+  all.insert(all.end(), floor_skipped_.begin(), floor_skipped_.end());
+  return all;
 }
 
 void LiveReadings::takeFrames(double clock_s) {

@@ -52,6 +52,8 @@ class LiveReadings {
   double frameAge_s(double clock_s) const { return clock_s - frame_came_s_; }
   /// Frames that were left out, as a newer one had come.
   std::size_t framesLeftOut() const { return left_out_; }
+  /// The camera's frames, then the floor's images, that could not be read.
+  std::vector<SkippedFrame> skipped() const;
 
  private:
   void notice(double stamp_s, double clock_s);
@@ -67,6 +69,7 @@ class LiveReadings {
   std::vector<std::string> topics_;
   std::string floor_topic_;
   BagImageReader floor_images_;
+  std::vector<SkippedFrame> floor_skipped_;
   Frame frame_, next_frame_, floor_;
   bool has_floor_ = false;
   bool has_next_ = false;

@@ -204,6 +204,7 @@ void run(const LiveOptions& options) {
   SilenceTeller silence;
   StereoReading picture;
   double last_step_s = began_s;
+  bool has_skipped = false;
   while (true) {
     listen(*network, readings, robot.drive.period_s, last_step_s);
     last_step_s = steadyClock_s();
@@ -215,6 +216,10 @@ void run(const LiveOptions& options) {
     if (forgets) follower = makeFollower(place);
     const RobotReadings& now = readings.read(steadyClock_s());
     silence.tell(now, network->trouble(), steadyClock_s());
+    if (const auto skipped = readings.skipped(); !has_skipped && !skipped.empty()) {
+      warn(leftOutNote(skipped, ""));
+      has_skipped = true;
+    }
     const FollowStep* step = nullptr;
     follower->pause(commands.isPaused());
     try {
@@ -246,10 +251,10 @@ void run(const LiveOptions& options) {
   std::printf(
       "%s after %.1f s (and %.1f s of learning before): %.2f m; from picture to velocity %.0f ms "
       "in 95 of 100 of %zu, "
-      "%zu pictures left out, %zu times no command in time\n",
+      "%zu pictures left out, %zu times no command in time%s\n",
       summary.outcome.c_str(), summary.elapsed_s, summary.learn_s, summary.distance_m,
       log.latencies_s.empty() ? 0.0 : 1e3 * summary.latency_p95_s, log.latencies_s.size(),
-      readings.framesLeftOut(), stopped);
+      readings.framesLeftOut(), stopped, leftOutNote(readings.skipped()).c_str());
   std::printf("results in %s: %s\n", output.folder().c_str(), output.fileNames().c_str());
   if (log.outcome == kStoppedRun) throw Stopped("stopped: the robot was told to stand");
   if (log.outcome == kNobodyLearned) throw NothingFound(kNobodyWasLearned);

@@ -147,6 +147,19 @@ TEST(LiveReadings, TimeIsTheNewestStampAndWhatHasPassedSinceAndNeverGoesBack) {
   EXPECT_NEAR(readings->read(clock_s + 0.3).stamp_s, 1001.4, 1e-9);
 }
 
+TEST(LiveReadings, AnImageOfTheFloorThatCanNotBeReadIsSkippedAndCounted) {
+  const auto readings = begin();
+  Robot robot([&](const BagTopic& t, std::int64_t ns, auto bytes) {
+    if (t.name.rfind("/floor_camera/", 0) == 0) bytes.resize(bytes.size() / 2);
+    readings->take(t, ns, bytes, 1.0);
+  });
+  robot.measure(20);
+  EXPECT_EQ(readings->read(1.0).floor, nullptr);
+  const auto skipped = readings->skipped();
+  ASSERT_EQ(skipped.size(), 1U);
+  EXPECT_THAT(skipped.front().reason, testing::StartsWith("/floor_camera/depth/image_rect: "));
+}
+
 TEST(LiveReadings, APictureWithoutItsPartnerIsLeftOut) {
   const auto readings = begin();
   bool drops = true;
