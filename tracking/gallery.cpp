@@ -159,6 +159,8 @@ Evidence Gallery::logLikelihood(const Tallness& log_tallness) const {
   Evidence evidence = Evidence::Zero();
   if (log_tallness.isZero()) return evidence;
   const double anybody = logIfAnybody(log_tallness);
+  constexpr double kEqually = 1.0 / Tallness::SizeAtCompileTime;
+  evidence[kThing] = logMean(log_tallness, Tallness::Constant(kEqually)) - anybody;
   for (int h = kTarget; h < kHypotheses; ++h) {
     if (isKnown(h)) evidence[h] = logMean(log_tallness, people_[index(h)].statures) - anybody;
   }

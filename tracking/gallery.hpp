@@ -93,7 +93,7 @@ class Gallery {
   /// What a look says of stature; 0 where it says nothing.
   Tallness logTallness(const Observation& seen) const;
   /// Logarithm of the likelihood of what was seen of a body's stature by each hypothesis, over a
-  /// stranger's; and of a stranger's.
+  /// stranger's, things being of all heights; and of a stranger's.
   Evidence logLikelihood(const Tallness& log_tallness) const;
   double logIfAnybody(const Tallness& log_tallness) const;
 

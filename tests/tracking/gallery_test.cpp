@@ -201,6 +201,26 @@ TEST(Gallery, StatureIsEvidenceAmongPeople) {
   EXPECT_GT(gallery.logLikelihood(tallnessOf(gallery, 2.1))[kTarget], -1.0) << "under a lintel";
 }
 
+// Bug: a door leaf of two metres was as likely as somebody that tall, and they are rare.
+TEST(Gallery, AThingMayBeOfAnyHeight) {
+  TargetLooks looks = looksOf(clothes(0, 1));
+  looks.stature_m = 1.8;
+  const Gallery gallery(looks);
+  const auto thing = [&](double stature_m, double count = 1.0) {
+    return gallery.logLikelihood(tallnessOf(gallery, stature_m, count))[kThing];
+  };
+  const auto people = [](double off_m) {
+    return 0.95 * std::exp(-0.5 * off_m * off_m / 0.0125) /
+               std::sqrt(0.0125 * 2.0 * std::acos(-1.0)) +
+           0.05;
+  };
+  EXPECT_NEAR(thing(1.7), -std::log(people(0.0)), 0.03);
+  EXPECT_NEAR(thing(2.05), -std::log(people(0.35)), 0.03);
+  EXPECT_NEAR(thing(2.05, 100.0),
+              0.5 * 0.35 * 0.35 / 0.01 - std::log(1.0 / (0.1 * std::sqrt(2.0 * std::acos(-1.0)))),
+              0.3);
+}
+
 // Bug: each look at somebody as tall as the target counted anew, and they were surely the target.
 TEST(Gallery, ManyLooksAtAStatureSayNoMoreThanWhatItIs) {
   TargetLooks looks = looksOf(clothes(0, 1));
