@@ -124,7 +124,7 @@ void BodyDescriber::add(int stripe, std::uint8_t b, std::uint8_t g, std::uint8_t
   ++seen_[static_cast<std::size_t>(stripe)];
 }
 
-void BodyDescriber::finish(BodyDescription& out) {
+void BodyDescriber::finish(BodyDescription& out, double full_above) {
   for (int stripe = 0; stripe < kStripes; ++stripe) {
     const int seen = seen_[static_cast<std::size_t>(stripe)];
     auto column = out.colors.col(stripe);
@@ -135,7 +135,12 @@ void BodyDescriber::finish(BodyDescription& out) {
     column /= static_cast<float>(seen);
     smooth(column, smoothed_);
   }
-  out.stature_m = heights_.height_m();
+  out.stature_m = heights_.height_m(full_above);
+}
+
+cv::Rect BodyDescriber::headOf(const BodyView& view, const WorldBlob& blob) const {
+  return boardIn(view, blob.position_m, params_.radius_m, StatureSample::kLeastHeight_m,
+                 static_cast<double>(kEnds_m.back()));
 }
 
 cv::Rect BodyDescriber::boardOf(const BodyView& view, const WorldBlob& blob) const {
@@ -148,7 +153,11 @@ void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDe
   const auto top_m = static_cast<double>(kEnds_m.back());
   const cv::Rect body =
       boardIn(view, blob.position_m, params_.radius_m, static_cast<double>(kEnds_m.front()), top_m);
-  const cv::Rect board = view.is_stereo ? boardOf(view, blob) : cv::Rect();
+  cv::Rect board;
+  if (view.disparities > 0) {
+    const int columns = view.image_bgr.cols - view.disparities;
+    board = boardOf(view, blob) & cv::Rect(view.disparities, 0, columns, view.image_bgr.rows);
+  }
   const int step =
       std::max(1, static_cast<int>(std::sqrt(body.area() / (kStripes * params_.stripe_pixels))));
   const Eigen::Matrix3f R = view.T_base_camera.linear().cast<float>();
@@ -167,16 +176,20 @@ void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDe
                               (static_cast<float>(v) - static_cast<float>(view.camera.cy)) /
                                   static_cast<float>(view.camera.fy),
                               1.0F);
+      const float along = ray.head<2>().dot(towards);
+      const float on_board_m = eye.z() + towards.squaredNorm() / along * ray.z();
       float height_m = 0.0F;
       if (depth[u] > 0.0F) {
         const Eigen::Vector3f p = eye + depth[u] * ray;
-        if ((p.head<2>() - place).squaredNorm() > radius2) continue;
+        if ((p.head<2>() - place).squaredNorm() > radius2) {
+          if (depth[u] * along > towards.squaredNorm()) heights_.addBehind(on_board_m);
+          continue;
+        }
         height_m = p.z();
         heights_.add(static_cast<double>(height_m), v);
       } else if (board.contains(cv::Point(u, v))) {
-        const float along = ray.head<2>().dot(towards);
         if (along <= 0.0F) continue;
-        height_m = eye.z() + towards.squaredNorm() / along * ray.z();
+        height_m = on_board_m;
       } else {
         continue;
       }
@@ -184,7 +197,11 @@ void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDe
       if (stripe >= 0) add(stripe, bgr[u][0], bgr[u][1], bgr[u][2], out);
     }
   }
-  finish(out);
+  // Pixels that are looked at, to a square metre of the board.
+  const double per_m2 =
+      view.camera.fx * view.camera.fy /
+      ((view.T_base_camera.translation().head<2>() - blob.position_m).squaredNorm() * step * step);
+  finish(out, 2.0 * params_.radius_m * StatureSample::kAbove_m * per_m2);
 }
 
 void BodyDescriber::describe(const ColorCloud& cloud, const Eigen::Vector2d& position_m,

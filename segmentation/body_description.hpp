@@ -26,9 +26,11 @@ struct BodyView {
   cv::Mat depth_m;    ///< CV_32FC1 of the same size, NaN or <= 0 where there is none.
   PinholeCamera camera;
   Eigen::Isometry3d T_base_camera;
-  /// Depth is of stereo, which finds none on much of plain clothes. Pixels without one are then
-  /// taken from an upright board about the place: see BodyDescriber::boardOf().
-  bool is_stereo = false;
+  /// Depth is of stereo, in a range of so many disparities; 0: it is not. Stereo finds none on much
+  /// of plain clothes: pixels without one are then taken from an upright board about the place, see
+  /// BodyDescriber::boardOf(). Not in the first `disparities` columns: what is near has none there,
+  /// for it is outside the right image.
+  int disparities = 0;
 };
 
 /// One look at a body, or the mean of many.
@@ -42,7 +44,7 @@ struct BodyDescription {
 /// How the colours of a body are counted, stripe by stripe of its height.
 struct BodyDescriberParams {
   double radius_m = 0.25;  ///< Radius of the upright cylinder that holds the body.
-  /// Half the width of the board of BodyView::is_stereo: that of a trunk.
+  /// Half the width of the board of BodyView::disparities: that of a trunk.
   double board_half_width_m = 0.12;
   int stripe_pixels = 200;     ///< About so many pixels of a stripe are looked at.
   int min_stripe_pixels = 20;  ///< A stripe with fewer pixels than this counts as not seen.
@@ -72,6 +74,10 @@ class BodyDescriber {
   /// be looked for in all of it. What has a depth in front of the body hides it.
   cv::Rect boardOf(const BodyView& view, const WorldBlob& blob) const;
 
+  /// Where a body's head may be, and what is behind it beside and above: depth should be looked for
+  /// there, too.
+  cv::Rect headOf(const BodyView& view, const WorldBlob& blob) const;
+
   /// The same over the points of a cloud in the base frame: of those named, if any are.
   void describe(const ColorCloud& cloud, const Eigen::Vector2d& position_m, BodyDescription& out,
                 const pcl::Indices* indices = nullptr);
@@ -95,7 +101,7 @@ class BodyDescriber {
  private:
   void begin(BodyDescription& out);
   void add(int stripe, std::uint8_t b, std::uint8_t g, std::uint8_t r, BodyDescription& out);
-  void finish(BodyDescription& out);
+  void finish(BodyDescription& out, double full_above = 0.0);
 
   BodyDescriberParams params_;
   std::vector<int> seen_;  // pixels a stripe

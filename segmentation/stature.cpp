@@ -12,6 +12,9 @@ namespace {
 
 constexpr double kShareAbove = 0.02;
 constexpr std::size_t kMinFrames = 5;
+// Of a body hidden from one side to beyond its head, over a third of the width about what is seen
+// of it is hidden.
+constexpr double kSeenAbove = 2.0 / 3.0;
 
 double quantile(std::vector<double>& values, double share) {
   const auto n = std::lround(share * static_cast<double>(values.size() - 1));
@@ -23,6 +26,7 @@ double quantile(std::vector<double>& values, double share) {
 
 void StatureSample::clear() {
   heights_m_.clear();
+  behind_m_.clear();
   cut_off_ = false;
 }
 
@@ -32,9 +36,18 @@ void StatureSample::add(double height_m, int row) {
   cut_off_ = cut_off_ || (row >= 0 && row < kEdgeRows);
 }
 
-std::optional<double> StatureSample::height_m() {
+void StatureSample::addBehind(double height_m) {
+  if (height_m > kLeastHeight_m) behind_m_.push_back(height_m);
+}
+
+std::optional<double> StatureSample::height_m(double full) {
   if (cut_off_ || heights_m_.size() < kMinPoints) return std::nullopt;
-  return quantile(heights_m_, 1.0 - kShareAbove);
+  const double top_m = quantile(heights_m_, 1.0 - kShareAbove);
+  const auto behind = std::count_if(behind_m_.begin(), behind_m_.end(), [top_m](double height_m) {
+    return height_m > top_m && height_m < top_m + kAbove_m;
+  });
+  if (static_cast<double>(behind) < kSeenAbove * full) return std::nullopt;
+  return top_m;
 }
 
 std::optional<Stature> statureFrom(std::vector<double> heights_m) {

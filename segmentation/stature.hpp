@@ -20,21 +20,27 @@ struct Stature {
 /// What a single frame shows of somebody's height.
 ///
 /// Not the highest point, which noise lifts, but a height that 2 % of the points of the upper body
-/// are above. Nothing without enough points of the upper body, or if they reach the upper edge of
-/// the picture: the head may be cut off then.
+/// are above. Nothing without enough points of the upper body, or if the head may be out of view:
+/// they reach the upper edge of the picture, or too little behind them is seen above them, because
+/// a door's frame or the picture's side cuts them off.
 class StatureSample {
  public:
   static constexpr double kLeastHeight_m = 1.2;  ///< What is lower is not looked at.
   static constexpr int kEdgeRows = 8;            ///< Stereo has no depth in the outermost few.
   static constexpr int kMinPoints = 60;
+  static constexpr double kAbove_m = 0.1;  ///< So far above them is looked at what is behind.
 
   void clear();
   /// @param row  In the picture; a negative one means that there is no picture.
   void add(double height_m, int row);
-  std::optional<double> height_m();
+  /// A point behind them, seen at this height of theirs.
+  void addBehind(double height_m);
+  /// @param full  So many points behind a body were seen if all above it were, up to kAbove_m; 0:
+  ///              those were not counted.
+  std::optional<double> height_m(double full = 0.0);
 
  private:
-  std::vector<double> heights_m_;
+  std::vector<double> heights_m_, behind_m_;
   bool cut_off_ = false;
 };
 

@@ -43,7 +43,7 @@ std::optional<Intent> MakeRoom::step(const Situation& now, const Ways& ways) {
   Intent intent;
   intent.go_to = aside_->place;
   intent.is_new = is_new;
-  if (now.target) intent.look_at = now.target->position;
+  intent.look_at = (now.target ? *now.target : now.last).position;
   return intent;
 }
 

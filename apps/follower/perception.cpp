@@ -102,7 +102,11 @@ Perception::Perception(const CameraSetup& setup, const AppearanceModel& model,
                                                                : PlanViewCamera().focal_length_px}),
       finder_(params.blobs),
       describer_(params.body),
-      view_{{}, {}, setup.camera.left, setup.T_base_camera, setup.sensor == SensorKind::kStereo},
+      view_{{},
+            {},
+            setup.camera.left,
+            setup.T_base_camera,
+            setup.sensor == SensorKind::kStereo ? params.stereo.disparities : 0},
       coarse_depth_(setup.camera, params.stereo),
       tracker_(params.target, params.tracker, gateOf(params), looksOf(model)) {
   for (const AppearanceBand& band : bands_) {
@@ -284,7 +288,10 @@ void Perception::measureBodies(const Frame& frame) {
   view_.depth_m = depth_m_;
   if (sensor_ != SensorKind::kStereo || bodies_.empty()) return;
   boards_.clear();
-  for (const WorldBlob& body : bodies_) boards_.push_back(describer_.boardOf(view_, body));
+  for (const WorldBlob& body : bodies_) {
+    boards_.push_back(describer_.boardOf(view_, body));
+    boards_.push_back(describer_.headOf(view_, body));
+  }
   view_.depth_m = coarse_depth_.of(frame, boards_);
   cv::compare(depth_m_, 0.0, has_depth_, cv::CMP_GT);
   depth_m_.copyTo(view_.depth_m, has_depth_);

@@ -81,18 +81,48 @@ TEST(BodyDescriber, SeesPixelsWithoutDepthOnTheBoardWhereDepthIsOfStereo) {
   Stage stage;
   stage.paint(0.1, 1.9, {40, 30, 180}, false);
   EXPECT_EQ(stage.describe().colors.sum(), 0.0F);
-  stage.view.is_stereo = true;
+  stage.view.disparities = 64;
   EXPECT_NEAR(stage.describe().colors.col(4).sum(), 1.0F, 1e-4F);
+}
+
+TEST(BodyDescriber, LeavesOutPixelsWithoutDepthWhereTheRightImageDoesNotReach) {
+  Stage stage;
+  stage.paint(0.1, 1.9, {40, 30, 180}, false);
+  stage.view.disparities = 176;
+  EXPECT_EQ(stage.describe().colors.sum(), 0.0F);
 }
 
 TEST(BodyDescriber, CountsNothingOnTheBoardThatStandsInFrontOrBehind) {
   Stage stage;
-  stage.view.is_stereo = true;
+  stage.view.disparities = 64;
   stage.paint(0.1, 1.9, {40, 30, 180}, false);
   for (const float depth_m : {1.0F, 3.0F}) {
     stage.view.depth_m.setTo(depth_m);
     EXPECT_EQ(stage.describe().colors.sum(), 0.0F) << depth_m;
   }
+}
+
+/// A wall behind it all, and beside the camera's axis, from a column on, another one in front.
+Stage stageWithDoorFrame(int first_column) {
+  Stage stage;
+  stage.view.depth_m.setTo(4.0F);
+  stage.paint(0.1, 1.7, {40, 30, 180});
+  stage.view.depth_m.colRange(first_column, stage.view.depth_m.cols).setTo(1.0F);
+  return stage;
+}
+
+TEST(BodyDescriber, MeasuresAStatureWhereWhatIsBehindIsSeenAboveTheHead) {
+  ASSERT_TRUE(stageWithDoorFrame(320).describe().stature_m);
+  EXPECT_NEAR(*stageWithDoorFrame(320).describe().stature_m, 1.69, 0.02);
+  EXPECT_TRUE(stageWithDoorFrame(178).describe().stature_m) << "an elbow is hidden";
+  EXPECT_FALSE(stageWithDoorFrame(160).describe().stature_m) << "half of it is";
+}
+
+TEST(BodyDescriber, MeasuresNoStatureAtThePicturesSide) {
+  Stage stage = stageWithDoorFrame(320);
+  stage.view.image_bgr = stage.view.image_bgr.colRange(0, 160);
+  stage.view.depth_m = stage.view.depth_m.colRange(0, 160);
+  EXPECT_FALSE(stage.describe().stature_m);
 }
 
 TEST(BodyDescriber, HasItsBoardWhereTheBodyIsInTheImage) {

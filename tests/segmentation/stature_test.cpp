@@ -31,6 +31,15 @@ TEST(StatureSample, SaysNothingOfAHeadThatMayBeCutOff) {
   EXPECT_TRUE(bodyUpTo(1.7, StatureSample::kEdgeRows).height_m());
 }
 
+TEST(StatureSample, NeedsMostOfWhatIsBehindToBeSeenAboveIt) {
+  StatureSample sample = bodyUpTo(1.7);
+  for (int i = 0; i < 60; ++i) sample.addBehind(1.71);
+  for (int i = 0; i < 100; ++i) sample.addBehind(1.85);  // too far above
+  for (int i = 0; i < 100; ++i) sample.addBehind(1.5);   // beside it
+  EXPECT_TRUE(sample.height_m(90.0));
+  EXPECT_FALSE(sample.height_m(91.0));
+}
+
 TEST(StatureSample, SaysNothingFromLegsOrAFewPoints) {
   StatureSample sample;
   for (int i = 0; i < 1000; ++i) sample.add(0.8, 100);

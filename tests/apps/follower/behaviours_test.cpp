@@ -184,7 +184,10 @@ TEST_F(MakeRoomTest, LeavesADoorwayForThePersonWhoComesThroughIt) {
   EXPECT_EQ(*intent->look_at, now.target->position);
   EXPECT_TRUE(intent->is_new);
   EXPECT_FALSE(step()->is_new);
-  now.target->position = {-2.0, 0.0};
+  now.last.position = now.target->position;
+  now.target.reset();
+  EXPECT_EQ(*step()->look_at, now.last.position) << "out of view, it looks where they were";
+  now.target = MovingPerson{{-2.0, 0.0}};
   EXPECT_FALSE(step()) << "they have gone past";
 }
 
