@@ -178,20 +178,18 @@ void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDe
                               1.0F);
       const float along = ray.head<2>().dot(towards);
       const float on_board_m = eye.z() + towards.squaredNorm() / along * ray.z();
-      float height_m = 0.0F;
-      if (depth[u] > 0.0F) {
-        const Eigen::Vector3f p = eye + depth[u] * ray;
-        if ((p.head<2>() - place).squaredNorm() > radius2) {
-          if (depth[u] * along > towards.squaredNorm()) heights_.addBehind(on_board_m);
-          continue;
-        }
+      const bool has_depth = depth[u] > 0.0F;
+      const Eigen::Vector3f p = eye + depth[u] * ray;
+      float height_m = on_board_m;
+      if (has_depth && (p.head<2>() - place).squaredNorm() <= radius2) {
         height_m = p.z();
         heights_.add(static_cast<double>(height_m), v);
-      } else if (board.contains(cv::Point(u, v))) {
-        if (along <= 0.0F) continue;
-        height_m = on_board_m;
       } else {
-        continue;
+        // What is near has a depth.
+        const bool may_be_near =
+            has_depth ? depth[u] * along < towards.squaredNorm() : u < view.disparities;
+        if (!may_be_near) heights_.addBehind(static_cast<double>(on_board_m));
+        if (has_depth || along <= 0.0F || !board.contains(cv::Point(u, v))) continue;
       }
       const int stripe = stripeOf(height_m);
       if (stripe >= 0) add(stripe, bgr[u][0], bgr[u][1], bgr[u][2], out);

@@ -33,7 +33,7 @@ class StatureSample {
   void clear();
   /// @param row  In the picture; a negative one means that there is no picture.
   void add(double height_m, int row);
-  /// A point behind them, seen at this height of theirs.
+  /// A point behind them, or with no depth for it is too far, seen at this height of theirs.
   void addBehind(double height_m);
   /// @param full  So many points behind a body were seen if all above it were, up to kAbove_m; 0:
   ///              those were not counted.
