@@ -18,6 +18,8 @@ namespace {
 
 /// World cells are ints; a place further off than this many of them is a fault.
 constexpr double kFarthestCell = 1e9;
+/// What was touched is remembered for so long: nobody sees it go, and it may have been somebody.
+constexpr double kTouched_s = 60.0;
 
 void require(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(std::string("an obstacle layer's ") + what);
@@ -42,7 +44,7 @@ ObstacleLayerParams checked(const ObstacleLayerParams& p) {
   require(positive(p.clear_spacing_m), "spacing of clearing beams must be positive");
   require(notNegative(p.clear_after_s), "time before clearing must not be negative");
   require(notNegative(p.min_memory_s) && p.max_memory_s >= p.min_memory_s &&
-              std::isfinite(p.max_memory_s) && notNegative(p.memory_gain),
+              std::isfinite(p.max_memory_s),
           "memory must not be negative, with its limits in order");
   return p;
 }
@@ -77,8 +79,8 @@ ObstacleLayer::ObstacleLayer(const ObstacleLayerParams& params)
 
 bool ObstacleLayer::remembered(const Trace& trace) const {
   if (!trace.known) return false;
-  const double memory_s = std::clamp(params_.memory_gain * trace.lasted_s(), params_.min_memory_s,
-                                     params_.max_memory_s);
+  const bool stands = trace.lasted_s() >= params_.min_memory_s;
+  const double memory_s = stands ? params_.max_memory_s : params_.min_memory_s;
   return clock_s_ - trace.seen_s <= memory_s;
 }
 
@@ -290,7 +292,7 @@ void ObstacleLayer::touch(const Eigen::Vector2d& in_base) {
   requireFrame();
   const GridCell at = worldCell(T_world_base_ * in_base);
   if (!inWindow(at)) return;
-  cells_[slot(at)].touch = {clock_s_ - params_.max_memory_s, clock_s_, true};
+  cells_[slot(at)].touch = {clock_s_, clock_s_, true};
 }
 
 void ObstacleLayer::clear(const std::function<bool(const Eigen::Vector3f&)>& sees_through) {
@@ -333,7 +335,7 @@ void ObstacleLayer::finish() {
       Cell& cell = row[first + x < n ? first + x : first + x - n];
       cell.laser.known = remembered(cell.laser);
       cell.points.known = remembered(cell.points);
-      cell.touch.known = remembered(cell.touch);
+      cell.touch.known = cell.touch.known && clock_s_ - cell.touch.seen_s <= kTouched_s;
       const bool occupied = cell.laser.known || cell.points.known || cell.touch.known;
       window_.at(GridCell{x, y}) = occupied ? Occupancy::kOccupied : Occupancy::kFree;
       occupied_[window_.index({x, y})] = occupied ? 1 : 0;

@@ -48,13 +48,11 @@ struct ObstacleLayerParams {
   double clear_spacing_m = 0.05;
   double clear_after_s = 0.3;  ///< What was seen more recently than this is not cleared.
 
-  /// An obstacle is remembered for at least this time, and people for no longer: a false match of
-  /// one frame must not close a doorway for long.
-  double min_memory_s = 0.7;
-  double max_memory_s = 60.0;  ///< An obstacle is remembered for at most this time.
-  /// An obstacle is remembered for so many times as long as it was seen: a table that the robot
-  /// drove up to is known when it has left the picture.
-  double memory_gain = 10.0;
+  /// An obstacle that was seen for less than this is remembered for no longer than this, and so are
+  /// people: a false match of one frame must not close a doorway for long.
+  double min_memory_s = 0.5;
+  /// Any other is remembered for so long: it stands there until it is seen through.
+  double max_memory_s = 300.0;
 };
 
 /// A rolling window of the floor in world axes around the robot, with what the laser and the
@@ -67,7 +65,8 @@ struct ObstacleLayerParams {
 /// The two sources are kept apart. A planar laser passes under table tops and chair seats and over
 /// low boxes, and has no echo of a black sofa. So its free space clears what the laser itself saw,
 /// and of what the camera saw only cells that had points in the laser's plane, before an echo. All
-/// else is forgotten with age, or when the camera sees through it; people soon, for they walk.
+/// else stays until the camera sees through it, or it is very old; people are forgotten soon, for
+/// they walk.
 ///
 /// Time is what `begin` says, and only its increase counts: a clock that is set back ages nothing,
 /// and one that is set forward forgets. Poses may be in any frame that does not jump; odometry's
@@ -108,7 +107,7 @@ class ObstacleLayer {
   /// @throws std::invalid_argument  if an index is outside of the cloud.
   void addPoints(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, const pcl::Indices& indices);
 
-  /// Something is there that no sensor sees; remembered for `max_memory_s`, whatever is seen.
+  /// Something is there that no sensor sees; remembered for a minute, whatever is seen.
   void touch(const Eigen::Vector2d& in_base);
 
   /// Forgets what the camera saw where it now sees through it.
