@@ -18,6 +18,10 @@ namespace {
 
 // Whatever is so far behind a point is not a part of the same thing: a chair is as deep.
 constexpr float kBehind_m = 0.5F;
+// Of what gives no depth only so much is known: behind its near rim there may be more of a hole, or
+// floor that something black hides.
+constexpr float kRim_m = 0.15F;
+constexpr float kSeen_m = std::numeric_limits<float>::infinity();
 
 StereoCamera shrunk(const StereoCamera& camera, int width_px) {
   if (camera.left.width <= width_px) return camera;
@@ -128,6 +132,13 @@ void ObstaclePoints::findTexture() {
   cv::dilate(texture_, texture_, cv::Mat());
 }
 
+// How far off a pixel of floor is; infinite at the horizon and above.
+float ObstaclePoints::floorAt_m(int v, int u) const {
+  const Eigen::Vector3f ray = T_base_camera_.linear() * rayOf(camera_.left, u, v).cast<float>();
+  const float far_m = T_base_camera_.translation().z() * ray.head<2>().norm() / -ray.z();
+  return ray.z() < 0.0F ? far_m : std::numeric_limits<float>::infinity();
+}
+
 // Where it is seen through the floor, if that is near.
 void ObstaclePoints::addStep(int v, int u, float within_m) {
   const Eigen::Vector3f eye = T_base_camera_.translation();
@@ -150,13 +161,19 @@ void ObstaclePoints::collect() {
   const auto low = static_cast<float>(params_.min_height_m);
   const auto high = static_cast<float>(params_.max_height_m);
   const auto range = static_cast<float>(params_.max_range_m);
-  for (int v = 0; v < depth_m_.rows; ++v) {
+  unseen_from_m_.assign(static_cast<std::size_t>(depth_m_.cols), kSeen_m);
+  for (int v = depth_m_.rows - 1; v >= 0; --v) {  // the nearest floor first
     const float* depth = depth_m_.ptr<float>(v);
     for (int u = 0; u < depth_m_.cols; ++u) {
+      float& unseen_from_m = unseen_from_m_[static_cast<std::size_t>(u)];
       if (!(depth[u] > nearest && std::isfinite(depth[u]))) {  // NaN too
-        if (params_.needs_floor) addStep(v, u, range);
+        if (!params_.needs_floor) continue;
+        const float floor_m = floorAt_m(v, u);
+        unseen_from_m = std::min(unseen_from_m, floor_m);
+        if (floor_m < unseen_from_m + kRim_m) addStep(v, u, range);
         continue;
       }
+      unseen_from_m = kSeen_m;
       if (isBlank(v, u)) continue;
       const Eigen::Vector3f seen = rayOf(camera, u, v).cast<float>() * depth[u];
       const Eigen::Vector3f point = T_base_camera_ * seen;

@@ -30,7 +30,8 @@ struct ObstaclePointsParams {
   /// A match is trusted only where the image changes by this much from one column to the next (of
   /// 256 levels): in blank surfaces it runs on from their rims. Rims are obstacle enough.
   int min_texture = 8;
-  /// What gives no depth where floor should is a step, too: of a depth camera that looks down.
+  /// What gives no depth where floor should is a step, too, at its near rim: of a depth camera that
+  /// looks down.
   bool needs_floor = false;
 };
 
@@ -55,6 +56,7 @@ class ObstaclePoints {
 
  private:
   void findTexture();
+  float floorAt_m(int v, int u) const;
   void addStep(int v, int u, float within_m);
   bool isBlank(int v, int u) const;
   float deepAt(float depth_m) const;
@@ -68,7 +70,8 @@ class ObstaclePoints {
   ObstaclePointsParams params_;
   StereoMatcher matcher_;
   cv::Mat left_, right_, disparity_, depth_m_;
-  cv::Mat grey_, slope_, texture_;  // texture_: CV_8UC1, not 0 where there is some; empty: all
+  cv::Mat grey_, slope_, texture_;    // texture_: CV_8UC1, not 0 where there is some; empty: all
+  std::vector<float> unseen_from_m_;  // of each column, how far off what gives no depth begins
   std::vector<Eigen::Vector3f> points_;
 };
 
