@@ -46,8 +46,8 @@ std::optional<std::array<cv::Point2f, 4>> cornersOf(const BodyView& view,
   return corners;
 }
 
-/// Whether whoever stands in the middle of the board is in the picture from side to side, and at
-/// least half of their height.
+/// Whether whoever stands in the middle of the board is in the picture from side to side, and from
+/// head to knee, or from the shoulders to the feet: a trunk has no outline.
 bool isInPicture(const std::array<cv::Point2f, 4>& corners, const cv::Size& picture) {
   const cv::Rect2f all(cv::Point2f(), picture);
   int in = 0;
@@ -59,7 +59,7 @@ bool isInPicture(const std::array<cv::Point2f, 4>& corners, const cv::Size& pict
     };
     in += isSideIn(0.35F) && isSideIn(0.65F) ? 1 : 0;
   }
-  return in >= 3;
+  return in >= 4;
 }
 
 }  // namespace
