@@ -17,16 +17,6 @@ constexpr double kFullTurn_rad = 6.283185307179586;
 constexpr double kHalfBody_m = 0.25;
 constexpr double kAhead_m = 2.0;  // Any place ahead of a view.
 
-/// As far off as all of somebody is seen from.
-GoalChooserParams seeingAll(const FollowerParams& params) {
-  GoalChooserParams goal = params.goal;
-  const double more_m = std::max(params.sees_all_m - goal.standoff_m, 0.0);
-  goal.least_standoff_m += more_m;
-  goal.standoff_m += more_m;
-  goal.most_standoff_m += more_m;
-  return goal;
-}
-
 std::optional<Vector2d> placeOf(const std::optional<MovingPerson>& person) {
   return person ? std::optional(person->position) : std::nullopt;
 }
@@ -147,8 +137,8 @@ LookWhoThatIs::LookWhoThatIs(const Premises& premises, const FollowerParams& par
     : first_looks_s_(params.first_looks_s),
       look_share_(params.look_share),
       ahead_rad_(params.ahead_rad),
-      near_m_(seeingAll(params).least_standoff_m),
-      nearer_(premises, seeingAll(params)) {}
+      near_m_(params.goal.least_standoff_m),
+      nearer_(premises, params.goal) {}
 
 void LookWhoThatIs::watch(const Situation& now) {
   if (!now.target) return;

@@ -40,16 +40,6 @@ CameraView viewOf(const CameraSetup& setup, const ObstaclePointsParams& points) 
   return view;
 }
 
-/// Up to the head of somebody tall; 0 if the camera sees none or its view is not known.
-double seesAllFrom_m(const CameraSetup& setup) {
-  constexpr double kTall_m = 1.85;
-  const PinholeCamera& camera = setup.camera.left;
-  if (!(camera.fx > 0.0)) return 0.0;
-  const Eigen::Vector3d top = setup.T_base_camera.linear() * rayOf(camera, camera.cx, 0.0);
-  const double up = top.z() / top.head<2>().norm();
-  return up > 0.0 ? std::max(kTall_m - setup.T_base_camera.translation().z(), 0.0) / up : 0.0;
-}
-
 }  // namespace
 
 FollowerParams::FollowerParams() {
@@ -95,7 +85,6 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   if (robot.floor_camera) {
     gate.sight.cameras.push_back(viewOf(*robot.floor_camera, params.floor_points));
   }
-  params.sees_all_m = seesAllFrom_m(robot.camera);
   if (const double half_rad = robot.halfView_rad(); half_rad > 0.0) {
     // A narrow camera sees no more than it does; a wide one sees badly at its rims.
     double& field_rad = params.search.map.field_of_view_rad;

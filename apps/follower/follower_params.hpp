@@ -46,8 +46,8 @@ struct RobotDescription {
 /// All that can be set of a Follower. Some of it the robot tells, whatever is written here:
 /// drive.limits, search.map.limits, paths.robot_radius_m, goal.radius_m, wayside.radius_m,
 /// obstacles.min_height_m, obstacles.max_height_m, obstacles.laser_height_m,
-/// obstacle_points.max_height_m, floor_points.max_height_m, gate.eye_height_m, sees_all_m, and of
-/// last_gate all but margin_m and sight.remembers_s; see fittedTo().
+/// obstacle_points.max_height_m, floor_points.max_height_m, gate.eye_height_m, and of last_gate all
+/// but margin_m and sight.remembers_s; see fittedTo().
 struct FollowerParams {
   LearnPersonParams learn;
   PerceptionParams perception;
@@ -87,7 +87,6 @@ struct FollowerParams {
   /// first_looks_s.
   double look_share = 0.15;
   double seek_radps = 0.9;       ///< Speed of turning while the robot looks around for the target.
-  double sees_all_m = 1.0;       ///< From so far off the camera sees people up to their heads.
   double ahead_rad = 0.3;        ///< What is within this angle of straight ahead is in view.
   double lost_turn_radps = 0.4;  ///< Speed of turning of a robot that does not know where it is.
   /// A robot that was blocked for so long is as near to its goal as it can get.

@@ -40,17 +40,6 @@ TEST(FollowerParams, AreFittedToTheRobot) {
   EXPECT_EQ(params.gate.eye_height_m, 1.25);
 }
 
-TEST(FollowerParams, ACameraSeesHeadsFromSomeWayOff) {
-  RobotDescription robot = robotWithHalfView(0.6);
-  robot.camera.T_base_camera.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  robot.camera.T_base_camera.translation().z() = 1.25;
-  robot.camera.camera.left.fy = 500.0;
-  robot.camera.camera.left.cy = 250.0;
-  EXPECT_NEAR(fittedTo(robot, {}).sees_all_m, (1.85 - 1.25) * 500.0 / 250.0, 1e-9);
-  robot.camera.camera.left.cy = -1.0;
-  EXPECT_EQ(fittedTo(robot, {}).sees_all_m, 0.0) << "it sees no heads";
-}
-
 TEST(FollowerParams, ANarrowCameraSeesNoMoreThanItDoes) {
   const FollowerParams defaults;
   const FollowerParams wide = fittedTo(robotWithHalfView(1.2), {});
