@@ -292,7 +292,7 @@ void ObstacleLayer::touch(const Eigen::Vector2d& in_base) {
   requireFrame();
   const GridCell at = worldCell(T_world_base_ * in_base);
   if (!inWindow(at)) return;
-  cells_[slot(at)].touch = {clock_s_, clock_s_, true};
+  cells_[slot(at)].touched_s = clock_s_;
 }
 
 void ObstacleLayer::clear(const std::function<bool(const Eigen::Vector3f&)>& sees_through) {
@@ -335,8 +335,8 @@ void ObstacleLayer::finish() {
       Cell& cell = row[first + x < n ? first + x : first + x - n];
       cell.laser.known = remembered(cell.laser);
       cell.points.known = remembered(cell.points);
-      cell.touch.known = cell.touch.known && clock_s_ - cell.touch.seen_s <= kTouched_s;
-      const bool occupied = cell.laser.known || cell.points.known || cell.touch.known;
+      const bool is_touched = clock_s_ - cell.touched_s <= kTouched_s;
+      const bool occupied = cell.laser.known || cell.points.known || is_touched;
       window_.at(GridCell{x, y}) = occupied ? Occupancy::kOccupied : Occupancy::kFree;
       occupied_[window_.index({x, y})] = occupied ? 1 : 0;
       if (!occupied) continue;

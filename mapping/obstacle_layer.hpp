@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -147,7 +148,7 @@ class ObstacleLayer {
   struct Cell {
     Trace laser;
     Trace points;
-    Trace touch;
+    double touched_s = -std::numeric_limits<double>::infinity();
     bool at_laser_height = false;  // the points
     bool frame_at_laser_height = false;
     float height_m = 0.0F;  // of the highest of the points, as last seen

@@ -138,6 +138,7 @@ LookWhoThatIs::LookWhoThatIs(const Premises& premises, const FollowerParams& par
       look_share_(params.look_share),
       ahead_rad_(params.ahead_rad),
       near_m_(params.goal.least_standoff_m),
+      far_m_(params.far_m),
       nearer_(premises, params.goal) {}
 
 void LookWhoThatIs::watch(const Situation& now) {
@@ -159,7 +160,7 @@ std::optional<Intent> LookWhoThatIs::step(const Situation& now, const Ways& ways
   const bool is_ahead = std::abs(bearingOf(now.robot, place)) < ahead_rad_;
   const double off_m = (place - now.robot.position).norm();
   intent.look_at = place;
-  if (off_m < near_m_ || is_ahead) {
+  if (off_m < near_m_ || (is_ahead && off_m > far_m_)) {
     MovingPerson person;
     person.position = place;
     intent.go_to = nearer_.placeBy(person, now, ways);

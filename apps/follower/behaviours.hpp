@@ -125,7 +125,7 @@ class LookWhoThatIs : public Behaviour {
   std::optional<Intent> step(const Situation& now, const Ways& ways) override;
 
  private:
-  double first_looks_s_, look_share_, ahead_rad_, near_m_;
+  double first_looks_s_, look_share_, ahead_rad_, near_m_, far_m_;
   FollowTarget nearer_;
   double looked_s_ = 0.0;  // since the person was lost
 };

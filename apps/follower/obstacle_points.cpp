@@ -132,22 +132,20 @@ void ObstaclePoints::findTexture() {
   cv::dilate(texture_, texture_, cv::Mat());
 }
 
-// How far off a pixel of floor is; infinite at the horizon and above.
-float ObstaclePoints::floorAt_m(int v, int u) const {
+// Where a pixel shows floor, from below the camera; infinitely far at the horizon and above.
+Eigen::Vector2f ObstaclePoints::floorAt(double v, double u) const {
   const Eigen::Vector3f ray = T_base_camera_.linear() * rayOf(camera_.left, u, v).cast<float>();
-  const float far_m = T_base_camera_.translation().z() * ray.head<2>().norm() / -ray.z();
-  return ray.z() < 0.0F ? far_m : std::numeric_limits<float>::infinity();
+  if (!(ray.z() < 0.0F)) return Eigen::Vector2f::Constant(kSeen_m);
+  return -T_base_camera_.translation().z() / ray.z() * ray.head<2>();
 }
 
 // Where it is seen through the floor, if that is near.
 void ObstaclePoints::addStep(int v, int u, float within_m) {
-  const Eigen::Vector3f eye = T_base_camera_.translation();
+  const Eigen::Vector2f eye = T_base_camera_.translation().head<2>();
   for (const double across : {-0.25, 0.25}) {
     for (const double down : {-0.25, 0.25}) {
-      const Eigen::Vector3f ray =
-          T_base_camera_.linear() * rayOf(camera_.left, u + across, v + down).cast<float>();
-      const Eigen::Vector2f away = -eye.z() / ray.z() * ray.head<2>();
-      if (!(ray.z() < 0.0F && away.norm() < within_m)) continue;
+      const Eigen::Vector2f away = floorAt(v + down, u + across);
+      if (!(away.norm() < within_m)) continue;
       points_.emplace_back(eye.x() + away.x(), eye.y() + away.y(), 0.0F);
     }
   }
@@ -168,7 +166,7 @@ void ObstaclePoints::collect() {
       float& unseen_from_m = unseen_from_m_[static_cast<std::size_t>(u)];
       if (!(depth[u] > nearest && std::isfinite(depth[u]))) {  // NaN too
         if (!params_.needs_floor) continue;
-        const float floor_m = floorAt_m(v, u);
+        const float floor_m = floorAt(v, u).norm();
         unseen_from_m = std::min(unseen_from_m, floor_m);
         if (floor_m < unseen_from_m + kRim_m) addStep(v, u, range);
         continue;

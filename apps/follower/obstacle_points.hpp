@@ -56,7 +56,7 @@ class ObstaclePoints {
 
  private:
   void findTexture();
-  float floorAt_m(int v, int u) const;
+  Eigen::Vector2f floorAt(double v, double u) const;
   void addStep(int v, int u, float within_m);
   bool isBlank(int v, int u) const;
   float deepAt(float depth_m) const;

@@ -118,6 +118,16 @@ TEST(BodyDescriber, MeasuresAStatureWhereWhatIsBehindIsSeenAboveTheHead) {
   EXPECT_FALSE(stageWithDoorFrame(160).describe().stature_m) << "half of it is";
 }
 
+TEST(BodyDescriber, WhatHasNoDepthIsBehindButWhereStereoCanNotSeeWhatIsNear) {
+  Stage stage = stageWithDoorFrame(320);
+  stage.view.depth_m.setTo(std::numeric_limits<float>::quiet_NaN(), stage.view.depth_m == 4.0F);
+  EXPECT_TRUE(stage.describe().stature_m);
+  stage.view.disparities = 140;
+  EXPECT_TRUE(stage.describe().stature_m);
+  stage.view.disparities = 160;
+  EXPECT_FALSE(stage.describe().stature_m);
+}
+
 TEST(BodyDescriber, MeasuresNoStatureAtThePicturesSide) {
   Stage stage = stageWithDoorFrame(320);
   stage.view.image_bgr = stage.view.image_bgr.colRange(0, 160);

@@ -216,9 +216,10 @@ void run(const LiveOptions& options) {
     if (forgets) follower = makeFollower(place);
     const RobotReadings& now = readings.read(steadyClock_s());
     silence.tell(now, network->trouble(), steadyClock_s());
-    if (const auto skipped = readings.skipped(); !has_skipped && !skipped.empty()) {
-      warn(leftOutNote(skipped, ""));
-      has_skipped = true;
+    if (!has_skipped) {
+      const std::vector<SkippedFrame> skipped = readings.skipped();
+      has_skipped = !skipped.empty();
+      if (has_skipped) warn(leftOutNote(skipped, ""));
     }
     const FollowStep* step = nullptr;
     follower->pause(commands.isPaused());
