@@ -140,7 +140,7 @@ void BodyDescriber::finish(BodyDescription& out, double full_above) {
 
 cv::Rect BodyDescriber::headOf(const BodyView& view, const WorldBlob& blob) const {
   return boardIn(view, blob.position_m, params_.radius_m, StatureSample::kLeastHeight_m,
-                 static_cast<double>(kEnds_m.back()));
+                 StatureSample::kMostHeight_m);
 }
 
 cv::Rect BodyDescriber::boardOf(const BodyView& view, const WorldBlob& blob) const {
@@ -150,16 +150,15 @@ cv::Rect BodyDescriber::boardOf(const BodyView& view, const WorldBlob& blob) con
 
 void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDescription& out) {
   begin(out);
-  const auto top_m = static_cast<double>(kEnds_m.back());
-  const cv::Rect body =
-      boardIn(view, blob.position_m, params_.radius_m, static_cast<double>(kEnds_m.front()), top_m);
+  const cv::Rect body = boardIn(view, blob.position_m, params_.radius_m,
+                                static_cast<double>(kEnds_m.front()), StatureSample::kMostHeight_m);
   cv::Rect board;
   if (view.disparities > 0) {
     const int columns = view.image_bgr.cols - view.disparities;
     board = boardOf(view, blob) & cv::Rect(view.disparities, 0, columns, view.image_bgr.rows);
   }
-  const int step =
-      std::max(1, static_cast<int>(std::sqrt(body.area() / (kStripes * params_.stripe_pixels))));
+  const int step = std::max(
+      1, static_cast<int>(std::sqrt(body.area() / ((kStripes + 1) * params_.stripe_pixels))));
   const Eigen::Matrix3f R = view.T_base_camera.linear().cast<float>();
   const Eigen::Vector3f eye = view.T_base_camera.translation().cast<float>();
   const Eigen::Vector2f place = blob.position_m.cast<float>();

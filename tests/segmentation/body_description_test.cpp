@@ -118,6 +118,14 @@ TEST(BodyDescriber, MeasuresAStatureWhereWhatIsBehindIsSeenAboveTheHead) {
   EXPECT_FALSE(stageWithDoorFrame(160).describe().stature_m) << "half of it is";
 }
 
+// Bug: what is higher than 2 m was not looked at, so a door leaf had no stature, or one of 2 m.
+TEST(BodyDescriber, MeasuresWhatIsTallerThanPeople) {
+  Stage stage = stageWithDoorFrame(320);
+  stage.paint(0.1, 2.0, {40, 30, 180});
+  ASSERT_TRUE(stage.describe().stature_m);
+  EXPECT_NEAR(*stage.describe().stature_m, 1.98, 0.03);
+}
+
 TEST(BodyDescriber, WhatHasNoDepthIsBehindButWhereStereoCanNotSeeWhatIsNear) {
   Stage stage = stageWithDoorFrame(320);
   stage.view.depth_m.setTo(std::numeric_limits<float>::quiet_NaN(), stage.view.depth_m == 4.0F);
