@@ -18,8 +18,6 @@ namespace {
 
 /// World cells are ints; a place further off than this many of them is a fault.
 constexpr double kFarthestCell = 1e9;
-/// What was touched is remembered for so long: nobody sees it go, and it may have been somebody.
-constexpr double kTouched_s = 60.0;
 
 void require(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(std::string("an obstacle layer's ") + what);
@@ -335,7 +333,7 @@ void ObstacleLayer::finish() {
       Cell& cell = row[first + x < n ? first + x : first + x - n];
       cell.laser.known = remembered(cell.laser);
       cell.points.known = remembered(cell.points);
-      const bool is_touched = clock_s_ - cell.touched_s <= kTouched_s;
+      const bool is_touched = clock_s_ - cell.touched_s <= params_.max_memory_s;
       const bool occupied = cell.laser.known || cell.points.known || is_touched;
       window_.at(GridCell{x, y}) = occupied ? Occupancy::kOccupied : Occupancy::kFree;
       occupied_[window_.index({x, y})] = occupied ? 1 : 0;

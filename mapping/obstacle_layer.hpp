@@ -52,8 +52,8 @@ struct ObstacleLayerParams {
   /// An obstacle that was seen for less than this is remembered for no longer than this, and so are
   /// people: a false match of one frame must not close a doorway for long.
   double min_memory_s = 0.5;
-  /// Any other is remembered for so long: it stands there until it is seen through.
-  double max_memory_s = 300.0;
+  /// Any other is remembered for so long, or until it is seen through: it may be too near to be.
+  double max_memory_s = 60.0;
 };
 
 /// A rolling window of the floor in world axes around the robot, with what the laser and the
@@ -66,8 +66,8 @@ struct ObstacleLayerParams {
 /// The two sources are kept apart. A planar laser passes under table tops and chair seats and over
 /// low boxes, and has no echo of a black sofa. So its free space clears what the laser itself saw,
 /// and of what the camera saw only cells that had points in the laser's plane, before an echo. All
-/// else stays until the camera sees through it, or it is very old; people are forgotten soon, for
-/// they walk.
+/// else stays until the camera sees through it, or it is old; people are forgotten soon, for they
+/// walk.
 ///
 /// Time is what `begin` says, and only its increase counts: a clock that is set back ages nothing,
 /// and one that is set forward forgets. Poses may be in any frame that does not jump; odometry's
@@ -108,7 +108,7 @@ class ObstacleLayer {
   /// @throws std::invalid_argument  if an index is outside of the cloud.
   void addPoints(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, const pcl::Indices& indices);
 
-  /// Something is there that no sensor sees; remembered for a minute, whatever is seen.
+  /// Something is there that no sensor sees; remembered for `max_memory_s`, whatever is seen.
   void touch(const Eigen::Vector2d& in_base);
 
   /// Forgets what the camera saw where it now sees through it.

@@ -162,12 +162,12 @@ TEST(ObstacleLayer, ForgetsWithAge) {
 TEST(ObstacleLayer, WhatItSawForAWhileStaysAndAGlimpseIsForgotten) {
   ObstacleLayer layer;
   for (int i = 0; i <= 6; ++i) seePoints(layer, 0.1 * i, thrice(1.0, 0.0, 0.7));
-  seeNothing(layer, 300.5);
+  seeNothing(layer, 60.5);
   EXPECT_EQ(layer.obstacles().size(), 1U);
-  seeNothing(layer, 300.7);
-  EXPECT_TRUE(layer.obstacles().empty()) << "that is very long ago";
-  for (int i = 0; i <= 4; ++i) seePoints(layer, 310.0 + 0.1 * i, thrice(1.0, 0.0, 0.7));
-  seeNothing(layer, 311.0);
+  seeNothing(layer, 60.7);
+  EXPECT_TRUE(layer.obstacles().empty()) << "that is long ago";
+  for (int i = 0; i <= 4; ++i) seePoints(layer, 70.0 + 0.1 * i, thrice(1.0, 0.0, 0.7));
+  seeNothing(layer, 71.0);
   EXPECT_TRUE(layer.obstacles().empty()) << "forgotten is forgotten";
 }
 
