@@ -108,7 +108,8 @@ bool CoarseFloor::sees(const Eigen::Vector2d& from, const Eigen::Vector2d& to) c
   return true;
 }
 
-void CoarseFloor::walkingDistances(int from, std::vector<float>& distance_m, Open& open) const {
+void CoarseFloor::walkingDistances(int from, std::vector<float>& distance_m, Open& open,
+                                   FunctionRef<bool(int cell)> is_open) const {
   distance_m.assign(is_free_.size(), std::numeric_limits<float>::infinity());
   open.clear();
   if (from < 0 || from >= cells() || !isFree(from)) return;
@@ -126,7 +127,7 @@ void CoarseFloor::walkingDistances(int from, std::vector<float>& distance_m, Ope
       const double step = (way % 2 == 0 ? 1.0 : std::sqrt(2.0)) * cell_size_m_;
       const float through = distance + static_cast<float>(step);
       float& known = distance_m[static_cast<std::size_t>(next)];
-      if (through >= known) continue;
+      if (through >= known || !is_open(next)) continue;
       known = through;
       open.emplace_back(through, next);
       std::push_heap(open.begin(), open.end(), later);

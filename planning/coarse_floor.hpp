@@ -6,6 +6,7 @@
 #pragma once
 
 #include <heel/mapping/occupancy_grid.hpp>
+#include <heel/planning/function_ref.hpp>
 
 #include <Eigen/Core>
 
@@ -55,7 +56,12 @@ class CoarseFloor {
   /// Memory for walkingDistances(), to use again.
   using Open = std::vector<std::pair<float, int>>;
   /// How far one walks from a cell to every other [m], by Dijkstra; infinite where one can't.
-  void walkingDistances(int from, std::vector<float>& distance_m, Open& open) const;
+  /// @param is_open  Whether one can walk into a cell now.
+  void walkingDistances(int from, std::vector<float>& distance_m, Open& open,
+                        FunctionRef<bool(int cell)> is_open) const;
+  void walkingDistances(int from, std::vector<float>& distance_m, Open& open) const {
+    walkingDistances(from, distance_m, open, [](int) { return true; });
+  }
 
  private:
   OccupancyGrid map_;

@@ -14,6 +14,7 @@ namespace heel {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kNoShare = 1e-12;  // below this a share is none
 constexpr double kNoChance = 1e-6;  // below this a cell is not worth a look
 
@@ -41,7 +42,8 @@ SearchMap::SearchMap(const OccupancyGrid& floor, const OccupancyGrid& sight,
       belief_(shares_.size(), 0.0),
       others_(shares_),
       screens_(shares_.size()),
-      reached_s_(shares_.size(), std::numeric_limits<double>::infinity()),
+      reached_s_(shares_.size(), kNever),
+      shut_s_(shares_.size(), kNever),
       speed_mps_(params.usual_speed_mps) {
   if (floor_.nearestFree(floor.origin_m()) < 0) {
     throw std::invalid_argument("no one can stand anywhere on this map");
@@ -90,12 +92,13 @@ void SearchMap::start(const Eigen::Vector2d& position, const Eigen::Vector2d& ve
   if (!(probability >= 0.0 && probability <= 1.0)) {
     throw std::invalid_argument("a probability is 0 to 1");
   }
-  floor_.walkingDistances(floor_.nearestFree(position), walked_m_, open_);
+  start_ = floor_.nearestFree(position);
+  floor_.walkingDistances(start_, walked_m_, open_);
   // Never before they were there, and for the place's error they may have been a little further.
-  const double then_s = clock_s_ - ago_s;
+  then_s_ = clock_s_ - ago_s;
   for (std::size_t c = 0; c < reached_s_.size(); ++c) {
     const double way_m = static_cast<double>(walked_m_[c]) - 2.0 * params_.place_sigma_m;
-    const double reached_s = then_s + std::max(way_m, 0.0) / kFastestWalk_mps;
+    const double reached_s = then_s_ + std::max(way_m, 0.0) / kFastestWalk_mps;
     reached_s_[c] = probability < 1.0 ? std::min(reached_s_[c], reached_s) : reached_s;
   }
   const double speed = velocity.norm();
@@ -118,7 +121,8 @@ void SearchMap::start(const Eigen::Vector2d& position, const Eigen::Vector2d& ve
     }
   }
   sumUp();
-  clock_s_ = then_s;
+  clock_s_ = then_s_;
+  std::fill(shut_s_.begin(), shut_s_.end(), kNever);
   carried_s_ = 0.0;
   spread(ago_s);
   for (std::size_t c = 0; c < shares_.size() && probability < 1.0; ++c) {
@@ -140,6 +144,7 @@ void SearchMap::spread(double elapsed_s) {
     turn();
     walk();
   }
+  shut();
   sumUp();
 }
 
@@ -169,7 +174,7 @@ void SearchMap::walk() {
       }
       const double steps = way % 2 == 0 ? 1.0 : std::sqrt(0.5);
       const bool is_too_far = reached_s_[index(to)] > clock_s_;
-      const bool is_barred = is_too_far || passes(screens_[index(to)], 0.0) <= 0.5;
+      const bool is_barred = is_too_far || isBarred(to);
       const double walks = is_barred ? 0.0 : steps * speed_mps_ / kFastestWalk_mps;
       next_[index(to)][way] += walks * share;
       next_[c][way] += (1.0 - walks) * share;
@@ -177,6 +182,25 @@ void SearchMap::walk() {
   }
   shares_.swap(next_);
 }
+
+// Who is behind what bars every way to them came before it did. That is seen to stand for a time,
+// and has stood as long before: of all the time since they were seen they had but the rest.
+void SearchMap::shut() {
+  floor_.walkingDistances(start_, open_m_, open_, [this](int cell) { return !isBarred(cell); });
+  const auto since_s = [this](double stamp_s) { return stamp_s - then_s_ + params_.look_s; };
+  for (std::size_t c = 0; c < shares_.size(); ++c) {
+    double& till_s = shut_s_[c];
+    if (std::isfinite(open_m_[c])) {
+      till_s = kNever;
+      continue;
+    }
+    const double had_s = till_s == kNever ? clock_s_ - then_s_ : since_s(till_s);
+    for (double& share : shares_[c]) share *= had_s / since_s(clock_s_);
+    till_s = clock_s_;
+  }
+}
+
+bool SearchMap::isBarred(int cell) const { return passes(screens_[index(cell)], 0.0) <= 0.5; }
 
 // What a look goes through does not stand there any more.
 void SearchMap::look(const FloorPose& camera, double elapsed_s,

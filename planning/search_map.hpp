@@ -54,7 +54,8 @@ struct SearchView {
 ///
 /// It begins where the person was last seen, walking as they did. With time it spreads as people
 /// walk: mostly straight on, along walls and through doorways, never further than they can have
-/// walked. What the camera has looked at without finding them loses its share.
+/// walked. What the camera has looked at without finding them loses its share. So does a room whose
+/// doors are seen shut, the longer, the more: they may have been shut when the person came by.
 ///
 /// Deterministic. Nothing allocates after the first start() and nextView().
 class SearchMap {
@@ -118,7 +119,9 @@ class SearchMap {
 
   void turn();
   void walk();
+  void shut();
   void sumUp();
+  bool isBarred(int cell) const;
   double passes(const Screen& screen, double in_s) const;
   double passes(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double in_s) const;
   template <typename Use>
@@ -142,6 +145,10 @@ class SearchMap {
   std::vector<int> seen_;          ///< Cells in a look; memory of look().
   std::vector<float> walked_m_;    ///< From where the person was last seen.
   std::vector<double> reached_s_;  ///< On the clock: nobody can have walked there sooner.
+  std::vector<double> shut_s_;     ///< Till when it is counted that every way there is barred.
+  std::vector<float> open_m_;      ///< The ways that are not; memory of shut().
+  int start_ = -1;                 ///< The cell where the person was last seen, then_s_.
+  double then_s_ = 0.0;
   CoarseFloor::Open open_;
   double speed_mps_;
   double clock_s_ = 0.0;

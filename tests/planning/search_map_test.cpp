@@ -254,6 +254,26 @@ TEST(SearchMap, NobodyWalksThroughAShutDoor) {
   EXPECT_LT(behind[1], 0.2 * behind[0]);
 }
 
+// Bug: the robot stood before a door that had been shut all along, and did not look elsewhere.
+TEST(SearchMap, TheLongerADoorIsShutTheLessIsBehindIt) {
+  const Eigen::Vector2d eye(4.0, 2.1);
+  const auto oddsBehind = [](const SearchMap& map) {
+    return rightRoom(map) / (1.0 - rightRoom(map));
+  };
+  SearchMap map = threeRooms();
+  map.start({5.5, 2.1}, {1.0, 0.0});
+  map.spread(4.0);
+  const double before = oddsBehind(map);
+  ASSERT_GT(before, 1.0);
+  for (int i = 1; i <= 300; ++i) {
+    map.look({eye, 0.0}, 0.0, [&](const Eigen::Vector2d& p) { return byShutDoor(p, eye); });
+    map.spread(0.2);
+    const double since_s = 4.0 + 0.2 * i;
+    const double look_s = SearchMapParams().look_s;
+    EXPECT_NEAR(oddsBehind(map), before * 4.0 / (since_s + look_s), 0.05 * before) << since_s;
+  }
+}
+
 TEST(SearchMap, WhatWasBelievedStaysAsFarAsItWasSomebodyElse) {
   SearchMap map = threeRooms();
   map.start({1.1, 2.1}, {0.0, 0.0});
