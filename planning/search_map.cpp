@@ -14,6 +14,7 @@ namespace heel {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kSeenSide = 0.75;  // So much of both sides of somebody must be in sight.
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kNoShare = 1e-12;  // below this a share is none
 constexpr double kNoChance = 1e-6;  // below this a cell is not worth a look
@@ -71,7 +72,7 @@ void SearchMap::findViews() {
       const Eigen::Vector2d to = floor_.center(c);
       const double range = (to - from).norm();
       if (!floor_.isFree(c) || range < params_.min_range_m || range > params_.max_range_m) continue;
-      is_visible_[visibleIndex(view, c)] = floor_.sees(from, to);
+      is_visible_[visibleIndex(view, c)] = seesBody(from, to);
     }
   }
 }
@@ -295,8 +296,15 @@ bool SearchMap::isInView(const FloorPose& camera, const Eigen::Vector2d& point) 
   const double range = ray.norm();
   if (range < params_.min_range_m || range > params_.max_range_m) return false;
   const double bearing = wrapped(std::atan2(ray.y(), ray.x()) - camera.yaw_rad);
-  return std::abs(bearing) <= 0.5 * params_.field_of_view_rad &&
-         floor_.sees(camera.position, point);
+  return std::abs(bearing) <= 0.5 * params_.field_of_view_rad && seesBody(camera.position, point);
+}
+
+// Who is hidden by half is seen, and not recognized.
+bool SearchMap::seesBody(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+  const Eigen::Vector2d ray = (to - from).normalized();
+  const Eigen::Vector2d side =
+      kSeenSide * params_.body_radius_m * Eigen::Vector2d(-ray.y(), ray.x());
+  return floor_.sees(from, to + side) && floor_.sees(from, to - side);
 }
 
 void SearchMap::sumUp() {

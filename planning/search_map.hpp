@@ -130,6 +130,7 @@ class SearchMap {
   void thin(double elapsed_s, FunctionRef<bool(int cell)> is_empty);
   bool isSeenThrough(const LaserScan& scan, const FloorPose& scanner,
                      const Eigen::Vector2d& point) const;
+  bool seesBody(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
   bool isInView(const FloorPose& camera, const Eigen::Vector2d& point) const;
   std::size_t visibleIndex(std::size_t view, int cell) const;
   Bearings chancesAround(std::size_t view, double in_s) const;

@@ -118,9 +118,9 @@ void BodyDescriber::begin(BodyDescription& out) {
   heights_.clear();
 }
 
-void BodyDescriber::add(int stripe, std::uint8_t b, std::uint8_t g, std::uint8_t r,
-                        BodyDescription& out) {
-  out.colors(binOf(b, g, r), stripe) += 1.0F;
+void BodyDescriber::add(int stripe, const cv::Vec3b& bgr, BodyDescription& out) {
+  if (stripe < 0) return;
+  out.colors(binOf(bgr[0], bgr[1], bgr[2]), stripe) += 1.0F;
   ++seen_[static_cast<std::size_t>(stripe)];
 }
 
@@ -165,6 +165,8 @@ void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDe
   const auto radius2 = static_cast<float>(params_.radius_m * params_.radius_m);
   // Of a pixel without depth: where its ray meets the board's plane.
   const Eigen::Vector2f towards = place - eye.head<2>();
+  int first = body.x + body.width, last = -1;  // column of what has a depth
+  without_depth_.clear();
   for (int v = body.y; v < body.y + body.height; v += step) {
     const auto* bgr = view.image_bgr.ptr<cv::Vec3b>(v);
     const auto* depth = view.depth_m.ptr<float>(v);
@@ -183,16 +185,23 @@ void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDe
       if (has_depth && (p.head<2>() - place).squaredNorm() <= radius2) {
         height_m = p.z();
         heights_.add(static_cast<double>(height_m), v);
+        first = std::min(first, u);
+        last = std::max(last, u);
       } else {
         // What is near has a depth.
         const bool may_be_near =
             has_depth ? depth[u] * along < towards.squaredNorm() : u < view.disparities;
         if (!may_be_near) heights_.addBehind(static_cast<double>(on_board_m));
-        if (has_depth || along <= 0.0F || !board.contains(cv::Point(u, v))) continue;
+        if (!has_depth && along > 0.0F && board.contains(cv::Point(u, v))) {
+          without_depth_.push_back({u, stripeOf(height_m), bgr[u]});
+        }
+        continue;
       }
-      const int stripe = stripeOf(height_m);
-      if (stripe >= 0) add(stripe, bgr[u][0], bgr[u][1], bgr[u][2], out);
+      add(stripeOf(height_m), bgr[u], out);
     }
+  }
+  for (const BoardPixel& pixel : without_depth_) {
+    if (pixel.column > first && pixel.column < last) add(pixel.stripe, pixel.bgr, out);
   }
   // Pixels that are looked at, to a square metre of the board.
   const double per_m2 =
@@ -211,8 +220,7 @@ void BodyDescriber::describe(const ColorCloud& cloud, const Eigen::Vector2d& pos
     if (!((Eigen::Vector2f(p.x, p.y) - place).squaredNorm() <= radius2)) return;  // or NaN
     heights_.add(static_cast<double>(p.z),
                  cloud.height > 1 ? static_cast<int>(i / cloud.width) : -1);
-    const int stripe = stripeOf(p.z);
-    if (stripe >= 0) add(stripe, p.b, p.g, p.r, out);
+    add(stripeOf(p.z), {p.b, p.g, p.r}, out);
   };
   if (indices != nullptr) {
     for (const auto i : *indices) visit(static_cast<std::size_t>(i));

@@ -28,8 +28,8 @@ struct BodyView {
   Eigen::Isometry3d T_base_camera;
   /// Depth is of stereo, in a range of so many disparities; 0: it is not. Stereo finds none on much
   /// of plain clothes: pixels without one are then taken from an upright board about the place, see
-  /// BodyDescriber::boardOf(). Not in the first `disparities` columns: what is near has none there,
-  /// for it is outside the right image.
+  /// BodyDescriber::boardOf(), as far aside as the body has any. Not in the first `disparities`
+  /// columns: what is near has none there, for it is outside the right image.
   int disparities = 0;
 };
 
@@ -100,12 +100,17 @@ class BodyDescriber {
 
  private:
   void begin(BodyDescription& out);
-  void add(int stripe, std::uint8_t b, std::uint8_t g, std::uint8_t r, BodyDescription& out);
+  void add(int stripe, const cv::Vec3b& bgr, BodyDescription& out);
   void finish(BodyDescription& out, double full_above = 0.0);
 
   BodyDescriberParams params_;
   std::vector<int> seen_;  // pixels a stripe
   StatureSample heights_;
+  struct BoardPixel {
+    int column, stripe;
+    cv::Vec3b bgr;
+  };
+  std::vector<BoardPixel> without_depth_;
   Eigen::ArrayXf smoothed_;
 };
 

@@ -79,10 +79,22 @@ TEST(BodyDescriber, SaysNothingOfWhatIsNotSeen) {
 
 TEST(BodyDescriber, SeesPixelsWithoutDepthOnTheBoardWhereDepthIsOfStereo) {
   Stage stage;
-  stage.paint(0.1, 1.9, {40, 30, 180}, false);
-  EXPECT_EQ(stage.describe().colors.sum(), 0.0F);
+  stage.paint(0.1, 1.3, {40, 30, 180}, false).paint(1.3, 1.9, {40, 30, 180});
+  EXPECT_EQ(stage.describe().colors.col(4).sum(), 0.0F);
   stage.view.disparities = 64;
   EXPECT_NEAR(stage.describe().colors.col(4).sum(), 1.0F, 1e-4F);
+}
+
+// Bug: plain walls beside somebody half hidden were taken for their clothes.
+TEST(BodyDescriber, LeavesOutWhatHasNoDepthBesideTheBody) {
+  Stage stage;
+  stage.view.disparities = 64;
+  stage.paint(0.1, 1.9, {40, 30, 180});
+  const auto hidden = cv::Range(160, stage.view.depth_m.cols);
+  stage.view.depth_m.colRange(hidden).setTo(std::numeric_limits<float>::quiet_NaN());
+  stage.view.image_bgr.colRange(hidden).setTo(cv::Scalar(120, 160, 180));
+  EXPECT_NEAR((stage.describe().colors.col(4).sqrt() * binsOf(40, 30, 180).sqrt()).sum(), 1.0F,
+              1e-4F);
 }
 
 TEST(BodyDescriber, LeavesOutPixelsWithoutDepthWhereTheRightImageDoesNotReach) {
