@@ -99,18 +99,18 @@ TEST(BodyDescriber, LeavesOutWhatHasNoDepthBesideTheBody) {
 
 TEST(BodyDescriber, LeavesOutPixelsWithoutDepthWhereTheRightImageDoesNotReach) {
   Stage stage;
-  stage.paint(0.1, 1.9, {40, 30, 180}, false);
+  stage.paint(0.1, 1.3, {40, 30, 180}, false).paint(1.3, 1.9, {40, 30, 180});
   stage.view.disparities = 176;
-  EXPECT_EQ(stage.describe().colors.sum(), 0.0F);
+  EXPECT_EQ(stage.describe().colors.col(4).sum(), 0.0F);
 }
 
 TEST(BodyDescriber, CountsNothingOnTheBoardThatStandsInFrontOrBehind) {
   Stage stage;
   stage.view.disparities = 64;
-  stage.paint(0.1, 1.9, {40, 30, 180}, false);
+  stage.paint(0.1, 1.3, {40, 30, 180}, false).paint(1.3, 1.9, {40, 30, 180});
   for (const float depth_m : {1.0F, 3.0F}) {
-    stage.view.depth_m.setTo(depth_m);
-    EXPECT_EQ(stage.describe().colors.sum(), 0.0F) << depth_m;
+    stage.view.depth_m.rowRange(90, 240).setTo(depth_m);  // below 1.3 m
+    EXPECT_EQ(stage.describe().colors.col(4).sum(), 0.0F) << depth_m;
   }
 }
 
