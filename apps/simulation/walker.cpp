@@ -20,6 +20,7 @@ constexpr double kForesight_s = 2.0;
 constexpr double kReflex_s = 0.4;
 constexpr double kPush_spm = 60.0;  // Cost of a push, per m/s.
 constexpr double kBodyToWall_m = 0.2;
+constexpr double kSideways_m = 0.15;  // Nobody's middle comes nearer to a wall, even sideways.
 constexpr double kPatience_s = 1.5;  // Held up by the robot for so long, one makes room for it, ...
 constexpr double kMakesRoom_s = 6.0;  // ... for so long,
 constexpr double kHeldUp_m = 1.0;     // if it is this near;
@@ -115,6 +116,7 @@ void Walker::step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& 
   if (walks) wanted = chooseVelocity(wanted, plan, others, noticesRobot() ? nullptr : &robot);
   accelerate(dt_s, wanted);
   keepOff(dt_s, robot);
+  keepOffThings(dt_s, plan);
   move(dt_s);
   stuck_s_ = walks && velocity_.dot(way) < 0.1 ? stuck_s_ + dt_s : std::max(stuck_s_ - dt_s, 0.0);
   if (stuck_s_ > kGivesUp_s) {
@@ -240,6 +242,21 @@ void Walker::keepOff(double dt_s, const Mover& robot) {
   const Vector2d way = to.normalized();
   const double most_mps = std::max(room_m, 0.0) / dt_s;
   if (velocity_.dot(way) > most_mps) velocity_ += (most_mps - velocity_.dot(way)) * way;
+}
+
+// Nobody walks through a wall, but along it: twice, for what is beyond a corner.
+void Walker::keepOffThings(double dt_s, const FloorPlan& plan) {
+  constexpr double kApart_m = 0.01;
+  for (int i = 0; i < 2; ++i) {
+    const Vector2d next = pose_.position + velocity_ * dt_s;
+    const double now_m = plan.clearance(pose_.position), next_m = plan.clearance(next);
+    const double least_m = std::min(kSideways_m, now_m);
+    if (next_m >= least_m) return;
+    const Vector2d x(kApart_m, 0.0), y(0.0, kApart_m);
+    const Vector2d away(plan.clearance(next + x) - plan.clearance(next - x),
+                        plan.clearance(next + y) - plan.clearance(next - y));
+    velocity_ += (least_m - next_m) / dt_s * away.normalized();
+  }
 }
 
 void Walker::move(double dt_s) {

@@ -55,6 +55,7 @@ class Walker {
   void accelerate(double dt_s, const Eigen::Vector2d& wanted);
   bool noticesRobot() const { return person_->sees_robot || feels_s_ > 0.0; }
   void keepOff(double dt_s, const Mover& robot);
+  void keepOffThings(double dt_s, const FloorPlan& plan);
   void move(double dt_s);
   void turnTo(double yaw_rad, double dt_s);
 

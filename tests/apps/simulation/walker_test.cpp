@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "tests/apps/simulation/scenes.hpp"
+#include <heel/apps/simulation/floor_plan.hpp>
 #include <heel/apps/simulation/simulator.hpp>
 
 #include <gtest/gtest.h>
@@ -114,6 +115,24 @@ TEST(Walker, StepsAroundSomeoneWhoComesTowardsIt) {
   });
   EXPECT_TRUE(simulator.everyoneIsDone());
   EXPECT_GT(nearest, 0.42);  // Shoulder to shoulder, but not through each other.
+}
+
+// Bug: who had stepped aside for others cut the corner to the next place, through the wall.
+TEST(Walker, WalksAlongAWallAndNotThroughIt) {
+  Scene scene = test::squareRoom();
+  scene.robot.start = {-2.0, 2.0};
+  Wall wall = scene.walls[0];
+  wall.from = {0.0, -3.0};
+  wall.to = {0.0, 0.0};
+  scene.walls.push_back(wall);
+  scene.people.push_back(test::standingPerson("eva", -1.0, -0.6));
+  scene.people[0].path = {walkTo(1.0, 0.4)};
+  Simulator simulator(scene, {1, 0, false});
+  const FloorPlan plan(scene);
+  live(simulator, 6.0, [&](const WorldTruth& truth) {
+    EXPECT_GT(plan.clearance(truth.people[0].position), 0.149);
+  });
+  EXPECT_TRUE(simulator.everyoneIsDone());
 }
 
 TEST(Walker, StepsAroundTheRobot) {
