@@ -16,6 +16,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kSeenSide = 0.75;  // So much of both sides of somebody must be in sight.
 constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kRounding_m = 1e-6;
 constexpr double kNoShare = 1e-12;  // below this a share is none
 constexpr double kNoChance = 1e-6;  // below this a cell is not worth a look
 
@@ -203,22 +204,25 @@ void SearchMap::shut() {
 
 bool SearchMap::isBarred(int cell) const { return passes(screens_[index(cell)], 0.0) <= 0.5; }
 
-// What a look goes through does not stand there any more.
+// What a look goes through does not stand there any more. Where it is not known how far a look
+// goes, it goes as far as those before.
 void SearchMap::look(const FloorPose& camera, double elapsed_s,
-                     FunctionRef<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)> hiding) {
+                     FunctionRef<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)> seenTo) {
   seen_.clear();
   thin(elapsed_s, [&](int cell) {
     const Eigen::Vector2d place = floor_.center(cell);
     if (!isInView(camera, place)) return false;
-    const std::optional<Eigen::Vector2d> by = hiding(place);
-    if (!by) {
+    const std::optional<Eigen::Vector2d> seen_to = seenTo(place);
+    if (!seen_to) return passes(camera.position, place, 0.0) > 0.5;
+    const bool is_seen = (*seen_to - place).norm() < kRounding_m;
+    if (is_seen) {
       seen_.push_back(cell);
-    } else if (const int at = floor_.cellAt(*by); at >= 0) {
+    } else if (const int at = floor_.cellAt(*seen_to); at >= 0) {
       Screen& screen = screens_[index(at)];
       if (!screen.stands) screen = {true, clock_s_, clock_s_};
       screen.last_s = clock_s_;
     }
-    return !by;
+    return is_seen;
   });
   for (const int cell : seen_) {
     forCellsBetween(camera.position, floor_.center(cell), [&](int between) {

@@ -78,14 +78,15 @@ class SearchMap {
   void spread(double elapsed_s);
 
   /// The camera has looked from here for a while, and the person was not found.
-  /// @param hiding  Where something that the map does not show hides a place, if it does. It is
+  /// @param seenTo  How far one sees on the way to a place: to it, or to where something that the
+  ///                map does not show hides it; absent if that is not known. What hides a place is
   ///                taken to stand there, and nobody to walk through it, for as long again as it
-  ///                has till then.
+  ///                has till then, or until it is seen through.
   void look(const FloorPose& camera, double elapsed_s,
-            FunctionRef<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)> hiding);
+            FunctionRef<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)> seenTo);
   void look(const FloorPose& camera, double elapsed_s) {
     look(camera, elapsed_s,
-         [](const Eigen::Vector2d&) -> std::optional<Eigen::Vector2d> { return std::nullopt; });
+         [](const Eigen::Vector2d& place) -> std::optional<Eigen::Vector2d> { return place; });
   }
 
   /// The laser has scanned from here for a while: nobody is where its beams went through.

@@ -48,8 +48,9 @@ DepthSight::Trunk DepthSight::trunkAt(const Eigen::Vector2d& place_m, double tol
   return {hidden >= 2 ? Sight::kHidden : Sight::kUnknown, nearest};
 }
 
-std::optional<Eigen::Vector2d> DepthSight::hiding(const Eigen::Vector2d& place_m) const {
+std::optional<Eigen::Vector2d> DepthSight::seenTo(const Eigen::Vector2d& place_m) const {
   const Trunk trunk = trunkAt(place_m, kTolerance_m);
+  if (trunk.sight == Sight::kFree) return place_m;
   if (trunk.sight != Sight::kHidden) return std::nullopt;
   const Eigen::Vector2d camera_m = T_camera_frame_.inverse().translation().head<2>();
   return camera_m + trunk.nearest * (place_m - camera_m);

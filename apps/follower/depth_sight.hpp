@@ -28,8 +28,9 @@ class DepthSight {
     return trunkAt(place_m, tolerance_m).sight;
   }
 
-  /// Where what hides a place is, on the way to it; absent unless something does.
-  std::optional<Eigen::Vector2d> hiding(const Eigen::Vector2d& place_m) const;
+  /// How far is seen on the way to a place: to it, or to what hides it; absent if that is not
+  /// known.
+  std::optional<Eigen::Vector2d> seenTo(const Eigen::Vector2d& place_m) const;
 
   /// Logarithm of the odds that what was observed there is a person, not a thing, by its shape: a
   /// person's trunk is not seen through, and what is as far away does not go on at both sides.

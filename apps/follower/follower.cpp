@@ -220,8 +220,8 @@ void Follower::lookAround(const RobotReadings& readings) {
       search_->look(then, obstacles_age_s_,
                     [&then, sight = things_.sight(),
                      T_then_world = then.inverse()](const Vector2d& p) -> std::optional<Vector2d> {
-                      const auto by = sight.hiding(T_then_world * p);
-                      return by ? std::optional<Vector2d>(then * *by) : std::nullopt;
+                      const auto to = sight.seenTo(T_then_world * p);
+                      return to ? std::optional<Vector2d>(then * *to) : std::nullopt;
                     });
     }
     obstacles_age_s_ = 0.0;

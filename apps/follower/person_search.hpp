@@ -32,10 +32,10 @@ class PersonSearch {
   void lose(const MovingPerson& last, double unseen_s, double probability);
   /// Time goes by without them.
   void wait(double elapsed_s) { map_.spread(elapsed_s); }
-  /// They were not before the camera, which looked from here. @param hiding  See SearchMap.
+  /// They were not before the camera, which looked from here. @param seenTo  See SearchMap.
   void look(const FloorPose& camera, double elapsed_s,
-            FunctionRef<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)> hiding) {
-    map_.look(camera, elapsed_s, hiding);
+            FunctionRef<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)> seenTo) {
+    map_.look(camera, elapsed_s, seenTo);
   }
   /// Nor where the laser's beams went through.
   void scan(const LaserScan& scan, const FloorPose& scanner, double elapsed_s) {

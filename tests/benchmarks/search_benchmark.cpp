@@ -103,7 +103,7 @@ std::optional<double> searchedFor(std::uint64_t seed, bool& was_lost) {
     searched_s += kStep_s;
     search.wait(kStep_s);
     search.look(pose, kStep_s,
-                [](const Vector2d&) -> std::optional<Vector2d> { return std::nullopt; });
+                [](const Vector2d& place) -> std::optional<Vector2d> { return place; });
     if (now.laser != nullptr) {
       search.scan(*now.laser, pose * heel::FloorPose{scene.robot.laser.at.head<2>(), 0.0}, kStep_s);
     }

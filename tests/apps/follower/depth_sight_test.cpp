@@ -42,8 +42,8 @@ class Depths {
     return sight().logPerson(kPlace, kSide, depth_sigma_m);
   }
   Sight at(const Eigen::Vector2d& place_m) const { return sight().at(place_m); }
-  std::optional<Eigen::Vector2d> hiding(const Eigen::Vector2d& place_m) const {
-    return sight().hiding(place_m);
+  std::optional<Eigen::Vector2d> seenTo(const Eigen::Vector2d& place_m) const {
+    return sight().seenTo(place_m);
   }
 
  private:
@@ -62,10 +62,11 @@ TEST(DepthSight, TellsWhatIsBeforeAPlaceAndBehindIt) {
 
 TEST(DepthSight, TellsWhereWhatHidesAPlaceIs) {
   const Depths board = Depths(6.0F).board(2.0, 0.5, 0.1);
-  ASSERT_TRUE(board.hiding({4.0, 0.4}));
-  EXPECT_LT((*board.hiding({4.0, 0.4}) - Eigen::Vector2d(2.0, 0.2)).norm(), 1e-6);
-  EXPECT_FALSE(board.hiding({4.0, -0.4})) << "it is seen beside the board";
-  EXPECT_FALSE(board.hiding({2.0, 0.0})) << "it is the board's";
+  ASSERT_TRUE(board.seenTo({4.0, 0.4}));
+  EXPECT_LT((*board.seenTo({4.0, 0.4}) - Eigen::Vector2d(2.0, 0.2)).norm(), 1e-6);
+  const Eigen::Vector2d beside(4.0, -0.4);
+  EXPECT_EQ(board.seenTo(beside), beside) << "it is seen beside the board";
+  EXPECT_FALSE(board.seenTo({2.0, 0.0})) << "it is the board's";
 }
 
 TEST(DepthSight, WhoStandsInTheOpenIsRatherAPerson) {
