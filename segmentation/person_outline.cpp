@@ -14,6 +14,9 @@ namespace {
 
 // Of the classifier: a person of 96 pixels stands in the middle of 64 x 128. People are not all as
 // tall, so it also looks a step higher and a step lower.
+constexpr float kLeft = 0.35F, kRight = 0.65F;  // Of the board's width, a person's sides,
+constexpr float kUpper = 0.2F, kLower = 0.8F;   // and of its height, brow and shins.
+constexpr float kBefore_m = 0.4F;               // What is so much nearer is not theirs.
 constexpr double kPerson_m = 1.75, kPersonRows = 96.0;
 constexpr int kStep = 8;
 const cv::Size kBoard(64, 128 + 2 * kStep);
@@ -46,20 +49,48 @@ std::optional<std::array<cv::Point2f, 4>> cornersOf(const BodyView& view,
   return corners;
 }
 
+cv::Point2f pointOf(const std::array<cv::Point2f, 4>& corners, float right, float down) {
+  const cv::Point2f upper = corners[0] + right * (corners[1] - corners[0]);
+  const cv::Point2f lower = corners[3] + right * (corners[2] - corners[3]);
+  return upper + down * (lower - upper);
+}
+
 /// Whether whoever stands in the middle of the board is in the picture from side to side, and from
 /// head to knee, or from the shoulders to the feet: a trunk has no outline.
 bool isInPicture(const std::array<cv::Point2f, 4>& corners, const cv::Size& picture) {
   const cv::Rect2f all(cv::Point2f(), picture);
   int in = 0;
-  for (const float down : {0.2F, 0.35F, 0.5F, 0.65F, 0.8F}) {
-    const auto isSideIn = [&](float right) {
-      const cv::Point2f upper = corners[0] + right * (corners[1] - corners[0]);
-      const cv::Point2f lower = corners[3] + right * (corners[2] - corners[3]);
-      return all.contains(upper + down * (lower - upper));
-    };
-    in += isSideIn(0.35F) && isSideIn(0.65F) ? 1 : 0;
+  for (int row = 0; row < 5; ++row) {
+    const float down = kUpper + 0.25F * static_cast<float>(row) * (kLower - kUpper);
+    const auto isSideIn = [&](float right) { return all.contains(pointOf(corners, right, down)); };
+    in += isSideIn(kLeft) && isSideIn(kRight) ? 1 : 0;
   }
   return in >= 4;
+}
+
+/// Whether most of what has a depth in one half of them is before them.
+bool isHalfHidden(const std::array<cv::Point2f, 4>& corners, const BodyView& view,
+                  const Eigen::Vector2d& place_m) {
+  if (view.depth_m.empty()) return false;
+  const Eigen::Vector3d middle(place_m.x(), place_m.y(), 0.5 * kPerson_m);
+  const auto depth_m = static_cast<float>((view.T_base_camera.inverse() * middle).z());
+  const cv::Rect all(cv::Point(), view.depth_m.size());
+  constexpr int kRows = 32, kColumns = 6;
+  for (const float side : {kLeft, kRight}) {
+    int before = 0, others = 0;
+    for (int i = 0; i < kRows * kColumns; ++i) {
+      const float across = (static_cast<float>(i % kColumns) + 0.5F) / kColumns;
+      const float down = (static_cast<float>(i / kColumns) + 0.5F) / kRows;
+      const cv::Point pixel =
+          pointOf(corners, side + across * (0.5F - side), kUpper + down * (kLower - kUpper));
+      if (!all.contains(pixel)) continue;
+      const float at_m = view.depth_m.at<float>(pixel);
+      before += at_m > 0.0F && at_m < depth_m - kBefore_m ? 1 : 0;
+      others += at_m >= depth_m - kBefore_m ? 1 : 0;
+    }
+    if (before > others) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -74,7 +105,10 @@ PersonOutline::PersonOutline() {
 std::optional<double> PersonOutline::classify(const BodyView& view,
                                               const Eigen::Vector2d& place_m) {
   const auto corners = cornersOf(view, place_m);
-  if (!corners || !isInPicture(*corners, view.image_bgr.size())) return std::nullopt;
+  if (!corners || !isInPicture(*corners, view.image_bgr.size()) ||
+      isHalfHidden(*corners, view, place_m)) {
+    return std::nullopt;
+  }
   const auto width = static_cast<float>(kBoard.width), height = static_cast<float>(kBoard.height);
   const std::array<cv::Point2f, 4> board = {
       {{0.0F, 0.0F}, {width, 0.0F}, {width, height}, {0.0F, height}}};

@@ -24,9 +24,9 @@ class PersonOutline {
   PersonOutline();
 
   /// The classifier's value; nothing where a person would not be in the picture from side to side,
-  /// and at least half of their height.
+  /// and with head or feet, or where something stands before one half of them.
   ///
-  /// @param view     Its depth is not used.
+  /// @param view     Its depth may be empty: then nothing is known to stand before them.
   /// @param place_m  In the base frame.
   std::optional<double> classify(const BodyView& view, const Eigen::Vector2d& place_m);
 

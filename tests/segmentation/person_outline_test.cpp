@@ -82,6 +82,16 @@ TEST_F(PersonOutlineTest, SaysNothingOfWhoIsCutByThePicture) {
   EXPECT_FALSE(outline_.classify(view_, {4.0, 2.5}));
 }
 
+// Bug: who stood half behind a door's frame was a thing.
+TEST_F(PersonOutlineTest, SaysNothingOfWhoIsHalfHidden) {
+  view_.depth_m = cv::Mat(480, 640, CV_32FC1, cv::Scalar(4.5));
+  EXPECT_TRUE(outline_.classify(view_, kPlace_m));
+  view_.depth_m.colRange(at(-0.1, 1.0).x, 640).setTo(2.0F);
+  EXPECT_TRUE(outline_.classify(view_, kPlace_m)) << "an elbow is hidden";
+  view_.depth_m.colRange(at(0.0, 1.0).x, 640).setTo(2.0F);
+  EXPECT_FALSE(outline_.classify(view_, kPlace_m));
+}
+
 TEST_F(PersonOutlineTest, OneLookIsNeverSure) {
   for (double y = -1.0; y < 1.0; y += 0.1) {
     EXPECT_LT(std::abs(outline_.logPerson(view_, {3.0, y})), 1.5);
