@@ -16,6 +16,8 @@
 namespace heel {
 namespace {
 
+// What was seen to stand for a time stands for so many times as long on once in 31 times.
+constexpr double kStays = 30.0;
 /// World cells are ints; a place further off than this many of them is a fault.
 constexpr double kFarthestCell = 1e9;
 
@@ -78,7 +80,8 @@ ObstacleLayer::ObstacleLayer(const ObstacleLayerParams& params)
 bool ObstacleLayer::remembered(const Trace& trace) const {
   if (!trace.known) return false;
   const bool stands = trace.lasted_s() >= params_.min_memory_s;
-  const double memory_s = stands ? params_.max_memory_s : params_.min_memory_s;
+  const double memory_s =
+      stands ? std::min(kStays * trace.lasted_s(), params_.max_memory_s) : params_.min_memory_s;
   return clock_s_ - trace.seen_s <= memory_s;
 }
 

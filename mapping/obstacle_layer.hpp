@@ -52,7 +52,8 @@ struct ObstacleLayerParams {
   /// An obstacle that was seen for less than this is remembered for no longer than this, and so are
   /// people: a false match of one frame must not close a doorway for long.
   double min_memory_s = 0.5;
-  /// Any other is remembered for so long, or until it is seen through: it may be too near to be.
+  /// Any other is remembered for 30 times as long as it was seen, until it is seen through (it may
+  /// be too near to be), or for so long at most.
   double max_memory_s = 60.0;
 };
 

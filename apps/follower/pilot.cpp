@@ -31,6 +31,7 @@ void Pilot::setAround(const OccupancyGrid& things, const std::vector<FloorDisc>&
 void Pilot::reset() {
   local_planner_.reset();
   arrival_.reset();
+  stays_s_ = 0.0;
 }
 
 const GlobalPlan& Pilot::plan(const Vector2d& from, const Vector2d& to) {
@@ -69,9 +70,17 @@ PilotStep Pilot::step(const Intent& intent, const DriveState& robot,
     out.velocity.turn_radps =
         std::clamp(now.command.turn_radps, -intent.most_turn_radps, intent.most_turn_radps);
   }
+  const DriveLimits& drive = local_planner_.params().limits;
+  stays_s_ += drive.period_s;
+  if (!goes || (here - stays_at_).norm() > drive.radius_m) {
+    stays_at_ = here;
+    stays_s_ = 0.0;
+  }
   if (goes) {
+    // Between two ways that both seem open it could turn to and fro for ever.
+    const bool gets_nowhere = stays_s_ > give_up_s_ + 2.0 * M_PI / drive.max_turn_radps;
     const bool is_there = !has_way || now.status == DriveStatus::kArrived ||
-                          now.blocked_s > give_up_s_ ||
+                          now.blocked_s > give_up_s_ || gets_nowhere ||
                           (*intent.go_to - here).norm() < intent.near_enough_m;
     arrival_.reset();
     if (is_there) arrival_ = Arrival{*intent.go_to, here};

@@ -27,7 +27,8 @@ struct PilotStep {
 /// Plans a way around what the map and the moment show, and drives along it.
 class Pilot {
  public:
-  /// @param give_up_s  Who was blocked for so long is as near as can be.
+  /// @param give_up_s  Who was blocked for so long is as near as can be; so is who has not left its
+  ///                   place for as long and a full turn.
   /// @throws std::invalid_argument  if a parameter is out of its range.
   Pilot(const OccupancyGrid& floor, const GlobalPlannerParams& paths,
         const LocalPlannerParams& drive, double give_up_s);
@@ -73,6 +74,8 @@ class Pilot {
   const std::vector<FloorDisc>* standing_ = nullptr;
   GlobalPlan plan_;
   std::optional<Arrival> arrival_;
+  Eigen::Vector2d stays_at_ = Eigen::Vector2d::Zero();
+  double stays_s_ = 0.0;
 };
 
 }  // namespace heel

@@ -11,7 +11,6 @@ namespace heel {
 namespace {
 
 /// What a body can bump into: from just over a rug to a tall person's head.
-constexpr double kBodyLow_m = 0.03;
 constexpr double kBodyHigh_m = 1.9;
 
 double distanceTo(const FloorBox& box, const Eigen::Vector2d& p) {
@@ -40,7 +39,7 @@ std::vector<WallPiece> wallPieces(const Wall& wall) {
   return pieces;
 }
 
-FloorPlan::FloorPlan(const Scene& scene, bool only_mapped) {
+FloorPlan::FloorPlan(const Scene& scene, bool only_mapped, double low_m) {
   for (const Wall& wall : scene.walls) {
     const Eigen::Vector2d along = (wall.to - wall.from).normalized();
     for (const WallPiece& piece : wallPieces(wall)) {
@@ -51,7 +50,7 @@ FloorPlan::FloorPlan(const Scene& scene, bool only_mapped) {
     }
   }
   for (const FloorArea& area : scene.floor_areas) {
-    if (only_mapped || area.depth_m < kBodyLow_m) continue;
+    if (only_mapped || area.depth_m < low_m) continue;
     boxes_.push_back(
         {0.5 * (area.low + area.high), Eigen::Vector2d::UnitX(), 0.5 * (area.high - area.low)});
   }
@@ -60,7 +59,7 @@ FloorPlan::FloorPlan(const Scene& scene, bool only_mapped) {
     for (const FurniturePart& part : piece.parts) {
       const bool is_box = part.shape == FurniturePart::Shape::kBox;
       const double high = part.base.z() + (is_box ? part.size_m.z() : part.height_m);
-      if (high < kBodyLow_m || part.base.z() > kBodyHigh_m) continue;
+      if (high < low_m || part.base.z() > kBodyHigh_m) continue;
       if (is_box) {
         boxes_.push_back({part.base.head<2>(),
                           {std::cos(part.yaw_rad), std::sin(part.yaw_rad)},

@@ -23,7 +23,8 @@ struct FloorBox {
 class FloorPlan {
  public:
   /// @param only_mapped  Leaves out what is not in the robot's map.
-  explicit FloorPlan(const Scene& scene, bool only_mapped = false);
+  /// @param low_m        And what is lower, and steps that are.
+  explicit FloorPlan(const Scene& scene, bool only_mapped = false, double low_m = 0.03);
 
   /// Distance to the nearest obstacle [m]; negative inside one.
   double clearance(const Eigen::Vector2d& p) const;

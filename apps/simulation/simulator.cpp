@@ -17,8 +17,9 @@ namespace heel {
 namespace {
 
 constexpr double kTick_s = 0.01;
-constexpr int kTicksPerStride = 2;   // People decide where to step every other tick.
-constexpr double kMoves_mps = 0.02;  // Slower is no move of the robot's towards somebody.
+constexpr int kTicksPerStride = 2;    // People decide where to step every other tick.
+constexpr double kMoves_mps = 0.02;   // Slower is no move of the robot's towards somebody.
+constexpr double kStepsOver_m = 0.2;  // So high a thing people step over.
 
 /// Counts the measurements that a sensor should have made.
 class SensorClock {
@@ -48,6 +49,7 @@ struct Simulator::State {
         arena(options.threads > 0 ? std::min(options.threads, tbb::info::default_concurrency())
                                   : tbb::task_arena::automatic),
         plan(scene),
+        walkers_plan(scene, false, kStepsOver_m),
         geometry(makeGeometry(scene)),
         world(geometry),
         robot(scene.robot),
@@ -82,7 +84,7 @@ struct Simulator::State {
   Scene scene;
   SimulatorOptions options;
   tbb::task_arena arena;
-  FloorPlan plan;
+  FloorPlan plan, walkers_plan;
   Geometry geometry;
   RayWorld world;
   std::unique_ptr<LightMap> lights;
@@ -176,7 +178,7 @@ void Simulator::State::tick() {
     const DriveLimits& drive = scene.robot.drive;
     others.push_back({axisOf(drive, robot.pose()).nearest(walkers[i].pose().position),
                       robot_velocity, drive.radius_m + kRobotRoom_m});
-    walkers[i].step(kTicksPerStride * kTick_s, plan, others, others.back());
+    walkers[i].step(kTicksPerStride * kTick_s, walkers_plan, others, others.back());
   }
 }
 

@@ -162,12 +162,17 @@ TEST(ObstacleLayer, ForgetsWithAge) {
 TEST(ObstacleLayer, WhatItSawForAWhileStaysAndAGlimpseIsForgotten) {
   ObstacleLayer layer;
   for (int i = 0; i <= 6; ++i) seePoints(layer, 0.1 * i, thrice(1.0, 0.0, 0.7));
-  seeNothing(layer, 60.5);
+  seeNothing(layer, 18.5);
   EXPECT_EQ(layer.obstacles().size(), 1U);
-  seeNothing(layer, 60.7);
-  EXPECT_TRUE(layer.obstacles().empty()) << "that is long ago";
-  for (int i = 0; i <= 4; ++i) seePoints(layer, 70.0 + 0.1 * i, thrice(1.0, 0.0, 0.7));
-  seeNothing(layer, 71.0);
+  seeNothing(layer, 18.7);
+  EXPECT_TRUE(layer.obstacles().empty()) << "after 30 times 0.6 s";
+  for (int i = 0; i <= 30; ++i) seePoints(layer, 20.0 + 0.1 * i, thrice(1.0, 0.0, 0.7));
+  seeNothing(layer, 82.9);
+  EXPECT_EQ(layer.obstacles().size(), 1U);
+  seeNothing(layer, 83.1);
+  EXPECT_TRUE(layer.obstacles().empty()) << "after a minute";
+  for (int i = 0; i <= 4; ++i) seePoints(layer, 90.0 + 0.1 * i, thrice(1.0, 0.0, 0.7));
+  seeNothing(layer, 91.0);
   EXPECT_TRUE(layer.obstacles().empty()) << "forgotten is forgotten";
 }
 

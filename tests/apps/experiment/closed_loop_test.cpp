@@ -207,12 +207,19 @@ TEST(ClosedLoop, WithoutAMapItGoesByItsOdometryAndWhatItSees) {
 
 TEST(ClosedLoop, WithoutAMapItWaitsWhereItWouldSearch) {
   Scene scene = test::smallHome();
-  PathStep& last = scene.people[0].path.emplace_back();  // Out of sight, behind the wall.
-  last.kind = PathStep::Kind::kWalk;
-  last.to = {30.0, 2.0};
-  last.speed_mps = 1.0;
+  Wall& wall = scene.walls.emplace_back(scene.walls[0]);  // With a doorway too narrow for it.
+  wall.from = {5.6, 0.0};
+  wall.to = {5.6, 4.0};
+  wall.doors = {{3.0, 0.45}};
+  std::vector<PathStep>& path = scene.people[0].path;
+  for (const auto& [x, y] : {std::pair{5.0, 3.0}, std::pair{6.4, 3.0}, std::pair{6.4, 1.4}}) {
+    PathStep& walk = path.emplace_back();
+    walk.kind = PathStep::Kind::kWalk;
+    walk.to = {x, y};
+    walk.speed_mps = 1.0;
+  }
   ClosedLoopParams params = quickLoop();
-  params.limit_s = 60.0;
+  params.limit_s = 90.0;
   params.has_map = false;
   const FollowLog log = runClosedLoop(scene, searchPlan(), params);
   EXPECT_EQ(log.outcome, "timeout") << "it neither fails nor goes away";
