@@ -16,7 +16,8 @@
 namespace heel {
 namespace {
 
-// What was seen to stand for a time stands for so many times as long on once in 31 times.
+// What stands for a time stands for so many times as long on once in 31 times: so seldom is what is
+// forgotten still there.
 constexpr double kStays = 30.0;
 /// World cells are ints; a place further off than this many of them is a fault.
 constexpr double kFarthestCell = 1e9;

@@ -97,10 +97,10 @@ void SearchMap::start(const Eigen::Vector2d& position, const Eigen::Vector2d& ve
   start_ = floor_.nearestFree(position);
   floor_.walkingDistances(start_, walked_m_, open_);
   // Never before they were there, and for the place's error they may have been a little further.
-  then_s_ = clock_s_ - ago_s;
+  const double then_s = clock_s_ - ago_s;
   for (std::size_t c = 0; c < reached_s_.size(); ++c) {
     const double way_m = static_cast<double>(walked_m_[c]) - 2.0 * params_.place_sigma_m;
-    const double reached_s = then_s_ + std::max(way_m, 0.0) / kFastestWalk_mps;
+    const double reached_s = then_s + std::max(way_m, 0.0) / kFastestWalk_mps;
     reached_s_[c] = probability < 1.0 ? std::min(reached_s_[c], reached_s) : reached_s;
   }
   const double speed = velocity.norm();
@@ -123,8 +123,9 @@ void SearchMap::start(const Eigen::Vector2d& position, const Eigen::Vector2d& ve
     }
   }
   sumUp();
-  clock_s_ = then_s_;
-  std::fill(shut_s_.begin(), shut_s_.end(), kNever);
+  clock_s_ = then_s;
+  lost_s_ += probability * (then_s - lost_s_);
+  if (probability > 0.5) std::fill(shut_s_.begin(), shut_s_.end(), kNever);
   carried_s_ = 0.0;
   spread(ago_s);
   for (std::size_t c = 0; c < shares_.size() && probability < 1.0; ++c) {
@@ -189,14 +190,14 @@ void SearchMap::walk() {
 // and has stood as long before: of all the time since they were seen they had but the rest.
 void SearchMap::shut() {
   floor_.walkingDistances(start_, open_m_, open_, [this](int cell) { return !isBarred(cell); });
-  const auto since_s = [this](double stamp_s) { return stamp_s - then_s_ + params_.look_s; };
+  const auto since_s = [this](double stamp_s) { return stamp_s - lost_s_ + params_.look_s; };
   for (std::size_t c = 0; c < shares_.size(); ++c) {
     double& till_s = shut_s_[c];
     if (std::isfinite(open_m_[c])) {
       till_s = kNever;
       continue;
     }
-    const double had_s = till_s == kNever ? clock_s_ - then_s_ : since_s(till_s);
+    const double had_s = till_s == kNever ? clock_s_ - lost_s_ : since_s(till_s);
     for (double& share : shares_[c]) share *= had_s / since_s(clock_s_);
     till_s = clock_s_;
   }

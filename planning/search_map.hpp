@@ -149,8 +149,8 @@ class SearchMap {
   std::vector<double> reached_s_;  ///< On the clock: nobody can have walked there sooner.
   std::vector<double> shut_s_;     ///< Till when it is counted that every way there is barred.
   std::vector<float> open_m_;      ///< The ways that are not; memory of shut().
-  int start_ = -1;                 ///< The cell where the person was last seen, then_s_.
-  double then_s_ = 0.0;
+  int start_ = -1;                 ///< The cell where the person was last seen,
+  double lost_s_ = 0.0;            ///< and when, on the clock, weighed by how likely it was they.
   CoarseFloor::Open open_;
   double speed_mps_;
   double clock_s_ = 0.0;
