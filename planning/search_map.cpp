@@ -189,6 +189,11 @@ void SearchMap::walk() {
 // Who is behind what bars every way to them came before it did. That is seen to stand for a time,
 // and has stood as long before: of all the time since they were seen they had but the rest.
 void SearchMap::shut() {
+  const auto stands = [](const Screen& screen) { return screen.stands; };
+  if (std::none_of(screens_.begin(), screens_.end(), stands)) {  // The ways are those of the map.
+    std::fill(shut_s_.begin(), shut_s_.end(), kNever);
+    return;
+  }
   floor_.walkingDistances(start_, open_m_, open_, [this](int cell) { return !isBarred(cell); });
   const auto since_s = [this](double stamp_s) { return stamp_s - lost_s_ + params_.look_s; };
   for (std::size_t c = 0; c < shares_.size(); ++c) {

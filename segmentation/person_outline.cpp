@@ -76,17 +76,18 @@ bool isHalfHidden(const std::array<cv::Point2f, 4>& corners, const BodyView& vie
   const auto depth_m = static_cast<float>((view.T_base_camera.inverse() * middle).z());
   const cv::Rect all(cv::Point(), view.depth_m.size());
   constexpr int kRows = 32, kColumns = 6;
+  const auto between = [](float from, float to, int i, int count) {
+    return from + (static_cast<float>(i) + 0.5F) / static_cast<float>(count) * (to - from);
+  };
   for (const float side : {kLeft, kRight}) {
     int before = 0, others = 0;
-    for (int i = 0; i < kRows * kColumns; ++i) {
-      const float across = (static_cast<float>(i % kColumns) + 0.5F) / kColumns;
-      const float down = (static_cast<float>(i / kColumns) + 0.5F) / kRows;
-      const cv::Point pixel =
-          pointOf(corners, side + across * (0.5F - side), kUpper + down * (kLower - kUpper));
-      if (!all.contains(pixel)) continue;
-      const float at_m = view.depth_m.at<float>(pixel);
-      before += at_m > 0.0F && at_m < depth_m - kBefore_m ? 1 : 0;
-      others += at_m >= depth_m - kBefore_m ? 1 : 0;
+    for (int row = 0; row < kRows; ++row) {
+      const float down = between(kUpper, kLower, row, kRows);
+      for (int column = 0; column < kColumns; ++column) {
+        const cv::Point pixel = pointOf(corners, between(side, 0.5F, column, kColumns), down);
+        const float at_m = all.contains(pixel) ? view.depth_m.at<float>(pixel) : 0.0F;
+        if (at_m > 0.0F) ++(at_m < depth_m - kBefore_m ? before : others);
+      }
     }
     if (before > others) return true;
   }
