@@ -19,6 +19,7 @@ namespace {
 // What stands for a time stands for so many times as long on once in 31 times: so seldom is what is
 // forgotten still there.
 constexpr double kStays = 30.0;
+constexpr float kNothing_s = std::numeric_limits<float>::quiet_NaN();
 /// World cells are ints; a place further off than this many of them is a fault.
 constexpr double kFarthestCell = 1e9;
 
@@ -74,6 +75,7 @@ ObstacleLayer::ObstacleLayer(const ObstacleLayerParams& params)
   obstacles_.reserve(count);
   steps_.reserve(count);
   occupied_.resize(count, 0);
+  stood_s_.resize(count, kNothing_s);
   transform_.compute(occupied_, cells_per_edge_, cells_per_edge_, params_.cell_size_m,
                      distances_m_);
 }
@@ -341,7 +343,12 @@ void ObstacleLayer::finish() {
       const bool occupied = cell.laser.known || cell.points.known || is_touched;
       window_.at(GridCell{x, y}) = occupied ? Occupancy::kOccupied : Occupancy::kFree;
       occupied_[window_.index({x, y})] = occupied ? 1 : 0;
+      stood_s_[window_.index({x, y})] = kNothing_s;
       if (!occupied) continue;
+      const double seen_s = std::max(cell.laser.known ? cell.laser.lasted_s() : 0.0,
+                                     cell.points.known ? cell.points.lasted_s() : 0.0);
+      stood_s_[window_.index({x, y})] =
+          is_touched ? std::numeric_limits<float>::infinity() : static_cast<float>(seen_s);
       obstacles_.push_back(window_.center({x, y}));
       if (cell.points.known && cell.height_m == 0.0F) steps_.push_back(obstacles_.back());
     }

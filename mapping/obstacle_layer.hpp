@@ -134,6 +134,10 @@ class ObstacleLayer {
   /// outside of the window, where nothing is known.
   double distance(const Eigen::Vector2d& point) const;
 
+  /// For how long what is in each of the window's cells has been seen there [s], row by row; not a
+  /// number where nothing is. What was touched stays.
+  const std::vector<float>& stood_s() const { return stood_s_; }
+
   /// Distances of the window's cells [m], row by row.
   const std::vector<float>& distances_m() const { return distances_m_; }
 
@@ -189,6 +193,7 @@ class ObstacleLayer {
   std::vector<Eigen::Vector2d> obstacles_, steps_;
   std::vector<std::uint8_t> occupied_;
   std::vector<float> distances_m_;
+  std::vector<float> stood_s_;
   DistanceTransform transform_;
 };
 

@@ -33,7 +33,7 @@ struct MovingPerson {
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< [m/s]
   double radius_m = 0.25;
   double gait_mps = 0.0;  ///< The velocity may be so far off, any way.
-  bool rests = false;     ///< Has stood there for a while, and is taken to stay.
+  double rests_s = 0.0;   ///< Has stood there for so long, and is taken to stay; 0: may walk.
 };
 
 }  // namespace heel

@@ -102,6 +102,12 @@ cv::Rect boardIn(const BodyView& view, const Eigen::Vector2d& place_m, double ha
          cv::Rect(0, 0, view.image_bgr.cols, view.image_bgr.rows);
 }
 
+/// Where a body that goes on is seen to: not at the upper edge, nor at the sides of what has depth.
+cv::Rect withoutEdge(int first_column, int columns, int rows) {
+  constexpr int kEdge_px = StatureSample::kEdge_px;
+  return {first_column + kEdge_px, kEdge_px, columns - first_column - 2 * kEdge_px, rows};
+}
+
 }  // namespace
 
 BodyDescriber::BodyDescriber(const BodyDescriberParams& params) : params_(params) {
@@ -152,6 +158,7 @@ void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDe
   begin(out);
   const cv::Rect body = boardIn(view, blob.position_m, params_.radius_m,
                                 static_cast<double>(kEnds_m.front()), StatureSample::kMostHeight_m);
+  const cv::Rect inside = withoutEdge(view.disparities, view.image_bgr.cols, view.image_bgr.rows);
   cv::Rect board;
   if (view.disparities > 0) {
     const int columns = view.image_bgr.cols - view.disparities;
@@ -184,7 +191,7 @@ void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDe
       float height_m = on_board_m;
       if (has_depth && (p.head<2>() - place).squaredNorm() <= radius2) {
         height_m = p.z();
-        heights_.add(static_cast<double>(height_m), v);
+        heights_.add(static_cast<double>(height_m), !inside.contains(cv::Point(u, v)));
         first = std::min(first, u);
         last = std::max(last, u);
       } else {
@@ -215,11 +222,13 @@ void BodyDescriber::describe(const ColorCloud& cloud, const Eigen::Vector2d& pos
   begin(out);
   const Eigen::Vector2f place = position_m.cast<float>();
   const auto radius2 = static_cast<float>(params_.radius_m * params_.radius_m);
+  const cv::Rect inside = withoutEdge(0, static_cast<int>(cloud.width), cloud.height);
   const auto visit = [&](std::size_t i) {
     const pcl::PointXYZRGB& p = cloud[i];
     if (!((Eigen::Vector2f(p.x, p.y) - place).squaredNorm() <= radius2)) return;  // or NaN
+    const auto row = static_cast<int>(i / cloud.width), column = static_cast<int>(i % cloud.width);
     heights_.add(static_cast<double>(p.z),
-                 cloud.height > 1 ? static_cast<int>(i / cloud.width) : -1);
+                 cloud.height > 1 && !inside.contains(cv::Point(column, row)));
     add(stripeOf(p.z), {p.b, p.g, p.r}, out);
   };
   if (indices != nullptr) {

@@ -30,10 +30,10 @@ void StatureSample::clear() {
   cut_off_ = false;
 }
 
-void StatureSample::add(double height_m, int row) {
+void StatureSample::add(double height_m, bool at_edge) {
   if (height_m < kLeastHeight_m) return;
   heights_m_.push_back(height_m);
-  cut_off_ = cut_off_ || (row >= 0 && row < kEdgeRows);
+  cut_off_ = cut_off_ || at_edge;
 }
 
 void StatureSample::addBehind(double height_m) {

@@ -21,19 +21,19 @@ struct Stature {
 ///
 /// Not the highest point, which noise lifts, but a height that 2 % of the points of the upper body
 /// are above. Nothing without enough points of the upper body, or if the head may be out of view:
-/// they reach the upper edge of the picture, or too little behind them is seen above them, because
-/// a door's frame or the picture's side cuts them off.
+/// they reach the picture's edge, or too little behind them is seen above them, because a door's
+/// frame cuts them off.
 class StatureSample {
  public:
   static constexpr double kLeastHeight_m = 1.2;  ///< What is lower is not looked at.
   static constexpr double kMostHeight_m = 2.3;   ///< Nor what is higher.
-  static constexpr int kEdgeRows = 8;            ///< Stereo has no depth in the outermost few.
+  static constexpr int kEdge_px = 8;             ///< Stereo has no depth in the outermost few.
   static constexpr int kMinPoints = 60;
   static constexpr double kAbove_m = 0.1;  ///< So far above them is looked at what is behind.
 
   void clear();
-  /// @param row  In the picture; a negative one means that there is no picture.
-  void add(double height_m, int row);
+  /// @param at_edge  Whether it is at the picture's upper edge or one of its sides.
+  void add(double height_m, bool at_edge = false);
   /// A point behind them, or with no depth for it is too far, seen at this height of theirs.
   void addBehind(double height_m);
   /// @param full  So many points behind a body were seen if all above it were, up to kAbove_m; 0:

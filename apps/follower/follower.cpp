@@ -231,7 +231,7 @@ void Follower::lookAround(const RobotReadings& readings) {
   }
   things_.finish();
   people_.step(steady_s_, *perception_, last_gate_.sight(), motion_.pose() * pose.inverse(), now_);
-  pilot_.setAround(things_.apartFrom(now_.people), people_.resting());
+  pilot_.setAround(things_.apartFrom(now_.people), things_.layer().stood_s(), people_.resting());
 }
 
 void Follower::takeIn(RobotCamera by, const Frame& frame, double stamp_s) {
@@ -293,8 +293,9 @@ void Follower::noteTarget() {
   if (target_.hasPlace()) {
     now_.target = MovingPerson{
         target_.motion.position_m(), target_.motion.velocity_mps(), MovingPerson().radius_m,
-        gaitOf(target_.motion, step_.robot.pose.position),
-        perception_->identity().restsFor_s(target_.track_id, steady_s_) >= params_.walks_on_s};
+        gaitOf(target_.motion, step_.robot.pose.position)};
+    const double rests_s = perception_->identity().restsFor_s(target_.track_id, steady_s_);
+    if (rests_s >= params_.walks_on_s) now_.target->rests_s = rests_s;
     step_.target = now_.target->position;
   }
   if (target_.status == TargetStatus::kFollowed) {

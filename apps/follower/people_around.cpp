@@ -71,8 +71,10 @@ void PeopleAround::addTracks(double stamp_s, const Perception& perception, Situa
     if (who.sum() - who[kThing] < surely_person_) continue;
     MovingPerson& person = now.people.emplace_back();
     person.position = track.motion.position_m();
-    person.rests = identity.restsFor_s(track.id, stamp_s) >= walks_on_s_ && !setsOff(track.motion);
-    if (!person.rests) {
+    const double rests_s = identity.restsFor_s(track.id, stamp_s);
+    if (rests_s >= walks_on_s_ && !setsOff(track.motion)) {
+      person.rests_s = rests_s;
+    } else {
       person.velocity = track.motion.velocity_mps();
       person.gait_mps = gaitOf(track.motion, now.robot.position);
     }
@@ -94,7 +96,7 @@ void PeopleAround::addComers(const RecentSight& sight, const FloorPose& T_world_
     }
     if (const std::optional<Vector2d> body = sight.bodyAround(thing)) {
       now.people.push_back({T_world_frame * *body, turn * thing.velocity, MovingPerson().radius_m,
-                            thing.gait_mps, !thing.roams});
+                            thing.gait_mps, thing.roams ? 0.0 : walks_on_s_});
     }
   }
 }

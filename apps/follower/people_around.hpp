@@ -29,7 +29,7 @@ class PeopleAround {
             const FloorPose& T_frame_world, Situation& now);
 
   /// Around those who rest, but for the target: paths lead another way.
-  const std::vector<FloorDisc>& resting() const { return unseen_.resting(); }
+  const std::vector<MovingPerson>& resting() const { return unseen_.resting(); }
   /// Around all of them, in a frame [m]; valid until the next call.
   const std::vector<FloorDisc>& discs(const std::vector<MovingPerson>& people,
                                       const FloorPose& T_frame_world);

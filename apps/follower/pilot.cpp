@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -19,12 +20,20 @@ constexpr double kTurn_rad = 0.1;        // In such steps is looked whether it c
 
 Pilot::Pilot(const OccupancyGrid& floor, const GlobalPlannerParams& paths,
              const LocalPlannerParams& drive, double give_up_s)
-    : give_up_s_(give_up_s), room_(floor, 1.0), planner_(floor, paths), local_planner_(drive) {}
+    : give_up_s_(give_up_s),
+      room_(floor, 1.0),
+      planner_(floor, paths),
+      on_map_(floor, paths),
+      local_planner_(drive) {}
 
-void Pilot::setAround(const OccupancyGrid& things, const std::vector<FloorDisc>& people) {
+void Pilot::setAround(const OccupancyGrid& things, const std::vector<float>& stood_s,
+                      const std::vector<MovingPerson>& people) {
   things_ = &things;
-  standing_ = &people;
-  planner_.setObstacles(people, &things);
+  stood_s_ = &stood_s;
+  resting_ = &people;
+  discs_.clear();
+  for (const MovingPerson& person : people) discs_.push_back({person.position, person.radius_m});
+  planner_.setObstacles(discs_, &things);
   room_.setLayer({}, &things);
 }
 
@@ -96,13 +105,43 @@ PilotStep Pilot::step(const Intent& intent, const DriveState& robot,
   return out;
 }
 
-// Around people and things; else, for they may be gone by then, as the map has it.
+// Around what stands; else as the map has it, for it may have gone by then. The same where the way
+// round is so much longer that it is worth to wait.
 bool Pilot::findWay(const Vector2d& from, const Vector2d& to) {
-  if (plan(from, to).found() || things_ == nullptr) return plan_.found();
-  planner_.setObstacles({});
   plan(from, to);
-  planner_.setObstacles(*standing_, things_);
-  return plan_.found();
+  if (things_ == nullptr) return plan_.found();
+  on_map_.plan(from, to, through_);
+  if (!through_.found()) return plan_.found();
+  const double worth_m = local_planner_.params().limits.max_speed_mps * give_up_s_;
+  const double longer_m = plan_.length_m - through_.length_m;
+  if (plan_.found() && (longer_m < worth_m || barred_m(through_.path) > longer_m)) return true;
+  std::swap(plan_, through_);
+  return true;
+}
+
+// What has stood for a time stands for as long again, once in two times: for so long the robot would
+// wait at the worst of what bars a path, as the way that it drives in that time.
+double Pilot::barred_m(const FloorPath& path) {
+  const LocalPlannerParams& drive = local_planner_.params();
+  const double length_m = pathLength(path);
+  barred_.take(path, path.front(), length_m + 1.0);
+  double most_m = 0.0;
+  const auto bar = [&](const Vector2d& place, double radius_m, double stood_s) {
+    const double way_m = drive.limits.max_speed_mps * stood_s;
+    if (!(way_m > most_m)) return;  // NaN too
+    const PathAhead::Place on_path = barred_.locate(place);
+    if (on_path.off_m > planner_.params().robot_radius_m + radius_m) return;
+    most_m = std::max(most_m, way_m - (length_m - on_path.left_m));
+  };
+  for (int y = 0; y < things_->height(); ++y) {
+    for (int x = 0; x < things_->width(); ++x) {
+      const GridCell cell{x, y};
+      if (things_->at(cell) != Occupancy::kOccupied) continue;
+      bar(things_->center(cell), 0.5 * things_->cell_size_m(), (*stood_s_)[things_->index(cell)]);
+    }
+  }
+  for (const MovingPerson& person : *resting_) bar(person.position, person.radius_m, person.rests_s);
+  return most_m;
 }
 
 // A round robot touches nothing by turning.

@@ -33,9 +33,11 @@ class Pilot {
   Pilot(const OccupancyGrid& floor, const GlobalPlannerParams& paths,
         const LocalPlannerParams& drive, double give_up_s);
 
-  /// What stands around the robot: things, and people. Both must outlive the steps until the next
-  /// call.
-  void setAround(const OccupancyGrid& things, const std::vector<FloorDisc>& people);
+  /// What stands around the robot; it must outlive the steps until the next call.
+  /// @param stood_s  For how long each of the things has, as ObstacleLayer::stood_s().
+  /// @param people   Who rests.
+  void setAround(const OccupancyGrid& things, const std::vector<float>& stood_s,
+                 const std::vector<MovingPerson>& people);
   /// Where somebody may come out whom nobody sees.
   void expect(const std::vector<Eigen::Vector2d>& hidden) { local_planner_.expect(hidden); }
   /// Forgets how it drove before.
@@ -47,7 +49,7 @@ class Pilot {
   double free_m(const Eigen::Vector2d& place) const {
     return planner_.clearance().clearance(place);
   }
-  /// The way from one place to another; valid until the next plan.
+  /// The way from one place to another around all that stands; valid until the next plan.
   const GlobalPlan& plan(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
 
   /// @param people   Who walks and who stands.
@@ -63,16 +65,21 @@ class Pilot {
   };
 
   bool findWay(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
+  double barred_m(const FloorPath& path);
   bool canTurnTo(const Eigen::Vector2d& place, const DriveState& robot, Clearance room) const;
   Eigen::Vector2d turningPlace(const FloorPose& pose, Clearance room) const;
 
   double give_up_s_;
   ClearanceMap room_;  // to things
   GlobalPlanner planner_;
+  GlobalPlanner on_map_;  // with nothing else
   LocalPlanner local_planner_;
   const OccupancyGrid* things_ = nullptr;
-  const std::vector<FloorDisc>* standing_ = nullptr;
-  GlobalPlan plan_;
+  const std::vector<float>* stood_s_ = nullptr;
+  const std::vector<MovingPerson>* resting_ = nullptr;
+  std::vector<FloorDisc> discs_;  // of these
+  GlobalPlan plan_, through_;
+  PathAhead barred_;
   std::optional<Arrival> arrival_;
   Eigen::Vector2d stays_at_ = Eigen::Vector2d::Zero();
   double stays_s_ = 0.0;

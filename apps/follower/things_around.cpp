@@ -87,7 +87,7 @@ void ThingsAround::addPoints(RobotCamera by, const std::vector<Eigen::Vector3f>&
 const OccupancyGrid& ThingsAround::apartFrom(const std::vector<MovingPerson>& people) {
   apart_ = layer_.window();
   for (const MovingPerson& person : people) {
-    const double reach_m = person.rests ? person.radius_m + beside_people_m_ : person_m_;
+    const double reach_m = person.rests_s > 0.0 ? person.radius_m + beside_people_m_ : person_m_;
     const GridCell low = apart_.cellAt(person.position.array() - reach_m);
     const GridCell high = apart_.cellAt(person.position.array() + reach_m);
     for (int y = std::max(low.y, 0); y <= std::min(high.y, apart_.height() - 1); ++y) {

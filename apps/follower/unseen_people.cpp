@@ -30,8 +30,9 @@ void UnseenPeople::step(double stamp_s, std::vector<MovingPerson>& people,
   for (std::size_t i = 0; i < unseen; ++i) people.push_back(now(known_[i], stamp_s));
   resting_.clear();
   for (const Known& known : known_) {
-    if (!known.person.rests) continue;
-    resting_.push_back({known.person.position, known.person.radius_m + params_.beside_m});
+    if (!(known.person.rests_s > 0.0)) continue;
+    resting_.push_back(known.person);
+    resting_.back().radius_m += params_.beside_m;
   }
 }
 

@@ -5,7 +5,6 @@
 /// Who was seen and is not any more; around who stands a path leads another way.
 #pragma once
 
-#include <heel/mapping/floor_pose.hpp>
 #include <heel/planning/function_ref.hpp>
 #include <heel/planning/surroundings.hpp>
 
@@ -31,8 +30,8 @@ class UnseenPeople {
   void step(double stamp_s, std::vector<MovingPerson>& people,
             FunctionRef<bool(const Eigen::Vector2d&)> has_left);
 
-  /// Around all of them who rest.
-  const std::vector<FloorDisc>& resting() const { return resting_; }
+  /// All of them who rest, with the room beside them.
+  const std::vector<MovingPerson>& resting() const { return resting_; }
 
  private:
   struct Known {
@@ -46,7 +45,7 @@ class UnseenPeople {
 
   UnseenPeopleParams params_;
   std::vector<Known> known_;
-  std::vector<FloorDisc> resting_;
+  std::vector<MovingPerson> resting_;
 };
 
 }  // namespace heel

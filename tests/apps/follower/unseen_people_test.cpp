@@ -20,7 +20,7 @@ MovingPerson personAt(const Eigen::Vector2d& place_m, double x_mps = 0.0) {
   MovingPerson person;
   person.position = place_m;
   person.velocity = {x_mps, 0.0};
-  person.rests = x_mps == 0.0;
+  person.rests_s = x_mps == 0.0 ? 3.0 : 0.0;
   return person;
 }
 
@@ -89,7 +89,7 @@ TEST(UnseenPeople, WhoWalksWalksOnForAWhile) {
 TEST(UnseenPeople, WhoHasJustStoppedClosesNoWayYet) {
   Memory memory;
   MovingPerson stopped = personAt({1.1, 0.0});
-  stopped.rests = false;
+  stopped.rests_s = 0.0;
   memory.step(0.0, {stopped});
   EXPECT_TRUE(memory.unseen.resting().empty());
   memory.step(10.0, {});
