@@ -52,10 +52,12 @@ double closing(const Vector2d& offset, const Vector2d& approach, double reach) {
 /// Whether nothing of a body's height stands between two places.
 bool isOpen(const FloorPlan& plan, const Vector2d& from, const Vector2d& to) {
   constexpr double kStep_m = 0.05;
-  const Vector2d way = to - from;
-  const int steps = static_cast<int>(way.norm() / kStep_m);
-  for (int i = 1; i < steps; ++i) {
-    if (plan.clearance(from + (kStep_m * i / way.norm()) * way) < 0.0) return false;
+  const double length_m = (to - from).norm();
+  const Vector2d way = (to - from).normalized();
+  double room_m = 0.0;
+  for (double gone_m = kStep_m; gone_m < length_m; gone_m += std::max(room_m, kStep_m)) {
+    room_m = plan.clearance(from + gone_m * way);
+    if (room_m < 0.0) return false;
   }
   return true;
 }
@@ -83,7 +85,7 @@ void Walker::step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& 
     const Vector2d way = now.to - pose_.position;
     switch (now.kind) {
       case PathStep::Kind::kWalk:
-        wanted = way.normalized() * now.speed_mps;
+        wanted = wayOn(plan).normalized() * now.speed_mps;
         if (way.norm() < std::max(kArrived_m, now.speed_mps * dt_s)) finishStep();
         break;
       case PathStep::Kind::kWait:
@@ -123,6 +125,30 @@ void Walker::step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& 
     stuck_s_ = 0.0;
     finishStep();
   }
+}
+
+// Straight on; who does not get on because a wall is between, for others have pushed them off their
+// way, goes back to it, or to a corner that they have passed, until the next one is in sight.
+Vector2d Walker::wayOn(const FloorPlan& plan) {
+  const Vector2d& here = pose_.position;
+  Vector2d next = person_->path[step_].to;
+  is_off_way_ = (is_off_way_ || stuck_s_ > kPatience_s) && !isOpen(plan, here, next);
+  const Vector2d straight_on = next - here;
+  if (!is_off_way_) return straight_on;
+  for (std::optional<std::size_t> at = step_; at;) {
+    at = walkBefore(*at);
+    const Vector2d passed = at ? person_->path[*at].to : person_->start;
+    const Vector2d leg = next - passed;
+    const double share = (here - passed).dot(leg) / std::max(leg.squaredNorm(), 1e-9);
+    for (const Vector2d& place : {Vector2d(passed + std::clamp(share, 0.0, 1.0) * leg), passed}) {
+      if ((place - here).norm() > kArrived_m && isOpen(plan, place, next) &&
+          isOpen(plan, here, place)) {
+        return place - here;
+      }
+    }
+    next = passed;
+  }
+  return straight_on;
 }
 
 Vector2d Walker::waitForRobot(double dt_s, const FloorPlan& plan, const Vector2d& robot) {

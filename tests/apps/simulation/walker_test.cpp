@@ -135,6 +135,25 @@ TEST(Walker, WalksAlongAWallAndNotThroughIt) {
   EXPECT_TRUE(simulator.everyoneIsDone());
 }
 
+// Bug: whom others had pushed off their way stood in a corner for good, on the wrong side of a
+// wall.
+TEST(Walker, GoesBackWhereAWallIsInTheWay) {
+  Scene scene = test::squareRoom();
+  scene.robot.start = {2.0, -2.0};
+  for (const Eigen::Vector2d& end : {Eigen::Vector2d(0.0, -3.0), Eigen::Vector2d(-0.7, 0.0)}) {
+    Wall wall = scene.walls[0];
+    wall.from = end;
+    wall.to = {0.0, 0.0};
+    scene.walls.push_back(wall);
+  }
+  scene.people.push_back(test::standingPerson("eva", -1.5, 0.5));
+  scene.people[0].path = {walkTo(-0.4, -0.6), walkTo(1.0, 0.4)};
+  Simulator simulator(scene, {1, 0, false});
+  Eigen::Vector2d last(0.0, 0.0);
+  live(simulator, 12.0, [&](const WorldTruth& truth) { last = truth.people[0].position; });
+  EXPECT_LT((last - Eigen::Vector2d(1.0, 0.4)).norm(), 0.3);
+}
+
 TEST(Walker, StepsAroundTheRobot) {
   Scene scene = test::squareRoom();
   scene.people.push_back(test::standingPerson("eva", -2.2, 0.05));
