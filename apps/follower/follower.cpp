@@ -291,9 +291,9 @@ void Follower::noteTarget() {
   step_.target.reset();
   now_.unseen_s += now_.elapsed_s;
   if (target_.hasPlace()) {
-    now_.target = MovingPerson{
-        target_.motion.position_m(), target_.motion.velocity_mps(), MovingPerson().radius_m,
-        gaitOf(target_.motion, step_.robot.pose.position)};
+    now_.target =
+        MovingPerson{target_.motion.position_m(), target_.motion.velocity_mps(),
+                     MovingPerson().radius_m, gaitOf(target_.motion, step_.robot.pose.position)};
     const double rests_s = perception_->identity().restsFor_s(target_.track_id, steady_s_);
     if (rests_s >= params_.walks_on_s) now_.target->rests_s = rests_s;
     step_.target = now_.target->position;
