@@ -252,10 +252,11 @@ nlohmann::ordered_json followJson(const FollowLog& log, const FollowSummary& sum
 
 void writeFollowFiles(const Output& output, const FollowLog& log, const FollowSummary& summary) {
   CsvWriter csv = followCsv(output / "follow.csv");
-  CsvWriter timing(output / "timing.csv", {"stage", "mean_ms", "p95_ms"});
+  CsvWriter timing(output / "timing.csv", {"stage", "mean_ms", "median_ms", "p95_ms"});
   addRows(csv, log);
   const auto addTime = [&](const StageTime& time) {
-    timing.text(time.name).number(time.mean_ms, 3).number(time.p95_ms, 3).endRow();
+    timing.text(time.name).number(time.mean_ms, 3).number(time.median_ms, 3);
+    timing.number(time.p95_ms, 3).endRow();
   };
   std::for_each(log.stages.begin(), log.stages.end(), addTime);
   if (!log.stages.empty()) addTime(log.step);

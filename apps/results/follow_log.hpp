@@ -65,6 +65,7 @@ struct FollowSnapshot {
 struct StageTime {
   std::string name;
   double mean_ms = 0.0;
+  double median_ms = 0.0;
   double p95_ms = 0.0;
 };
 

@@ -21,10 +21,12 @@ constexpr double kFilmRate_hz = 10.0;
 constexpr double kShownApart_s = 0.19;  // On a network.
 
 StageTime summaryOf(const char* name, const std::vector<float>& times_ms) {
-  StageTime time{name, 0.0, 0.0};
+  StageTime time;
+  time.name = name;
   if (times_ms.empty()) return time;
   time.mean_ms =
       std::accumulate(times_ms.begin(), times_ms.end(), 0.0) / static_cast<double>(times_ms.size());
+  time.median_ms = shareOf({times_ms.begin(), times_ms.end()}, 0.5);
   time.p95_ms = shareOf({times_ms.begin(), times_ms.end()}, 0.95);
   return time;
 }
