@@ -225,7 +225,8 @@ void SearchMap::look(const FloorPose& camera, double elapsed_s,
       seen_.push_back(cell);
     } else if (const int at = floor_.cellAt(*seen_to); at >= 0) {
       Screen& screen = screens_[index(at)];
-      if (!screen.stands) screen = {true, clock_s_, clock_s_};
+      if (!screen.stands) screen.since_s = 0.5 * (screen.free_s + clock_s_);
+      screen.stands = true;
       screen.last_s = clock_s_;
     }
     return is_seen;
@@ -233,7 +234,9 @@ void SearchMap::look(const FloorPose& camera, double elapsed_s,
   for (const int cell : seen_) {
     forCellsBetween(camera.position, floor_.center(cell), [&](int between) {
       Screen& screen = screens_[index(between)];
-      screen.stands = screen.stands && screen.last_s == clock_s_;
+      if (screen.stands && screen.last_s == clock_s_) return;
+      screen.stands = false;
+      screen.free_s = clock_s_;
     });
   }
 }
@@ -242,7 +245,7 @@ void SearchMap::look(const FloorPose& camera, double elapsed_s,
 double SearchMap::passes(const Screen& screen, double in_s) const {
   if (!screen.stands) return 1.0;
   const double since_s = clock_s_ - screen.last_s + in_s;
-  return since_s / (since_s + screen.last_s - screen.first_s + params_.look_s);
+  return since_s / (since_s + screen.last_s - screen.since_s + params_.look_s);
 }
 
 // What is in the way is one thing, in however many cells.

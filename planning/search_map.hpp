@@ -81,7 +81,8 @@ class SearchMap {
   /// @param seenTo  How far one sees on the way to a place: to it, or to where something that the
   ///                map does not show hides it; absent if that is not known. What hides a place is
   ///                taken to stand there, and nobody to walk through it, for as long again as it
-  ///                has till then, or until it is seen through.
+  ///                has till then, or until it is seen through. It came half way between when it
+  ///                was last seen through and when it was seen first.
   void look(const FloorPose& camera, double elapsed_s,
             FunctionRef<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)> seenTo);
   void look(const FloorPose& camera, double elapsed_s) {
@@ -115,7 +116,9 @@ class SearchMap {
   /// Something that the map does not show stands in a cell, and hides what is behind it.
   struct Screen {
     bool stands = false;
-    double first_s = 0.0, last_s = 0.0;  ///< When it was seen, on the clock.
+    double free_s = 0.0;  ///< When it was last seen through, on the clock; at first, its beginning.
+    double since_s = 0.0;  ///< When it came: half way from then until it was seen first.
+    double last_s = 0.0;   ///< When it was last seen.
   };
 
   void turn();

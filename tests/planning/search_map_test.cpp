@@ -302,6 +302,27 @@ TEST(SearchMap, AShutDoorStaysShutWhereNothingIsKnown) {
   EXPECT_NEAR(seenShare() / before, std::exp(-2.0), 0.05) << "and is taken to be so still";
 }
 
+// Bug: a door that was seen shut for five seconds was taken to be open ten seconds later. The robot
+// went from one shut door of a room to the other, and into no other room.
+TEST(SearchMap, ADoorHasBeenShutSinceItWasLastSeenOpen) {
+  const Eigen::Vector2d eye(4.0, 2.1);
+  const auto behind = [&](bool was_seen_open) {
+    SearchMap map = threeRooms();
+    map.start(kMiddle, {0.0, 0.0});
+    map.spread(50.0);
+    if (was_seen_open) map.look({eye, 0.0}, 0.0);
+    map.start(kMiddle, {1.0, 0.0});
+    for (int i = 0; i < 25; ++i) {
+      map.look({eye, 0.0}, 0.0, [&](const Eigen::Vector2d& p) { return byShutDoor(p, eye); });
+      map.spread(0.2);
+    }
+    map.spread(15.0);  // while it looks away
+    return rightRoom(map);
+  };
+  EXPECT_GT(behind(true), 0.1) << "it may have been open again for ten seconds";
+  EXPECT_LT(behind(false), 0.2 * behind(true));
+}
+
 // Bug: the robot stood before a door that had been shut all along, and did not look elsewhere.
 TEST(SearchMap, TheLongerADoorIsShutTheLessIsBehindIt) {
   const Eigen::Vector2d eye(4.0, 2.1);
