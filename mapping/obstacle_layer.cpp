@@ -345,12 +345,14 @@ void ObstacleLayer::finish() {
       occupied_[window_.index({x, y})] = occupied ? 1 : 0;
       stood_s_[window_.index({x, y})] = kNothing_s;
       if (!occupied) continue;
+      const bool is_step = cell.points.known && cell.height_m == 0.0F;
       const double seen_s = std::max(cell.laser.known ? cell.laser.lasted_s() : 0.0,
                                      cell.points.known ? cell.points.lasted_s() : 0.0);
-      stood_s_[window_.index({x, y})] =
-          is_touched ? std::numeric_limits<float>::infinity() : static_cast<float>(seen_s);
+      stood_s_[window_.index({x, y})] = is_touched || is_step
+                                            ? std::numeric_limits<float>::infinity()
+                                            : static_cast<float>(seen_s);
       obstacles_.push_back(window_.center({x, y}));
-      if (cell.points.known && cell.height_m == 0.0F) steps_.push_back(obstacles_.back());
+      if (is_step) steps_.push_back(obstacles_.back());
     }
   }
   transform_.compute(occupied_, cells_per_edge_, cells_per_edge_, params_.cell_size_m,

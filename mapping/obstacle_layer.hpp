@@ -134,8 +134,8 @@ class ObstacleLayer {
   /// outside of the window, where nothing is known.
   double distance(const Eigen::Vector2d& point) const;
 
-  /// For how long what is in each of the window's cells has been seen there [s], row by row; not a
-  /// number where nothing is. What was touched stays.
+  /// For how long what is in each of the window's cells has been seen there [s], row by row:
+  /// infinite for steps and for what was touched, not a number where nothing is.
   const std::vector<float>& stood_s() const { return stood_s_; }
 
   /// Distances of the window's cells [m], row by row.

@@ -220,6 +220,7 @@ void SearchMap::look(const FloorPose& camera, double elapsed_s,
     if (!isInView(camera, place)) return false;
     const std::optional<Eigen::Vector2d> seen_to = seenTo(place);
     if (!seen_to) return passes(camera.position, place, 0.0) > 0.5;
+    if ((*seen_to - camera.position).norm() < kRounding_m) return false;
     const bool is_seen = (*seen_to - place).norm() < kRounding_m;
     if (is_seen) {
       seen_.push_back(cell);
@@ -336,23 +337,28 @@ void SearchMap::sumUp() {
 std::optional<SearchView> SearchMap::nextView(const FloorPose& camera,
                                               FunctionRef<double(const Eigen::Vector2d&)> way_m) {
   if (walked_m_.empty()) return std::nullopt;
-  floor_.walkingDistances(floor_.nearestFree(camera.position), way_m_, way_open_);
   // First the place, by all that is in view around it: who goes to a room looks all around in it.
   const double around_s = 2.0 * kPi / params_.limits.max_turn_radps + params_.look_s;
   const auto onMap_m = [&](std::size_t view) {
     return static_cast<double>(way_m_[index(view_cells_[view])]);
   };
   const auto toThere_s = [&](double on_way_m) { return on_way_m / params_.limits.max_speed_mps; };
-  chances_.assign(view_cells_.size(), 0.0);
-  rates_.assign(view_cells_.size(), 0.0);
-  by_rate_.clear();
-  for (std::size_t view = 0; view < view_cells_.size(); ++view) {
-    if (!std::isfinite(onMap_m(view))) continue;
-    const Bearings around = chancesAround(view, toThere_s(onMap_m(view)) + params_.look_s);
-    chances_[view] = std::accumulate(around.begin(), around.end(), 0.0);
-    rates_[view] = chances_[view] / (toThere_s(onMap_m(view)) + around_s);
-    if (rates_[view] > 0.0) by_rate_.push_back(view);
-  }
+  const auto rateViews = [&](FunctionRef<bool(int cell)> is_open) {
+    floor_.walkingDistances(floor_.nearestFree(camera.position), way_m_, way_open_, is_open);
+    chances_.assign(view_cells_.size(), 0.0);
+    rates_.assign(view_cells_.size(), 0.0);
+    by_rate_.clear();
+    for (std::size_t view = 0; view < view_cells_.size(); ++view) {
+      if (!std::isfinite(onMap_m(view))) continue;
+      const Bearings around = chancesAround(view, toThere_s(onMap_m(view)) + params_.look_s);
+      chances_[view] = std::accumulate(around.begin(), around.end(), 0.0);
+      rates_[view] = chances_[view] / (toThere_s(onMap_m(view)) + around_s);
+      if (rates_[view] > 0.0) by_rate_.push_back(view);
+    }
+  };
+  // What bars a way may be gone by then: that comes last.
+  rateViews([this](int cell) { return !isBarred(cell); });
+  if (by_rate_.empty()) rateViews([](int) { return true; });
   if (by_rate_.empty()) return std::nullopt;
   std::sort(by_rate_.begin(), by_rate_.end(), [this](std::size_t a, std::size_t b) {
     return rates_[a] != rates_[b] ? rates_[a] > rates_[b] : a < b;

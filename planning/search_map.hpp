@@ -82,7 +82,8 @@ class SearchMap {
   ///                map does not show hides it; absent if that is not known. What hides a place is
   ///                taken to stand there, and nobody to walk through it, for as long again as it
   ///                has till then, or until it is seen through. It came half way between when it
-  ///                was last seen through and when it was seen first.
+  ///                was last seen through and when it was seen first. To the camera itself:
+  ///                somebody hides it, who will not stay.
   void look(const FloorPose& camera, double elapsed_s,
             FunctionRef<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)> seenTo);
   void look(const FloorPose& camera, double elapsed_s) {

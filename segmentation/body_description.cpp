@@ -102,10 +102,11 @@ cv::Rect boardIn(const BodyView& view, const Eigen::Vector2d& place_m, double ha
          cv::Rect(0, 0, view.image_bgr.cols, view.image_bgr.rows);
 }
 
-/// Where a body that goes on is seen to: not at the upper edge, nor at the sides of what has depth.
-cv::Rect withoutEdge(int first_column, int columns, int rows) {
-  constexpr int kEdge_px = StatureSample::kEdge_px;
-  return {first_column + kEdge_px, kEdge_px, columns - first_column - 2 * kEdge_px, rows};
+/// The picture without its upper edge and the sides of what has depth: who reaches beyond it may be
+/// cut off. @param step  Only one of so many pixels is looked at.
+cv::Rect withoutEdge(int first_column, int columns, int rows, int step = 1) {
+  const int edge_px = StatureSample::kEdge_px + step - 1;
+  return {first_column + edge_px, edge_px, columns - first_column - 2 * edge_px, rows};
 }
 
 }  // namespace
@@ -158,7 +159,6 @@ void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDe
   begin(out);
   const cv::Rect body = boardIn(view, blob.position_m, params_.radius_m,
                                 static_cast<double>(kEnds_m.front()), StatureSample::kMostHeight_m);
-  const cv::Rect inside = withoutEdge(view.disparities, view.image_bgr.cols, view.image_bgr.rows);
   cv::Rect board;
   if (view.disparities > 0) {
     const int columns = view.image_bgr.cols - view.disparities;
@@ -166,6 +166,8 @@ void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDe
   }
   const int step = std::max(
       1, static_cast<int>(std::sqrt(body.area() / ((kStripes + 1) * params_.stripe_pixels))));
+  const cv::Rect inside =
+      withoutEdge(view.disparities, view.image_bgr.cols, view.image_bgr.rows, step);
   const Eigen::Matrix3f R = view.T_base_camera.linear().cast<float>();
   const Eigen::Vector3f eye = view.T_base_camera.translation().cast<float>();
   const Eigen::Vector2f place = blob.position_m.cast<float>();
@@ -222,13 +224,15 @@ void BodyDescriber::describe(const ColorCloud& cloud, const Eigen::Vector2d& pos
   begin(out);
   const Eigen::Vector2f place = position_m.cast<float>();
   const auto radius2 = static_cast<float>(params_.radius_m * params_.radius_m);
-  const cv::Rect inside = withoutEdge(0, static_cast<int>(cloud.width), cloud.height);
+  const cv::Rect inside =
+      withoutEdge(0, static_cast<int>(cloud.width), static_cast<int>(cloud.height));
   const auto visit = [&](std::size_t i) {
     const pcl::PointXYZRGB& p = cloud[i];
     if (!((Eigen::Vector2f(p.x, p.y) - place).squaredNorm() <= radius2)) return;  // or NaN
-    const auto row = static_cast<int>(i / cloud.width), column = static_cast<int>(i % cloud.width);
-    heights_.add(static_cast<double>(p.z),
-                 cloud.height > 1 && !inside.contains(cv::Point(column, row)));
+    const auto pixelOf = [&] {
+      return cv::Point(static_cast<int>(i % cloud.width), static_cast<int>(i / cloud.width));
+    };
+    heights_.add(static_cast<double>(p.z), cloud.height > 1 && !inside.contains(pixelOf()));
     add(stripeOf(p.z), {p.b, p.g, p.r}, out);
   };
   if (indices != nullptr) {

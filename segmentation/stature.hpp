@@ -21,8 +21,8 @@ struct Stature {
 ///
 /// Not the highest point, which noise lifts, but a height that 2 % of the points of the upper body
 /// are above. Nothing without enough points of the upper body, or if the head may be out of view:
-/// they reach the picture's edge, or too little behind them is seen above them, because a door's
-/// frame cuts them off.
+/// they reach the picture's upper edge or a side, or too little behind them is seen above them,
+/// because a door's frame cuts them off.
 class StatureSample {
  public:
   static constexpr double kLeastHeight_m = 1.2;  ///< What is lower is not looked at.

@@ -217,11 +217,13 @@ void Follower::lookAround(const RobotReadings& readings) {
     takeIn(RobotCamera::kAhead, *readings.frame, frame_s_);
     if (search_) {
       const FloorPose then = pose * motion_.seenFromNow(frame_s_);
+      // Where a picture has no depth the laser may have seen a door's leaf.
       search_->look(then, obstacles_age_s_,
-                    [&then, sight = things_.sight(),
+                    [&, sight = things_.sight(),
                      T_then_world = then.inverse()](const Vector2d& p) -> std::optional<Vector2d> {
                       const auto to = sight.seenTo(T_then_world * p);
-                      return to ? std::optional<Vector2d>(then * *to) : std::nullopt;
+                      if (!to) return things_.firstBetween(then.position, p);
+                      return people_.isAnybodyAt(then * *to, now_) ? then.position : then * *to;
                     });
     }
     obstacles_age_s_ = 0.0;

@@ -89,9 +89,7 @@ void PeopleAround::addComers(const RecentSight& sight, const FloorPose& T_world_
   for (const SeenThing& thing : sight.things()) {
     if (!thing.is_somebody) continue;
     const Vector2d leg = T_world_frame * thing.place;
-    if (isNear(leg, now.target) ||
-        std::any_of(now.people.begin(), now.people.end(),
-                    [&](const MovingPerson& person) { return isNear(leg, person); })) {
+    if (isNear(leg, now.target) || isAnybodyAt(leg, now)) {
       continue;
     }
     if (const std::optional<Vector2d> body = sight.bodyAround(thing)) {
@@ -99,6 +97,11 @@ void PeopleAround::addComers(const RecentSight& sight, const FloorPose& T_world_
                             thing.gait_mps, thing.roams ? 0.0 : walks_on_s_});
     }
   }
+}
+
+bool PeopleAround::isAnybodyAt(const Vector2d& place, const Situation& now) const {
+  return std::any_of(now.people.begin(), now.people.end(),
+                     [&](const MovingPerson& person) { return isNear(place, person); });
 }
 
 bool PeopleAround::isNear(const Vector2d& place, const std::optional<MovingPerson>& person) const {

@@ -28,6 +28,9 @@ class PeopleAround {
   void step(double stamp_s, const Perception& perception, const RecentSight& sight,
             const FloorPose& T_frame_world, Situation& now);
 
+  /// Whether somebody who is known of is at a place.
+  bool isAnybodyAt(const Eigen::Vector2d& place, const Situation& now) const;
+
   /// Around those who rest, but for the target: paths lead another way.
   const std::vector<MovingPerson>& resting() const { return unseen_.resting(); }
   /// Around all of them, in a frame [m]; valid until the next call.

@@ -40,6 +40,7 @@ void Pilot::setAround(const OccupancyGrid& things, const std::vector<float>& sto
 void Pilot::reset() {
   local_planner_.reset();
   arrival_.reset();
+  round_to_.reset();
   stays_s_ = 0.0;
 }
 
@@ -88,9 +89,16 @@ PilotStep Pilot::step(const Intent& intent, const DriveState& robot,
   if (goes) {
     // Between two ways that both seem open it could turn to and fro for ever.
     const bool gets_nowhere = stays_s_ > give_up_s_ + 2.0 * M_PI / drive.max_turn_radps;
+    const bool is_stuck = now.blocked_s > give_up_s_ || gets_nowhere;
+    const bool has_other_way = is_through_ && through_.found();
     const bool is_there = !has_way || now.status == DriveStatus::kArrived ||
-                          now.blocked_s > give_up_s_ || gets_nowhere ||
+                          (is_stuck && !has_other_way) ||
                           (*intent.go_to - here).norm() < intent.near_enough_m;
+    if (is_stuck && has_other_way) {
+      local_planner_.reset();
+      stays_s_ = 0.0;
+      round_to_ = intent.go_to;
+    }
     arrival_.reset();
     if (is_there) arrival_ = Arrival{*intent.go_to, here};
   } else if (!was_there) {
@@ -105,42 +113,51 @@ PilotStep Pilot::step(const Intent& intent, const DriveState& robot,
   return out;
 }
 
-// Around what stands; else as the map has it, for it may have gone by then. The same where the way
-// round is so much longer that it is worth to wait.
+// Around what stands. As the map has it where nothing leads around, or where the way round is
+// longer than waiting is likely to take: what bars the way may have gone by then.
 bool Pilot::findWay(const Vector2d& from, const Vector2d& to) {
   plan(from, to);
+  is_through_ = false;
   if (things_ == nullptr) return plan_.found();
+  if (round_to_ && (*round_to_ - to).norm() > local_planner_.params().depart_m) round_to_.reset();
+  const double worth_m = local_planner_.params().limits.max_speed_mps * give_up_s_;
+  if (plan_.found() && (round_to_ || plan_.length_m - (to - from).norm() < worth_m)) return true;
   on_map_.plan(from, to, through_);
   if (!through_.found()) return plan_.found();
-  const double worth_m = local_planner_.params().limits.max_speed_mps * give_up_s_;
   const double longer_m = plan_.length_m - through_.length_m;
   if (plan_.found() && (longer_m < worth_m || barred_m(through_.path) > longer_m)) return true;
   std::swap(plan_, through_);
+  is_through_ = true;
   return true;
 }
 
-// What has stood for a time stands for as long again, once in two times: for so long the robot would
-// wait at the worst of what bars a path, as the way that it drives in that time.
+// What has stood for a time stands for as long again, once in two times: for so long the robot
+// would wait at the worst of what bars a path, as the way that it drives in that time.
 double Pilot::barred_m(const FloorPath& path) {
-  const LocalPlannerParams& drive = local_planner_.params();
+  const double speed_mps = local_planner_.params().limits.max_speed_mps;
+  const double cell_m = planner_.clearance().cell_size_m();
+  const double reach_m =
+      planner_.params().robot_radius_m + planner_.params().safety_m + M_SQRT2 * cell_m;
   const double length_m = pathLength(path);
   barred_.take(path, path.front(), length_m + 1.0);
   double most_m = 0.0;
   const auto bar = [&](const Vector2d& place, double radius_m, double stood_s) {
-    const double way_m = drive.limits.max_speed_mps * stood_s;
+    const double way_m = speed_mps * stood_s;
     if (!(way_m > most_m)) return;  // NaN too
     const PathAhead::Place on_path = barred_.locate(place);
-    if (on_path.off_m > planner_.params().robot_radius_m + radius_m) return;
+    if (on_path.off_m > reach_m + radius_m) return;
     most_m = std::max(most_m, way_m - (length_m - on_path.left_m));
   };
   for (int y = 0; y < things_->height(); ++y) {
     for (int x = 0; x < things_->width(); ++x) {
       const GridCell cell{x, y};
       if (things_->at(cell) != Occupancy::kOccupied) continue;
-      bar(things_->center(cell), 0.5 * things_->cell_size_m(), (*stood_s_)[things_->index(cell)]);
+      bar(things_->center(cell), M_SQRT1_2 * things_->cell_size_m(),
+          (*stood_s_)[things_->index(cell)]);
     }
   }
-  for (const MovingPerson& person : *resting_) bar(person.position, person.radius_m, person.rests_s);
+  for (const MovingPerson& person : *resting_)
+    bar(person.position, person.radius_m, person.rests_s);
   return most_m;
 }
 

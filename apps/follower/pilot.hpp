@@ -27,8 +27,8 @@ struct PilotStep {
 /// Plans a way around what the map and the moment show, and drives along it.
 class Pilot {
  public:
-  /// @param give_up_s  Who was blocked for so long is as near as can be; so is who has not left its
-  ///                   place for as long and a full turn.
+  /// @param give_up_s  Who was blocked for so long goes another way, or is as near as can be; so is
+  ///                   who has not left its place for as long and a full turn.
   /// @throws std::invalid_argument  if a parameter is out of its range.
   Pilot(const OccupancyGrid& floor, const GlobalPlannerParams& paths,
         const LocalPlannerParams& drive, double give_up_s);
@@ -49,7 +49,8 @@ class Pilot {
   double free_m(const Eigen::Vector2d& place) const {
     return planner_.clearance().clearance(place);
   }
-  /// The way from one place to another around all that stands; valid until the next plan.
+  /// The way from one place to another around all that stands; valid until the next plan
+  /// or step.
   const GlobalPlan& plan(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
 
   /// @param people   Who walks and who stands.
@@ -80,6 +81,8 @@ class Pilot {
   std::vector<FloorDisc> discs_;  // of these
   GlobalPlan plan_, through_;
   PathAhead barred_;
+  bool is_through_ = false;                  // The way leads through what stands there now.
+  std::optional<Eigen::Vector2d> round_to_;  // It has waited before that: round to here.
   std::optional<Arrival> arrival_;
   Eigen::Vector2d stays_at_ = Eigen::Vector2d::Zero();
   double stays_s_ = 0.0;

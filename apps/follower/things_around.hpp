@@ -50,6 +50,11 @@ class ThingsAround {
   /// What is no part of these people; valid until the next call.
   const OccupancyGrid& apartFrom(const std::vector<MovingPerson>& people);
 
+  /// Where something stands first that no map shows, on the way from one place to somebody at
+  /// another; nothing if it is free.
+  std::optional<Eigen::Vector2d> firstBetween(const Eigen::Vector2d& from,
+                                              const Eigen::Vector2d& to) const;
+
   const ObstacleLayer& layer() const { return layer_; }
 
  private:

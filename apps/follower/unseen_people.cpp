@@ -24,6 +24,13 @@ void UnseenPeople::step(double stamp_s, std::vector<MovingPerson>& people,
              return (other.position - person.position).norm() < params_.near_m;
            });
   };
+  for (const Known& known : known_) {  // Who is seen by another sensor now has not just come.
+    for (MovingPerson& person : people) {
+      if (!(known.person.rests_s > 0.0 && person.rests_s > 0.0)) continue;
+      if ((person.position - known.person.position).norm() > params_.near_m) continue;
+      person.rests_s = std::max(person.rests_s, known.person.rests_s + stamp_s - known.seen_s);
+    }
+  }
   known_.erase(std::remove_if(known_.begin(), known_.end(), isOver), known_.end());
   const std::size_t unseen = known_.size();
   for (const MovingPerson& person : people) known_.push_back({person, stamp_s});

@@ -71,6 +71,7 @@ Walker::Walker(const ScenePerson& person) : person_(&person) {
 
 void Walker::finishStep() {
   waited_s_ = with_robot_s_ = 0.0;
+  off_way_s_ = 0.0;
   back_to_.reset();
   ++step_;
   if (done() && person_->repeat) step_ = 0;
@@ -85,7 +86,7 @@ void Walker::step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& 
     const Vector2d way = now.to - pose_.position;
     switch (now.kind) {
       case PathStep::Kind::kWalk:
-        wanted = wayOn(plan).normalized() * now.speed_mps;
+        wanted = wayOn(dt_s, plan).normalized() * now.speed_mps;
         if (way.norm() < std::max(kArrived_m, now.speed_mps * dt_s)) finishStep();
         break;
       case PathStep::Kind::kWait:
@@ -121,20 +122,22 @@ void Walker::step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& 
   keepOffThings(dt_s, plan);
   move(dt_s);
   stuck_s_ = walks && velocity_.dot(way) < 0.1 ? stuck_s_ + dt_s : std::max(stuck_s_ - dt_s, 0.0);
-  if (stuck_s_ > kGivesUp_s) {
+  if (std::max(stuck_s_, off_way_s_) > kGivesUp_s) {
     stuck_s_ = 0.0;
     finishStep();
   }
 }
 
-// Straight on; who does not get on because a wall is between, for others have pushed them off their
-// way, goes back to it, or to a corner that they have passed, until the next one is in sight.
-Vector2d Walker::wayOn(const FloorPlan& plan) {
+// Straight on. Who does not get on because a wall is between, for they stepped aside or were
+// pushed, goes back to their way, or to a corner that they have passed, until the next one is in
+// sight.
+Vector2d Walker::wayOn(double dt_s, const FloorPlan& plan) {
   const Vector2d& here = pose_.position;
   Vector2d next = person_->path[step_].to;
-  is_off_way_ = (is_off_way_ || stuck_s_ > kPatience_s) && !isOpen(plan, here, next);
+  const bool is_off_way = (off_way_s_ > 0.0 || stuck_s_ > kPatience_s) && !isOpen(plan, here, next);
+  off_way_s_ = is_off_way ? off_way_s_ + dt_s : 0.0;
   const Vector2d straight_on = next - here;
-  if (!is_off_way_) return straight_on;
+  if (!is_off_way) return straight_on;
   for (std::optional<std::size_t> at = step_; at;) {
     at = walkBefore(*at);
     const Vector2d passed = at ? person_->path[*at].to : person_->start;

@@ -45,7 +45,7 @@ class Walker {
   static constexpr double kRadius_m = 0.25;
 
   void finishStep();
-  Eigen::Vector2d wayOn(const FloorPlan& plan);
+  Eigen::Vector2d wayOn(double dt_s, const FloorPlan& plan);
   Eigen::Vector2d waitForRobot(double dt_s, const FloorPlan& plan, const Eigen::Vector2d& robot);
   bool isWithRobot(const FloorPlan& plan, const Eigen::Vector2d& robot) const;
   Eigen::Vector2d comeBack(double dt_s, const FloorPlan& plan, const Eigen::Vector2d& robot);
@@ -68,7 +68,7 @@ class Walker {
   std::optional<std::size_t> back_to_;  // the walk to whose end they come back for the robot
   double with_robot_s_ = 0.0;           // since they did
   double makes_room_s_ = 0.0;           // still, for the robot
-  bool is_off_way_ = false;             // and can not go straight on.
+  double off_way_s_ = 0.0;              // since they could not go straight on.
   double stuck_s_ = 0.0;                // How long somebody has been in the way.
   double feels_s_ = 0.0;                // Still, for who bumped into the robot unseen.
 };

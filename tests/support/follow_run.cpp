@@ -114,9 +114,10 @@ FollowLog flatRun() {
   log.person = "lena";
   log.map = flatMap();
   log.camera_rate_hz = 30.0;
-  log.stages = {{"colour filter", 1.1, 1.6}, {"stereo", 9.4, 12.8},  {"blobs and tracks", .8, 1.3},
-                {"localization", 1.9, 2.6},  {"planning", 2.7, 8.1}, {"behaviour", .02, .04}};
-  log.step = {"step", 15.9, 22.4};
+  log.stages = {{"colour filter", 1.1, 1.0, 1.6},  {"stereo", 9.4, 9.0, 12.8},
+                {"blobs and tracks", .8, .7, 1.3}, {"localization", 1.9, 1.8, 2.6},
+                {"planning", 2.7, 1.9, 8.1},       {"behaviour", .02, .01, .04}};
+  log.step = {"step", 15.9, 14.4, 22.4};
 
   const Way person_way({{6.2, 4.0},
                         {4.4, 3.7},

@@ -181,6 +181,9 @@ TEST(FollowFiles, HoldTheRunAndAreTheSameOnEveryRun) {
     EXPECT_EQ(readText(folder / (std::string("a") + name)),
               readText(folder / (std::string("b") + name)));
   }
+  EXPECT_THAT(
+      readText(folder / "a/timing.csv"),
+      testing::StartsWith("stage,mean_ms,median_ms,p95_ms\ncolour filter,1.100,1.000,1.600\n"));
   const auto json = nlohmann::json::parse(readText(folder / "a/summary.json"));
   for (const char* key :
        {"outcome", "distance_m", "elapsed_s", "seek_s", "moving_speed_mps", "contacts_by_robot",
