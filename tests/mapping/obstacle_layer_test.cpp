@@ -9,6 +9,8 @@
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
+#include <cmath>
+#include <limits>
 #include <random>
 #include <stdexcept>
 
@@ -348,6 +350,25 @@ TEST(ObstacleLayer, WhatIsTouchedIsKnownUntilItIsOld) {
   EXPECT_TRUE(occupied(layer, 1.32, 0.02)) << "no laser sees it";
   seeScan(layer, 61.0, around(720, 3.0F));
   EXPECT_FALSE(occupied(layer, 1.32, 0.02));
+}
+
+TEST(ObstacleLayer, TellsForHowLongThingsHaveStood) {
+  ObstacleLayerParams params;
+  params.min_height_m = 0.0;
+  ObstacleLayer layer(params);
+  const auto stood_s = [&layer](double x, double y) {
+    return layer.stood_s()[layer.window().index(layer.window().cellAt({x, y}))];
+  };
+  auto points = thrice(1.02, 0.02, 0.7);
+  for (const Eigen::Vector3f& p : thrice(1.52, 0.02, 0.0)) points.push_back(p);
+  for (int i = 0; i <= 20; ++i) seePoints(layer, 0.1 * i, points);
+  EXPECT_NEAR(stood_s(1.02, 0.02), 2.0F, 1e-3F);
+  EXPECT_EQ(stood_s(1.52, 0.02), std::numeric_limits<float>::infinity()) << "a step stays";
+  EXPECT_TRUE(std::isnan(stood_s(1.02, 0.52)));
+  layer.begin(2.1, {});
+  layer.touch({0.32, 0.02});
+  layer.finish();
+  EXPECT_EQ(stood_s(0.32, 0.02), std::numeric_limits<float>::infinity()) << "what was touched, too";
 }
 
 TEST(ObstacleLayer, TheLaserClearsPointsInItsPlane) {

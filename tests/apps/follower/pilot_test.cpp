@@ -159,6 +159,13 @@ TEST(Pilot, WaitsBeforeWhatHasStoodForLessTimeThanTheWayRoundTakes) {
   }
 }
 
+TEST(Pilot, GoesRoundWhatIsStillThereWhenItHasWaited) {
+  Drive drive;
+  beginBeforeTwoGaps(drive, 0.0F);
+  for (int i = 0; i < 600 && !drive.last.outcome.has_arrived; ++i) drive.step(goTo({4.0, 2.0}));
+  EXPECT_NEAR((drive.state.pose.position - Vector2d(4.0, 2.0)).norm(), 0.0, 0.2);
+}
+
 TEST(Pilot, WaitsForWhoHasStoodForLessTimeThanTheWayRoundTakes) {
   for (const double stood_s : {5.0, 15.0}) {
     Drive drive;
