@@ -341,16 +341,16 @@ void ObstacleLayer::finish() {
       cell.points.known = remembered(cell.points);
       const bool is_touched = clock_s_ - cell.touched_s <= params_.max_memory_s;
       const bool occupied = cell.laser.known || cell.points.known || is_touched;
+      const std::size_t at = window_.index({x, y});
       window_.at(GridCell{x, y}) = occupied ? Occupancy::kOccupied : Occupancy::kFree;
-      occupied_[window_.index({x, y})] = occupied ? 1 : 0;
-      stood_s_[window_.index({x, y})] = kNothing_s;
+      occupied_[at] = occupied ? 1 : 0;
+      stood_s_[at] = kNothing_s;
       if (!occupied) continue;
       const bool is_step = cell.points.known && cell.height_m == 0.0F;
-      const double seen_s = std::max(cell.laser.known ? cell.laser.lasted_s() : 0.0,
-                                     cell.points.known ? cell.points.lasted_s() : 0.0);
-      stood_s_[window_.index({x, y})] = is_touched || is_step
-                                            ? std::numeric_limits<float>::infinity()
-                                            : static_cast<float>(seen_s);
+      double seen_s = std::max(cell.laser.known ? cell.laser.lasted_s() : 0.0,
+                               cell.points.known ? cell.points.lasted_s() : 0.0);
+      if (is_touched || is_step) seen_s = std::numeric_limits<double>::infinity();
+      stood_s_[at] = static_cast<float>(seen_s);
       obstacles_.push_back(window_.center({x, y}));
       if (is_step) steps_.push_back(obstacles_.back());
     }

@@ -89,9 +89,7 @@ void PeopleAround::addComers(const RecentSight& sight, const FloorPose& T_world_
   for (const SeenThing& thing : sight.things()) {
     if (!thing.is_somebody) continue;
     const Vector2d leg = T_world_frame * thing.place;
-    if (isNear(leg, now.target) || isAnybodyAt(leg, now)) {
-      continue;
-    }
+    if (isNear(leg, now.target) || isAnybodyAt(leg, now)) continue;
     if (const std::optional<Vector2d> body = sight.bodyAround(thing)) {
       now.people.push_back({T_world_frame * *body, turn * thing.velocity, MovingPerson().radius_m,
                             thing.gait_mps, thing.roams ? 0.0 : walks_on_s_});

@@ -31,7 +31,7 @@ class PeopleAround {
   /// Whether somebody who is known of is at a place.
   bool isAnybodyAt(const Eigen::Vector2d& place, const Situation& now) const;
 
-  /// Around those who rest, but for the target: paths lead another way.
+  /// Those who rest, but for the target, with the room beside them: paths lead another way.
   const std::vector<MovingPerson>& resting() const { return unseen_.resting(); }
   /// Around all of them, in a frame [m]; valid until the next call.
   const std::vector<FloorDisc>& discs(const std::vector<MovingPerson>& people,

@@ -104,8 +104,9 @@ const OccupancyGrid& ThingsAround::apartFrom(const std::vector<MovingPerson>& pe
 std::optional<Vector2d> ThingsAround::firstBetween(const Vector2d& from, const Vector2d& to) const {
   const OccupancyGrid& window = layer_.window();
   const double step_m = window.cell_size_m(), way_m = (to - from).norm() - person_m_;
+  const Vector2d ahead = (to - from).normalized();
   for (double gone_m = body_.radius_m; gone_m < way_m; gone_m += step_m) {
-    const Vector2d place = from + gone_m * (to - from).normalized();
+    const Vector2d place = from + gone_m * ahead;
     const GridCell cell = window.cellAt(place);
     if (window.contains(cell) && window.at(cell) == Occupancy::kOccupied) return place;
   }

@@ -96,6 +96,14 @@ TEST(UnseenPeople, WhoHasJustStoppedClosesNoWayYet) {
   EXPECT_EQ(memory.people.size(), 1U) << "but stays where they were";
 }
 
+TEST(UnseenPeople, WhoIsSeenByAnotherSensorHasNotJustCome) {
+  Memory memory;
+  memory.step(0.0, {personAt({1.0, 0.0})});
+  memory.step(4.0, {personAt({1.1, 0.0})});
+  ASSERT_EQ(memory.unseen.resting().size(), 1U);
+  EXPECT_EQ(memory.unseen.resting()[0].rests_s, 7.0);
+}
+
 TEST(UnseenPeople, WhoSetsOffDoesNotStandAnyMore) {
   Memory memory;
   memory.step(0.0, {personAt({1.0, 0.0})});
