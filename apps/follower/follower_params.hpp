@@ -91,8 +91,8 @@ struct FollowerParams {
   double lost_turn_radps = 0.4;  ///< Speed of turning of a robot that does not know where it is.
   /// A robot that was blocked for so long is as near to its goal as it can get.
   double give_up_s = 4.0;
-  /// Somebody who is a person with this probability is avoided as one, until they are seen to be
-  /// none with as much.
+  /// Whoever walks is avoided as a person if they are one with this probability; whoever rests,
+  /// unless they are none with as much.
   double surely_person = 0.8;
   /// Paths lead around people with so much more room than around things.
   double beside_people_m = 0.05;

@@ -61,18 +61,20 @@ void PeopleAround::step(double stamp_s, const Perception& perception, const Rece
 }
 
 // Who walks or has just stopped is left to the local planner; around who rests leads another way,
-// but for the target: the way leads to them.
+// but for the target: the way leads to them. A way round costs little if nobody stands there.
 void PeopleAround::addTracks(double stamp_s, const Perception& perception, Situation& now) const {
   const Identity& identity = perception.identity();
   for (const Track& track : perception.tracks()) {
     if (track.status == TrackStatus::kTentative) continue;
     if (isNear(track.motion.position_m(), now.target)) continue;  // their other leg, too
     const Evidence who = identity.probabilities(track.id);
-    if (who.sum() - who[kThing] < surely_person_) continue;
+    const double person_there = who.sum() - who[kThing];
+    const double rests_s = identity.restsFor_s(track.id, stamp_s);
+    const bool rests = rests_s >= walks_on_s_ && !setsOff(track.motion);
+    if (person_there < (rests ? 1.0 - surely_person_ : surely_person_)) continue;
     MovingPerson& person = now.people.emplace_back();
     person.position = track.motion.position_m();
-    const double rests_s = identity.restsFor_s(track.id, stamp_s);
-    if (rests_s >= walks_on_s_ && !setsOff(track.motion)) {
+    if (rests) {
       person.rests_s = rests_s;
     } else {
       person.velocity = track.motion.velocity_mps();

@@ -8,9 +8,12 @@
 #include "tests/apps/follower/acted_scene.hpp"
 #include "tests/segmentation/painted_person.hpp"
 #include <heel/apps/follower/depth_images.hpp>
+#include <heel/apps/follower/laser_bodies.hpp>
 #include <heel/apps/recording/frame.hpp>
 
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace heel::test {
 
@@ -60,5 +63,24 @@ struct ColoredStage : ActedScene {
     return cloud;
   }
 };
+
+/// A laser at the base's origin that sees a leg at these places, and nothing else.
+inline LaserBodies legsAt(const std::vector<Eigen::Vector2d>& places_m) {
+  LaserScan scan;
+  scan.first_rad = -3.14;
+  scan.step_rad = 0.01;
+  scan.ranges_m.assign(628, std::numeric_limits<float>::infinity());
+  for (const Eigen::Vector2d& place : places_m) {
+    const double beam = (std::atan2(place.y(), place.x()) - scan.first_rad) / scan.step_rad;
+    for (int i = -2; i <= 2; ++i) {
+      scan.ranges_m[static_cast<std::size_t>(std::lround(beam) + i)] =
+          static_cast<float>(place.norm());
+    }
+  }
+  LaserBodies legs;
+  legs.step(
+      &scan, {}, [](const Eigen::Vector2d&) { return 9.0; }, 0.1);
+  return legs;
+}
 
 }  // namespace heel::test

@@ -19,6 +19,7 @@ namespace {
 
 using test::ColoredStage;
 using test::kRed;
+using test::legsAt;
 
 constexpr Bgr kGreen{40, 150, 40};
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -88,25 +89,6 @@ TEST(Perception, LeavesPeopleInOtherColoursAlone) {
     EXPECT_FALSE(step.target.hasPlace());
     EXPECT_NE(step.reason, "");
   }
-}
-
-/// A laser at the base's origin that sees a leg at these places, and nothing else.
-LaserBodies legsAt(const std::vector<Eigen::Vector2d>& places_m) {
-  LaserScan scan;
-  scan.first_rad = -3.14;
-  scan.step_rad = 0.01;
-  scan.ranges_m.assign(628, std::numeric_limits<float>::infinity());
-  for (const Eigen::Vector2d& place : places_m) {
-    const double beam = (std::atan2(place.y(), place.x()) - scan.first_rad) / scan.step_rad;
-    for (int i = -2; i <= 2; ++i) {
-      scan.ranges_m[static_cast<std::size_t>(std::lround(beam) + i)] =
-          static_cast<float>(place.norm());
-    }
-  }
-  LaserBodies legs;
-  legs.step(
-      &scan, {}, [](const Eigen::Vector2d&) { return 9.0; }, 0.1);
-  return legs;
 }
 
 TEST(Perception, TheLaserGoesOnWithWhomTheCameraKnew) {

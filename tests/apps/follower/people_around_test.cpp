@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Heel authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "tests/apps/follower/colored_stage.hpp"
+#include "tests/support/target_scene.hpp"
+#include <heel/apps/follower/follower_params.hpp>
+#include <heel/apps/follower/people_around.hpp>
+
+#include <gtest/gtest.h>
+
+namespace heel {
+namespace {
+
+using test::ColoredStage;
+using test::legsAt;
+
+// Bug: legs that stood in a corner, a person as likely as not, were passed as closely as a thing,
+// and the robot grazed an arm.
+TEST(PeopleAround, WhoMayBeAPersonIsAvoidedAsOneUntilTheyAreSurelyNone) {
+  CameraSetup camera;
+  camera.sensor = SensorKind::kRgbd;
+  camera.camera.left = ColoredStage().camera;
+  camera.T_base_camera = ColoredStage::T_base_camera();
+  Perception perception(camera, AppearanceModel({}, test::paintPerson(), test::paintRoom()), {});
+  ColoredStage stage;
+  stage.part(2.5, 0.4, 0.2, 0.0, 0.8, {40, 150, 40});  // a chair
+  const Eigen::Vector2d legs_m(-2.0, 1.0);             // behind the robot
+  const LaserBodies legs = legsAt({legs_m, {2.5, 0.4}});
+  const RecentSight sight({}, 8.0);
+  PeopleAround people{FollowerParams()};
+  Situation now;
+  now.unseen_s = 1e3;  // The target is far away.
+  for (int i = 0; i < 30; ++i) {
+    perception.step(stage.frame(0.1 * i), {}, &legs);
+    people.step(0.1 * i, perception, sight, {}, now);
+  }
+  int unsure = 0, things = 0;
+  for (const Track& track : perception.tracks()) {
+    const double thing = perception.identity().probabilities(track.id)[kThing];
+    unsure += thing > 0.2 && thing < 0.8 ? 1 : 0;
+    things += thing > 0.8 ? 1 : 0;
+  }
+  ASSERT_EQ(unsure, 1) << "the legs";
+  ASSERT_EQ(things, 1) << "the chair";
+  ASSERT_EQ(now.people.size(), 1U);
+  EXPECT_LT((now.people[0].position - legs_m).norm(), 0.3);
+}
+
+}  // namespace
+}  // namespace heel
