@@ -17,6 +17,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kSeenSide = 0.75;  // So much of both sides of somebody must be in sight.
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kRounding_m = 1e-6;
+constexpr double kAround_m = 0.5;   // Who is seen there may be believed to be so far off.
 constexpr double kNoShare = 1e-12;  // below this a share is none
 constexpr double kNoChance = 1e-6;  // below this a cell is not worth a look
 
@@ -208,25 +209,28 @@ void SearchMap::shut() {
   }
 }
 
-bool SearchMap::isBarred(int cell) const { return passes(screens_[index(cell)], 0.0) <= 0.5; }
+bool SearchMap::isBarred(int cell, double in_s) const {
+  return passes(screens_[index(cell)], in_s) <= 0.5;
+}
 
 // What a look goes through does not stand there any more. Where it is not known how far a look
 // goes, it goes as far as those before.
 void SearchMap::look(const FloorPose& camera, double elapsed_s,
-                     FunctionRef<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)> seenTo) {
+                     FunctionRef<std::optional<SeenTo>(const Eigen::Vector2d&)> seenTo) {
   seen_.clear();
   thin(elapsed_s, [&](int cell) {
     const Eigen::Vector2d place = floor_.center(cell);
     if (!isInView(camera, place)) return false;
-    const std::optional<Eigen::Vector2d> seen_to = seenTo(place);
-    if (!seen_to) return passes(camera.position, place, 0.0) > 0.5;
-    if ((*seen_to - camera.position).norm() < kRounding_m) return false;
-    const bool is_seen = (*seen_to - place).norm() < kRounding_m;
+    const std::optional<SeenTo> seen = seenTo(place);
+    if (!seen) return passes(camera.position, place, 0.0) > 0.5;
+    const bool is_seen = (seen->place - place).norm() < kRounding_m;
+    if (is_seen && seen->by_somebody) return false;  // It may be they.
     if (is_seen) {
       seen_.push_back(cell);
-    } else if (const int at = floor_.cellAt(*seen_to); at >= 0) {
+    } else if (const int at = floor_.cellAt(seen->place); at >= 0) {
       Screen& screen = screens_[index(at)];
-      if (!screen.stands) screen.since_s = 0.5 * (screen.free_s + clock_s_);
+      const double came_s = seen->by_somebody ? clock_s_ : 0.5 * (screen.free_s + clock_s_);
+      if (!screen.stands) screen.since_s = came_s;
       screen.stands = true;
       screen.last_s = clock_s_;
     }
@@ -334,6 +338,21 @@ void SearchMap::sumUp() {
   }
 }
 
+double SearchMap::density(const Eigen::Vector2d& place) const {
+  const int reach = static_cast<int>(kAround_m / params_.cell_size_m);
+  double chance = 0.0, area_m2 = 0.0;
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x <= reach; ++x) {
+      const Eigen::Vector2d off = params_.cell_size_m * Eigen::Vector2d(x, y);
+      const int cell = floor_.cellAt(place + off);
+      if (cell < 0 || off.norm() > kAround_m || !floor_.isFree(cell)) continue;
+      chance += belief_[index(cell)];
+      area_m2 += params_.cell_size_m * params_.cell_size_m;
+    }
+  }
+  return area_m2 > 0.0 ? chance / area_m2 : 0.0;
+}
+
 std::optional<SearchView> SearchMap::nextView(const FloorPose& camera,
                                               FunctionRef<double(const Eigen::Vector2d&)> way_m) {
   if (walked_m_.empty()) return std::nullopt;
@@ -356,8 +375,11 @@ std::optional<SearchView> SearchMap::nextView(const FloorPose& camera,
       if (rates_[view] > 0.0) by_rate_.push_back(view);
     }
   };
-  // What bars a way may be gone by then: that comes last.
-  rateViews([this](int cell) { return !isBarred(cell); });
+  // What bars a way may be gone by the time when it is there; where it is likely not to be, that
+  // comes last.
+  rateViews([&](int cell) {
+    return !isBarred(cell, toThere_s((floor_.center(cell) - camera.position).norm()));
+  });
   if (by_rate_.empty()) rateViews([](int) { return true; });
   if (by_rate_.empty()) return std::nullopt;
   std::sort(by_rate_.begin(), by_rate_.end(), [this](std::size_t a, std::size_t b) {

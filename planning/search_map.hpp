@@ -42,6 +42,13 @@ struct SearchMapParams {
   double view_spacing_m = 0.6;     ///< Distance from one place to look from to the next.
 };
 
+/// How far one sees on the way to a place.
+struct SeenTo {
+  SeenTo(const Eigen::Vector2d& to, bool somebody = false) : place(to), by_somebody(somebody) {}
+  Eigen::Vector2d place;  ///< There, or where something that the map does not show hides it.
+  bool by_somebody;  ///< Somebody stands there, who has just come if nothing was seen there before.
+};
+
 /// A place to look from.
 struct SearchView {
   FloorPose camera;     ///< Where the camera should be, and look to.
@@ -78,17 +85,15 @@ class SearchMap {
   void spread(double elapsed_s);
 
   /// The camera has looked from here for a while, and the person was not found.
-  /// @param seenTo  How far one sees on the way to a place: to it, or to where something that the
-  ///                map does not show hides it; absent if that is not known. What hides a place is
-  ///                taken to stand there, and nobody to walk through it, for as long again as it
-  ///                has till then, or until it is seen through. It came half way between when it
-  ///                was last seen through and when it was seen first. To the camera itself:
-  ///                somebody hides it, who will not stay.
+  /// @param seenTo  Absent if it is not known. What hides a place is taken to stand there, and
+  ///                nobody to walk through it, for as long again as it has till then, or until it
+  ///                is seen through. It came half way between when it was last seen through and
+  ///                when it was seen first.
   void look(const FloorPose& camera, double elapsed_s,
-            FunctionRef<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)> seenTo);
+            FunctionRef<std::optional<SeenTo>(const Eigen::Vector2d&)> seenTo);
   void look(const FloorPose& camera, double elapsed_s) {
     look(camera, elapsed_s,
-         [](const Eigen::Vector2d& place) -> std::optional<Eigen::Vector2d> { return place; });
+         [](const Eigen::Vector2d& place) -> std::optional<SeenTo> { return SeenTo(place); });
   }
 
   /// The laser has scanned from here for a while: nobody is where its beams went through.
@@ -96,6 +101,9 @@ class SearchMap {
 
   /// The probability that the person is in a cell of the floor; their sum is 1 after a start().
   const std::vector<double>& belief() const { return belief_; }
+
+  /// The same per square metre of floor, within half a metre of a place.
+  double density(const Eigen::Vector2d& place) const;
 
   /// The place from which there is most to see per time, getting there and turning once around
   /// included, and the look from it that promises most. None before start(), or where no chance is
@@ -126,7 +134,7 @@ class SearchMap {
   void walk();
   void shut();
   void sumUp();
-  bool isBarred(int cell) const;
+  bool isBarred(int cell, double in_s = 0.0) const;
   double passes(const Screen& screen, double in_s) const;
   double passes(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double in_s) const;
   template <typename Use>

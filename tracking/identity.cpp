@@ -21,6 +21,7 @@ constexpr double kRestSigma_m = 0.5 * kRest_m;  // Of where whoever rests is obs
 constexpr double kMissed = 0.1;                 // Of the looks at somebody in full view.
 constexpr double kCoastMemory_s = 1.0;  // Hidden somebody may have gone elsewhere in this time.
 constexpr double kRoom_m2 = 20.0;       // Where somebody who is away may be.
+constexpr double kUnexpected = 0.05;    // Share of targets who are not where they are expected.
 constexpr double kMetLooks = 1.5;       // A stranger is met after so many independent looks.
 constexpr double kSurest = 12.0;        // Logarithm of the greatest odds of places and ways.
 constexpr double kOtherView = 0.5;      // A look with so much news begins another view;
@@ -47,8 +48,9 @@ Evidence mix(const Evidence& own, const Evidence& other, double other_share) {
 
 }  // namespace
 
-Identity::Identity(TargetLooks looks, const IdentityParams& params)
+Identity::Identity(TargetLooks looks, const IdentityParams& params, TargetDensity target_density)
     : params_(params),
+      target_density_(std::move(target_density)),
       gallery_(std::move(looks), params.gallery),
       clutter_(params.clutter),
       last_(kHypotheses) {
@@ -103,6 +105,29 @@ double Identity::logLikelihood(int track_id, int observation) const {
          look[kThing];
 }
 
+/// Of somebody who is known and away, per square metre.
+double Identity::densityOf(int h, const Eigen::Vector2d& place_m, double stamp_s) const {
+  const double anywhere = params_.newcomer_density_per_m2;
+  if (h == kTarget && target_density_) {
+    if (const auto density = target_density_(place_m)) {
+      return (1.0 - kUnexpected) * *density + kUnexpected * anywhere;
+    }
+  }
+  const auto& last = last_[static_cast<std::size_t>(h)];
+  if (!last) return anywhere;
+  // It counts if it was them and they have gone from there; else they were never seen.
+  const Belief* holder = find(last->track_id);
+  const double gone = last->probability * (1.0 - (holder == nullptr ? 0.0 : holder->present));
+  const double counts = gone / std::max(gone + 1.0 - last->probability, 1e-9);
+  const double away_s = std::max(stamp_s - last->seen_s, 0.0);
+  const double away_m = (place_m - last->place_m).norm();
+  const double sigma_m = std::hypot(0.3, params_.walk_mps * away_s);
+  const double area_m2 = kTwoPi * sigma_m * sigma_m;
+  const double reach =
+      std::max(kRoom_m2 / area_m2, 1.0) * std::exp(-0.5 * away_m * away_m / (sigma_m * sigma_m));
+  return anywhere * (counts * reach + 1.0 - counts);
+}
+
 /// What is believed of somebody who appears at a place, before a look at them.
 /// @param but  Of what else is there: it is no evidence for another thing.
 Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s,
@@ -112,22 +137,7 @@ Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s,
   weight[kThing] = there.things_per_m2;
   weight[kStranger] = params_.newcomer_density_per_m2;
   for (int h = kTarget; h < kHypotheses; ++h) {
-    if (h != kTarget && !gallery_.isKnown(h)) continue;
-    double reach = 1.0;
-    if (const auto& last = last_[static_cast<std::size_t>(h)]) {
-      // It counts if it was them and they have gone from there; else they were never seen.
-      const Belief* holder = find(last->track_id);
-      const double gone = last->probability * (1.0 - (holder == nullptr ? 0.0 : holder->present));
-      const double counts = gone / std::max(gone + 1.0 - last->probability, 1e-9);
-      const double away_s = std::max(stamp_s - last->seen_s, 0.0);
-      const double away_m = (place_m - last->place_m).norm();
-      const double sigma_m = std::hypot(0.3, params_.walk_mps * away_s);
-      const double area_m2 = kTwoPi * sigma_m * sigma_m;
-      reach = counts * std::max(kRoom_m2 / area_m2, 1.0) *
-                  std::exp(-0.5 * away_m * away_m / (sigma_m * sigma_m)) +
-              1.0 - counts;
-    }
-    weight[h] = params_.newcomer_density_per_m2 * reach;
+    if (h == kTarget || gallery_.isKnown(h)) weight[h] = densityOf(h, place_m, stamp_s);
   }
   // Where people were seen before there are more, whoever they are.
   auto people = weight.tail<kHypotheses - kStranger>();
@@ -180,7 +190,8 @@ Identity::Belief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, 
     const Evidence another = priorOf(place_m, stamp_s, same->counted);
     const Evidence log_others = logOthers(*same);
     for (Belief& other : beliefs_) {  // They are together again.
-      if (other.born_s <= same->seen_s) other.log_free = (other.log_free - log_others).min(0.0);
+      if (!same->was_apart || other.born_s > same->seen_s) continue;
+      other.log_free = (other.log_free - log_others).min(0.0);
     }
     belief = std::move(*same);
     left_.erase(same);
@@ -363,6 +374,15 @@ void Identity::mixSwaps(const std::vector<Swap>& swaps) {
   }
 }
 
+/// However well looks fit the target, it may be a stranger who is dressed alike.
+Evidence Identity::Belief::logWeight() const {
+  const Evidence log_looks = logLooks();
+  Evidence log_weight = log_place + log_free + log_looks;
+  const double log_odds = std::min(log_looks[kTarget] - log_looks[kStranger], 100.0);
+  log_weight[kStranger] += std::log1p(kAlikeShare * std::expm1(log_odds));
+  return log_weight;
+}
+
 /// The exact marginals of all beliefs together, where each person can be one track only: sums over
 /// all ways to give people to tracks, by which of the people are taken (forward-backward).
 /// @param is_left  Whether tracks that are not seen may be empty, and their people somebody else.
@@ -466,11 +486,12 @@ Evidence Identity::logOthers(const Belief& belief) {
   return log_others;
 }
 
-/// A track ends. Who was in view together with its person is another, as likely as they are who.
+/// A track ends. Who was in view together with its person is another, as likely as they are who:
+/// but not if it was always close to somebody, whose body it may have been, too.
 void Identity::leave(Belief& belief) {
   const Evidence log_others = logOthers(belief);
   for (Belief& other : beliefs_) {
-    if (!other.is_alive || other.born_s > belief.seen_s) continue;
+    if (!belief.was_apart || !other.is_alive || other.born_s > belief.seen_s) continue;
     other.log_free = (other.log_free + log_others).max(kLogMistaken);
   }
   if (belief.seen_s <= belief.since_s) return;  // It rested nowhere.
@@ -498,6 +519,7 @@ void Identity::remember(const std::vector<Track>& tracks,
     const bool is_alone = std::none_of(tracks.begin(), tracks.end(), [&](const Track& other) {
       return other.id != track.id && (other.motion.position_m() - place_m).norm() < kAlone_m;
     });
+    belief.was_apart = belief.was_apart || is_alone;
     int best = kStranger;
     for (int h = kTarget; h < kHypotheses; ++h) {
       if (belief.probability[h] > 0.5) best = h;

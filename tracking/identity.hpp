@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -36,6 +37,10 @@ struct IdentityParams {
   double walk_mps = 1.0;
 };
 
+/// Probability density [1/m²] of where the target is while nobody sees them, by whoever looks for
+/// them; absent: not known. Then they may have walked anywhere from where they were seen last.
+using TargetDensity = std::function<std::optional<double>(const Eigen::Vector2d& place_m)>;
+
 /// Where somebody was seen last.
 struct Absence {
   Eigen::Vector2d place_m = Eigen::Vector2d::Zero();
@@ -52,7 +57,8 @@ struct Absence {
 class Identity {
  public:
   /// @throws std::invalid_argument  if a parameter is out of its range.
-  explicit Identity(TargetLooks looks = {}, const IdentityParams& params = {});
+  explicit Identity(TargetLooks looks = {}, const IdentityParams& params = {},
+                    TargetDensity target_density = {});
 
   /// Takes the looks in; call it before the tracker's step, so that it can ask logLikelihood().
   void look(const std::vector<Observation>& observations);
@@ -123,21 +129,23 @@ class Identity {
     Eigen::ArrayXXd known_parts;
     Eigen::ArrayXd known_looks;  ///< of so many looks.
     double present = 1.0;        ///< Probability that whoever it is still is there.
+    bool was_apart = false;      ///< At some time nobody else was near.
     bool is_alive = true;
 
     Tallness logTallness() const { return log_tallness + view.weight * view.tallness; }
     Evidence logLooks() const { return log_views + view.evidence() + log_stature; }
+    Evidence logWeight() const;
     Past past() const {
       return {log_place, log_place + log_free + log_views + view.evidence(), view.evidence(),
               logTallness(), view.weight * view.tallness};
     }
-    Evidence logWeight() const { return log_place + log_free + logLooks(); }
   };
 
   Belief* find(int track_id);
   const Belief* find(int track_id) const;
   Belief& begin(int track_id, const Eigen::Vector2d& place_m, double stamp_s);
   double newsOf(double elapsed_s, double way_m) const;
+  double densityOf(int h, const Eigen::Vector2d& place_m, double stamp_s) const;
   Evidence priorOf(const Eigen::Vector2d& place_m, double stamp_s,
                    const ClutterCount& but = {}) const;
   void count(Belief& belief, double time_s, double stamp_s);
@@ -157,6 +165,7 @@ class Identity {
   void meet(Belief& belief);
 
   IdentityParams params_;
+  TargetDensity target_density_;
   Gallery gallery_;
   ClutterMap clutter_;
   std::vector<Belief> beliefs_;

@@ -73,10 +73,10 @@ const char* toText(TargetReason reason) {
 }
 
 TargetTracker::TargetTracker(const TargetParams& params, const TrackerParams& tracker_params,
-                             GeometricGate gate, TargetLooks looks)
+                             GeometricGate gate, TargetLooks looks, TargetDensity density)
     : params_(params),
       tracker_(tracker_params, std::move(gate)),
-      identity_(std::move(looks), params.identity) {
+      identity_(std::move(looks), params.identity, std::move(density)) {
   require(std::isfinite(params.start_distance_m) && params.start_distance_m >= 0.0,
           "start_distance_m must not be negative");
   require(params.take_above > 0.0 && params.take_above < 1.0, "take_above must be in (0, 1)");

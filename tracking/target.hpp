@@ -92,7 +92,8 @@ class TargetTracker {
   /// @throws std::invalid_argument  if a parameter is out of range; the text names it.
   /// @param looks  What the target looks like; by default nothing is known of it.
   explicit TargetTracker(const TargetParams& params = {}, const TrackerParams& tracker_params = {},
-                         GeometricGate gate = {}, TargetLooks looks = {});
+                         GeometricGate gate = {}, TargetLooks looks = {},
+                         TargetDensity density = {});
 
   /// Says where the target is at the next step's stamp (after phase 1: the first person's place).
   /// The nearest track becomes the target; if none is near, one is started there.

@@ -220,10 +220,12 @@ void Follower::lookAround(const RobotReadings& readings) {
       // Where a picture has no depth the laser may have seen a door's leaf.
       search_->look(then, obstacles_age_s_,
                     [&, sight = things_.sight(),
-                     T_then_world = then.inverse()](const Vector2d& p) -> std::optional<Vector2d> {
+                     T_then_world = then.inverse()](const Vector2d& p) -> std::optional<SeenTo> {
+                      // A body hides its own place: whose it is, is not for the search to say.
+                      if (people_.isAnybodyAt(p, now_)) return SeenTo(p, true);
                       const auto to = sight.seenTo(T_then_world * p);
                       if (!to) return things_.firstBetween(then.position, p);
-                      return people_.isAnybodyAt(then * *to, now_) ? then.position : then * *to;
+                      return SeenTo(then * *to, people_.isAnybodyAt(then * *to, now_));
                     });
     }
     obstacles_age_s_ = 0.0;
@@ -260,6 +262,10 @@ void Follower::learn(const Frame& frame) {
 void Follower::skipLearning(const AppearanceModel& whom) {
   PerceptionParams params = params_.perception;
   if (walls_) params.gate = wallGate(walls_, params_.gate);
+  params.target_density = [this](const Vector2d& place) -> std::optional<double> {
+    if (now_.target || !search_) return std::nullopt;
+    return search_->density(place);
+  };
   perception_.emplace(robot_.camera, whom, params);
   now_.last.position = step_.robot.pose.position;  // for want of a better place
   if (search_) search_->lose(now_.last, 0.0, 1.0);

@@ -108,7 +108,8 @@ Perception::Perception(const CameraSetup& setup, const AppearanceModel& model,
             setup.T_base_camera,
             setup.sensor == SensorKind::kStereo ? params.stereo.disparities : 0},
       coarse_depth_(setup.camera, params.stereo),
-      tracker_(params.target, params.tracker, gateOf(params), looksOf(model)) {
+      tracker_(params.target, params.tracker, gateOf(params), looksOf(model),
+               params.target_density) {
   for (const AppearanceBand& band : bands_) {
     height_crops_.emplace_back(HeightCropParams{band.body.min_height_m, band.body.max_height_m});
   }

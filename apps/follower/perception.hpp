@@ -57,7 +57,8 @@ struct PerceptionParams {
   BodyDescriberParams body;
   TrackerParams tracker;
   TargetParams target;
-  GeometricGate gate;  ///< Where a person can be seen; anywhere if empty.
+  GeometricGate gate;            ///< Where a person can be seen; anywhere if empty.
+  TargetDensity target_density;  ///< Where the target may be who is lost; see TargetDensity.
 };
 
 /// Where the robot is when a frame is taken. A robot that stands still has its base frame as world.

@@ -34,13 +34,16 @@ class PersonSearch {
   void wait(double elapsed_s) { map_.spread(elapsed_s); }
   /// They were not before the camera, which looked from here. @param seenTo  See SearchMap.
   void look(const FloorPose& camera, double elapsed_s,
-            FunctionRef<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)> seenTo) {
+            FunctionRef<std::optional<SeenTo>(const Eigen::Vector2d&)> seenTo) {
     map_.look(camera, elapsed_s, seenTo);
   }
   /// Nor where the laser's beams went through.
   void scan(const LaserScan& scan, const FloorPose& scanner, double elapsed_s) {
     map_.scan(scan, scanner, elapsed_s);
   }
+
+  /// Where they may be; see SearchMap.
+  double density(const Eigen::Vector2d& place) const { return map_.density(place); }
 
   /// Chooses what to look at, if the last choice is old or the robot `is_there`; takes from the
   /// budget. @param way_m  See SearchMap::nextView(). @return whether it is another place.

@@ -47,9 +47,9 @@ const std::vector<std::string> kThreeRooms = {  // cells of 0.2 m: 8.2 m x 4.2 m
 constexpr double kLeftDoor = 2.2, kRightDoor = 6.0;
 const Eigen::Vector2d kMiddle(4.1, 2.1);
 
-SearchMap threeRooms() {
+SearchMap threeRooms(const SearchMapParams& params = {}) {
   const OccupancyGrid map = test::drawnMap(kThreeRooms, 0.2);
-  return SearchMap(map, map);
+  return SearchMap(map, map, params);
 }
 
 double total(const SearchMap& map) {
@@ -256,6 +256,52 @@ TEST(SearchMap, WhatAShutDoorHidesIsHiddenFromAllOfTheRoomBeforeIt) {
   ASSERT_TRUE(next);
   EXPECT_LT(next->chance, 0.25 * rightRoom(map))
       << "from before it, nothing is seen as long as it is shut";
+}
+
+// Bug: somebody who stood before the robot hid a room, and it waited for them to go until the
+// search was over.
+TEST(SearchMap, WhoStandsInTheWayIsExpectedToStandTheLonger) {
+  SearchMap map = threeRooms();
+  map.start({7.5, 3.7}, {0.0, 0.0});
+  map.spread(0.5);
+  const Eigen::Vector2d eye(4.0, 2.1);
+  const auto behindSomebody = [&](const Eigen::Vector2d& p) -> std::optional<SeenTo> {
+    const auto to = byShutDoor(p, eye);
+    return SeenTo(*to, *to != p);
+  };
+  map.look({eye, 0.0}, 0.1, behindSomebody);
+  const double at_once = map.nextView({eye, 0.0})->chance;
+  EXPECT_GT(at_once, 0.3 * rightRoom(map)) << "who passes is soon gone";
+  for (int i = 0; i < 200; ++i) {
+    map.spread(0.1);
+    map.look({eye, 0.0}, 0.1, behindSomebody);
+  }
+  EXPECT_LT(map.nextView({eye, 0.0})->chance, 0.3 * at_once);
+}
+
+TEST(SearchMap, ABodyMayBeThePersonAndSoTheirPlaceKeepsItsShare) {
+  const Eigen::Vector2d body(4.5, 2.1);
+  std::array<double, 2> density{};
+  for (const bool is_known : {false, true}) {
+    SearchMap map = threeRooms();
+    map.start(kMiddle, {0.0, 0.0});
+    map.spread(1.0);
+    map.look({{2.7, 2.1}, 0.0}, 3.0, [&](const Eigen::Vector2d& p) -> std::optional<SeenTo> {
+      return SeenTo(p, is_known && (p - body).norm() < 0.4);
+    });
+    density[is_known ? 1 : 0] = map.density(body);
+  }
+  EXPECT_GT(density[1], 10.0 * density[0]);
+}
+
+TEST(SearchMap, TheDensityIsTheBeliefASquareMetre) {
+  SearchMapParams params;
+  params.place_sigma_m = 0.1;
+  SearchMap map = threeRooms(params);
+  map.start(kMiddle, {0.0, 0.0});
+  EXPECT_NEAR(map.density(kMiddle), 1.0 / (M_PI * 0.5 * 0.5), 0.15);
+  EXPECT_EQ(map.density({7.5, 2.1}), 0.0);
+  EXPECT_EQ(map.density({-5.0, 0.0}), 0.0) << "off the map";
 }
 
 TEST(SearchMap, NobodyWalksThroughAShutDoor) {
