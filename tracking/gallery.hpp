@@ -68,14 +68,11 @@ inline constexpr double kMisfit = 0.97, kOthersMisfit = 2.0;
 /// How much of a rare colour's evidence counts: whoever wears a rare colour wears much of it.
 inline constexpr double kRarityShare = 0.5;
 
-/// Of strangers, who are dressed as the target: however often one looks, looks alone say no more
-/// than 1 / this for them. In drawn wardrobes one in 80 has the target's top and trousers.
-inline constexpr double kAlikeShare = 0.0125;
-
 struct GalleryParams {
   /// Share of looks that mislead (shade, somebody half in front, a lintel over them). It bounds
-  /// what one look at colours, and one at stature, can say against anybody; its square bounds what
-  /// one at colours can say for them.
+  /// what one look at colours, and one at stature, can say against anybody. Its square is the share
+  /// of strangers who look like somebody, by chance or because they are dressed alike: it bounds
+  /// what one look at colours can say for anybody, and what all looks together can for the target.
   double misleading_share = 0.05;
   /// Looks at one person are alike: many together are worth no more than 1 / this of them.
   double look_correlation = 0.2;

@@ -21,7 +21,7 @@ constexpr double kRestSigma_m = 0.5 * kRest_m;  // Of where whoever rests is obs
 constexpr double kMissed = 0.1;                 // Of the looks at somebody in full view.
 constexpr double kCoastMemory_s = 1.0;  // Hidden somebody may have gone elsewhere in this time.
 constexpr double kRoom_m2 = 20.0;       // Where somebody who is away may be.
-constexpr double kUnexpected = 0.05;    // Share of targets who are not where they are expected.
+constexpr double kUnexpected = 0.02;    // Share of targets who are not where they are expected.
 constexpr double kMetLooks = 1.5;       // A stranger is met after so many independent looks.
 constexpr double kSurest = 12.0;        // Logarithm of the greatest odds of places and ways.
 constexpr double kOtherView = 0.5;      // A look with so much news begins another view;
@@ -375,11 +375,12 @@ void Identity::mixSwaps(const std::vector<Swap>& swaps) {
 }
 
 /// However well looks fit the target, it may be a stranger who is dressed alike.
-Evidence Identity::Belief::logWeight() const {
-  const Evidence log_looks = logLooks();
-  Evidence log_weight = log_place + log_free + log_looks;
+Evidence Identity::logWeight(const Belief& belief) const {
+  const Evidence log_looks = belief.logLooks();
+  Evidence log_weight = belief.log_place + belief.log_free + log_looks;
+  const double alike = std::pow(params_.gallery.misleading_share, 2);
   const double log_odds = std::min(log_looks[kTarget] - log_looks[kStranger], 100.0);
-  log_weight[kStranger] += std::log1p(kAlikeShare * std::expm1(log_odds));
+  log_weight[kStranger] += std::log1p(alike * std::expm1(log_odds));
   return log_weight;
 }
 
@@ -406,7 +407,7 @@ void Identity::weigh(bool is_left, std::vector<Evidence>& marginals) {
   weights_.resize(count);
   for (std::size_t j = 0; j < count; ++j) {
     const double present = is_left ? beliefs_[j].present : 1.0;
-    const Evidence all = relative(beliefs_[j].logWeight());
+    const Evidence all = relative(logWeight(beliefs_[j]));
     const auto& [weight, nobody] = weights_[j] = {present * all, (1.0 - present) * all.sum()};
     const double* before = &forward_[j * sets];
     double* after = &forward_[(j + 1) * sets];
@@ -479,8 +480,8 @@ void Identity::endBeliefs(const std::vector<Track>& tracks) {
 }
 
 /// Of each person being another than whoever this is; 0 of what is no person.
-Evidence Identity::logOthers(const Belief& belief) {
-  const Evidence weight = relative(belief.logWeight());
+Evidence Identity::logOthers(const Belief& belief) const {
+  const Evidence weight = relative(logWeight(belief));
   Evidence log_others = (1.0 - weight / weight.sum()).log();
   log_others.head<kTarget>() = 0.0;
   return log_others;

@@ -134,7 +134,6 @@ class Identity {
 
     Tallness logTallness() const { return log_tallness + view.weight * view.tallness; }
     Evidence logLooks() const { return log_views + view.evidence() + log_stature; }
-    Evidence logWeight() const;
     Past past() const {
       return {log_place, log_place + log_free + log_views + view.evidence(), view.evidence(),
               logTallness(), view.weight * view.tallness};
@@ -158,7 +157,8 @@ class Identity {
   void weighTogether();
   void weigh(bool is_left, std::vector<Evidence>& marginals);
   void endBeliefs(const std::vector<Track>& tracks);
-  static Evidence logOthers(const Belief& belief);
+  Evidence logWeight(const Belief& belief) const;
+  Evidence logOthers(const Belief& belief) const;
   void leave(Belief& belief);
   void remember(const std::vector<Track>& tracks, const std::vector<Observation>& observations,
                 double stamp_s);
