@@ -72,7 +72,7 @@ TEST(ExperimentsOnRealPeople, WhoIsInTwoRecordingsIsLookedForInTheOther) {
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(results[i].learned_in, i < 2 ? one : two);
     EXPECT_EQ(results[i].sought_in, i < 2 ? two : one);
-    EXPECT_GE(results[i].started.recall(), 0.9) << results[i].person;
+    EXPECT_GE(results[i].started.recall(), 0.8) << results[i].person;
     EXPECT_EQ(results[i].cold.wrong_person, 0) << results[i].person;
   }
 }
