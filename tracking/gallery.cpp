@@ -206,7 +206,7 @@ Evidence Gallery::logLikelihood(const LookEvidence& look, const Evidence& unseen
     const double ratio = std::exp(std::min(evidence[h], 100.0));
     // Fewer looks are like somebody by chance than are unlike themselves.
     evidence[h] =
-        std::log((1.0 - mislead) * ratio + mislead) - std::log1p(mislead * mislead * ratio);
+        std::log((1.0 - mislead) * ratio + mislead) - std::log1p(params_.alikeShare() * ratio);
   }
   return evidence;
 }

@@ -74,6 +74,7 @@ struct GalleryParams {
   /// of strangers who look like somebody, by chance or because they are dressed alike: it bounds
   /// what one look at colours can say for anybody, and what all looks together can for the target.
   double misleading_share = 0.05;
+  double alikeShare() const { return misleading_share * misleading_share; }
   /// Looks at one person are alike: many together are worth no more than 1 / this of them.
   double look_correlation = 0.2;
 };

@@ -378,9 +378,8 @@ void Identity::mixSwaps(const std::vector<Swap>& swaps) {
 Evidence Identity::logWeight(const Belief& belief) const {
   const Evidence log_looks = belief.logLooks();
   Evidence log_weight = belief.log_place + belief.log_free + log_looks;
-  const double alike = std::pow(params_.gallery.misleading_share, 2);
   const double log_odds = std::min(log_looks[kTarget] - log_looks[kStranger], 100.0);
-  log_weight[kStranger] += std::log1p(alike * std::expm1(log_odds));
+  log_weight[kStranger] += std::log1p(params_.gallery.alikeShare() * std::expm1(log_odds));
   return log_weight;
 }
 

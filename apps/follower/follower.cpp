@@ -262,11 +262,11 @@ void Follower::learn(const Frame& frame) {
 void Follower::skipLearning(const AppearanceModel& whom) {
   PerceptionParams params = params_.perception;
   if (walls_) params.gate = wallGate(walls_, params_.gate);
-  params.target_density = [this](const Vector2d& place) -> std::optional<double> {
+  const auto density = [this](const Vector2d& place) -> std::optional<double> {
     if (now_.target || !search_) return std::nullopt;
     return search_->density(place);
   };
-  perception_.emplace(robot_.camera, whom, params);
+  perception_.emplace(robot_.camera, whom, params, density);
   now_.last.position = step_.robot.pose.position;  // for want of a better place
   if (search_) search_->lose(now_.last, 0.0, 1.0);
   learner_.reset();

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -85,7 +86,7 @@ const char* toText(Stage stage) {
 }
 
 Perception::Perception(const CameraSetup& setup, const AppearanceModel& model,
-                       const PerceptionParams& params)
+                       const PerceptionParams& params, TargetDensity density)
     : sensor_(setup.sensor),
       camera_(setup.camera),
       T_base_camera_(setup.T_base_camera),
@@ -108,8 +109,7 @@ Perception::Perception(const CameraSetup& setup, const AppearanceModel& model,
             setup.T_base_camera,
             setup.sensor == SensorKind::kStereo ? params.stereo.disparities : 0},
       coarse_depth_(setup.camera, params.stereo),
-      tracker_(params.target, params.tracker, gateOf(params), looksOf(model),
-               params.target_density) {
+      tracker_(params.target, params.tracker, gateOf(params), looksOf(model), std::move(density)) {
   for (const AppearanceBand& band : bands_) {
     height_crops_.emplace_back(HeightCropParams{band.body.min_height_m, band.body.max_height_m});
   }

@@ -57,8 +57,7 @@ struct PerceptionParams {
   BodyDescriberParams body;
   TrackerParams tracker;
   TargetParams target;
-  GeometricGate gate;            ///< Where a person can be seen; anywhere if empty.
-  TargetDensity target_density;  ///< Where the target may be who is lost; see TargetDensity.
+  GeometricGate gate;  ///< Where a person can be seen; anywhere if empty.
 };
 
 /// Where the robot is when a frame is taken. A robot that stands still has its base frame as world.
@@ -92,9 +91,10 @@ class Perception {
   /// Told after each stage, so that the caller, who has the clock, can time them.
   using StageDone = std::function<void(Stage)>;
 
+  /// @param density  Where the target may be who is lost; see TargetDensity.
   /// @throws std::invalid_argument  if a parameter is out of its range.
   Perception(const CameraSetup& setup, const AppearanceModel& model,
-             const PerceptionParams& params = {});
+             const PerceptionParams& params = {}, TargetDensity density = {});
 
   /// The target is at this place of the world in the next frame (after phase 1, say).
   void startAt(const Eigen::Vector2d& position_m) { tracker_.startAt(position_m); }

@@ -121,7 +121,7 @@ Evidence newcomer(int others = 0) {
   return weight;
 }
 
-const double kAlikeShare = std::pow(GalleryParams().misleading_share, 2);
+const double kAlikeShare = GalleryParams().alikeShare();
 
 /// What looks say, if a stranger may be dressed as the target.
 Evidence likelihoods(const Evidence& log_looks) {
