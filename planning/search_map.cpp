@@ -45,6 +45,7 @@ SearchMap::SearchMap(const OccupancyGrid& floor, const OccupancyGrid& sight,
       belief_(shares_.size(), 0.0),
       others_(shares_),
       screens_(shares_.size()),
+      is_taken_(shares_.size(), false),
       reached_s_(shares_.size(), kNever),
       shut_s_(shares_.size(), kNever),
       speed_mps_(params.usual_speed_mps) {
@@ -137,12 +138,13 @@ void SearchMap::start(const Eigen::Vector2d& position, const Eigen::Vector2d& ve
   sumUp();
 }
 
-void SearchMap::spread(double elapsed_s) {
+void SearchMap::spread(double elapsed_s, FunctionRef<bool(const Eigen::Vector2d& place)> is_taken) {
   if (!(elapsed_s >= 0.0)) throw std::invalid_argument("time does not go back");
   if (walked_m_.empty()) return;
   const double step_s = params_.cell_size_m / kFastestWalk_mps;
   carried_s_ += elapsed_s;
   if (carried_s_ < step_s) return;
+  for (int c = 0; c < floor_.cells(); ++c) is_taken_[index(c)] = is_taken(floor_.center(c));
   for (; carried_s_ >= step_s; carried_s_ -= step_s) {
     clock_s_ += step_s;
     turn();
@@ -178,7 +180,8 @@ void SearchMap::walk() {
       }
       const double steps = way % 2 == 0 ? 1.0 : std::sqrt(0.5);
       const bool is_too_far = reached_s_[index(to)] > clock_s_;
-      const bool is_barred = is_too_far || isBarred(to);
+      const bool stays = is_taken_[c] || is_taken_[index(to)];
+      const bool is_barred = is_too_far || stays || isBarred(to);
       const double walks = is_barred ? 0.0 : steps * speed_mps_ / kFastestWalk_mps;
       next_[index(to)][way] += walks * share;
       next_[c][way] += (1.0 - walks) * share;
@@ -354,24 +357,24 @@ double SearchMap::density(const Eigen::Vector2d& place) const {
 }
 
 std::optional<SearchView> SearchMap::nextView(const FloorPose& camera,
-                                              FunctionRef<double(const Eigen::Vector2d&)> way_m) {
+                                              FunctionRef<double(const Eigen::Vector2d&)> way_s) {
   if (walked_m_.empty()) return std::nullopt;
   // First the place, by all that is in view around it: who goes to a room looks all around in it.
   const double around_s = 2.0 * kPi / params_.limits.max_turn_radps + params_.look_s;
-  const auto onMap_m = [&](std::size_t view) {
-    return static_cast<double>(way_m_[index(view_cells_[view])]);
-  };
   const auto toThere_s = [&](double on_way_m) { return on_way_m / params_.limits.max_speed_mps; };
+  const auto onMap_s = [&](std::size_t view) {
+    return toThere_s(static_cast<double>(way_m_[index(view_cells_[view])]));
+  };
   const auto rateViews = [&](FunctionRef<bool(int cell)> is_open) {
     floor_.walkingDistances(floor_.nearestFree(camera.position), way_m_, way_open_, is_open);
     chances_.assign(view_cells_.size(), 0.0);
     rates_.assign(view_cells_.size(), 0.0);
     by_rate_.clear();
     for (std::size_t view = 0; view < view_cells_.size(); ++view) {
-      if (!std::isfinite(onMap_m(view))) continue;
-      const Bearings around = chancesAround(view, toThere_s(onMap_m(view)) + params_.look_s);
+      if (!std::isfinite(onMap_s(view))) continue;
+      const Bearings around = chancesAround(view, onMap_s(view) + params_.look_s);
       chances_[view] = std::accumulate(around.begin(), around.end(), 0.0);
-      rates_[view] = chances_[view] / (toThere_s(onMap_m(view)) + around_s);
+      rates_[view] = chances_[view] / (onMap_s(view) + around_s);
       if (rates_[view] > 0.0) by_rate_.push_back(view);
     }
   };
@@ -386,11 +389,10 @@ std::optional<SearchView> SearchMap::nextView(const FloorPose& camera,
     return rates_[a] != rates_[b] ? rates_[a] > rates_[b] : a < b;
   });
   std::size_t best = by_rate_.front();
-  double best_s = toThere_s(onMap_m(best)), best_rate = 0.0;
+  double best_s = onMap_s(best), best_rate = 0.0;
   for (const std::size_t view : by_rate_) {
     if (rates_[view] <= best_rate) break;  // A way is never shorter than on the map.
-    const double there_s =
-        toThere_s(std::max(way_m(floor_.center(view_cells_[view])), onMap_m(view)));
+    const double there_s = std::max(way_s(floor_.center(view_cells_[view])), onMap_s(view));
     const double rate = chances_[view] / (there_s + around_s);
     if (!(rate > best_rate)) continue;
     best = view;

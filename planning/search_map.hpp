@@ -82,7 +82,11 @@ class SearchMap {
              double probability = 1.0);
 
   /// Time goes by. Without a start() nothing happens.
-  void spread(double elapsed_s);
+  /// @param is_taken  Whether somebody is seen at a place: they are there still, and nobody else.
+  void spread(double elapsed_s, FunctionRef<bool(const Eigen::Vector2d& place)> is_taken);
+  void spread(double elapsed_s) {
+    spread(elapsed_s, [](const Eigen::Vector2d&) { return false; });
+  }
 
   /// The camera has looked from here for a while, and the person was not found.
   /// @param seenTo  Absent if it is not known. What hides a place is taken to stand there, and
@@ -108,10 +112,10 @@ class SearchMap {
   /// The place from which there is most to see per time, getting there and turning once around
   /// included, and the look from it that promises most. None before start(), or where no chance is
   /// left within reach. Ask again after each look.
-  /// @param way_m  How long the way to a place is now, if longer than on the map; infinite where
-  ///               none leads: such places come last, what is in the way may be gone by then.
+  /// @param way_s  How long it takes to get to a place now, if longer than on the map; infinite
+  ///               where no way leads: such places come last.
   std::optional<SearchView> nextView(const FloorPose& camera,
-                                     FunctionRef<double(const Eigen::Vector2d&)> way_m);
+                                     FunctionRef<double(const Eigen::Vector2d&)> way_s);
   std::optional<SearchView> nextView(const FloorPose& camera) {
     return nextView(camera, [](const Eigen::Vector2d&) { return 0.0; });
   }
@@ -156,6 +160,7 @@ class SearchMap {
   std::vector<double> belief_;
   std::vector<Shares> others_;     ///< Memory of start(), as the next are.
   std::vector<Screen> screens_;    ///< By cell.
+  std::vector<bool> is_taken_;     ///< By cell; memory of spread().
   std::vector<int> seen_;          ///< Cells in a look; memory of look().
   std::vector<float> walked_m_;    ///< From where the person was last seen.
   std::vector<double> reached_s_;  ///< On the clock: nobody can have walked there sooner.

@@ -80,6 +80,13 @@ double Identity::targetProbability(int track_id) const {
   return belief == nullptr ? 0.0 : belief->probability[kTarget];
 }
 
+double Identity::hadTarget(int track_id) const {
+  const Belief* belief = find(track_id);
+  if (belief == nullptr) return 1.0;
+  const double target = belief->targetShare();
+  return target + (1.0 - target) * belief->replaced;
+}
+
 void Identity::look(const std::vector<Observation>& observations) {
   looks_.resize(observations.size());
   statures_.resize(observations.size());
@@ -155,8 +162,8 @@ void Identity::count(Belief& belief, double time_s, double stamp_s) {
                     belief.counted.thing_s + thing_s};
 }
 
-double Identity::newsOf(double elapsed_s, double way_m) const {
-  return -std::expm1(-std::max(elapsed_s, 0.0) / params_.still_look_s - way_m / params_.look_way_m);
+double IdentityParams::newsOf(double elapsed_s, double way_m) const {
+  return -std::expm1(-std::max(elapsed_s, 0.0) / still_look_s - way_m / look_way_m);
 }
 
 double Identity::restsFor_s(int track_id, double stamp_s) const {
@@ -214,7 +221,7 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
   const double off_m = (seen.position_m - belief.place_m).norm();
   const bool has_moved = off_m > restRadiusOf(seen);
   const double elapsed_s = std::max(stamp_s - belief.seen_s, 0.0);
-  const double news = newsOf(elapsed_s, has_moved ? off_m : 0.0);
+  const double news = params_.newsOf(elapsed_s, has_moved ? off_m : 0.0);
   const double there = kTwoPi * kPlaceSigma_m * kPlaceSigma_m;
   const double clutter = clutter_.density(seen.position_m, stamp_s, belief.counted).things_per_m2;
   const double stood_s = params_.stands_s + std::max(belief.seen_s - belief.since_s, 0.0);
@@ -227,7 +234,11 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
     const double same = (1.0 - missed) * track.density_per_m2;
     const Evidence prior = priorOf(seen.position_m, stamp_s, belief.counted);
     const double other = missed * prior.exp().sum();
-    mixIn(belief, {prior, prior}, other / (same + other));
+    const double other_share = other / (same + other);
+    const double target = belief.targetShare();
+    const double lost = other_share * target;
+    belief.replaced = (lost + (1.0 - target) * belief.replaced) / (lost + 1.0 - target);
+    mixIn(belief, {prior, prior}, other_share);
   }
   // However long it lasts, nothing is surer than that: who sat for an hour may get up.
   belief.log_place -= belief.log_place.maxCoeff();
@@ -250,7 +261,8 @@ void Identity::takeLook(Belief& belief, const Observation& seen, std::size_t loo
       std::max((seen.position_m - view.place_m).norm(), (ray_m - view.ray_m).norm());
   const bool is_first = view.weight == 0.0;
   const double news =
-      is_first ? 1.0 : newsOf(stamp_s - view.since_s, way_m > restRadiusOf(seen) ? way_m : 0.0);
+      is_first ? 1.0
+               : params_.newsOf(stamp_s - view.since_s, way_m > restRadiusOf(seen) ? way_m : 0.0);
   if (is_first || news > kOtherView) {
     belief.log_views += view.evidence();
     belief.log_tallness = belief.logTallness();
@@ -524,6 +536,7 @@ void Identity::remember(const std::vector<Track>& tracks,
     for (int h = kTarget; h < kHypotheses; ++h) {
       if (belief.probability[h] > 0.5) best = h;
     }
+    if (belief.probability[kTarget] > 1.0 - kMistaken) belief.replaced = 0.0;
     if (best != kStranger) {
       last_[static_cast<std::size_t>(best)] =
           Absence{place_m, stamp_s, belief.probability[best], track.id};

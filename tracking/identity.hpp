@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -35,6 +36,9 @@ struct IdentityParams {
   double newcomer_density_per_m2 = 0.05;
   /// Speed at which somebody out of view gets away from where they were last seen.
   double walk_mps = 1.0;
+
+  /// How much of a look is new, after a time and a way.
+  double newsOf(double elapsed_s, double way_m) const;
 };
 
 /// Probability density [1/m²] of where the target is while nobody sees them, by whoever looks for
@@ -79,6 +83,8 @@ class Identity {
   Evidence probabilities(int track_id) const;
   /// That the target is there now: a track that is not seen where it should be has lost somebody.
   double targetProbability(int track_id) const;
+  /// That the target is who is on a track, or was, and somebody else has come in their place.
+  double hadTarget(int track_id) const;
   /// For how long a track has not left its place.
   double restsFor_s(int track_id, double stamp_s) const;
   /// Probability that the target is none of the tracks.
@@ -129,10 +135,14 @@ class Identity {
     Eigen::ArrayXXd known_parts;
     Eigen::ArrayXd known_looks;  ///< of so many looks.
     double present = 1.0;        ///< Probability that whoever it is still is there.
+    double replaced = 0.0;       ///< Unless it is the target: that it was, before another came.
     bool was_apart = false;      ///< At some time nobody else was near.
     bool is_alive = true;
 
     Tallness logTallness() const { return log_tallness + view.weight * view.tallness; }
+    double targetShare() const {
+      return probability[kTarget] / std::max(probability.sum(), 1e-300);
+    }
     Evidence logLooks() const { return log_views + view.evidence() + log_stature; }
     Past past() const {
       return {log_place, log_place + log_free + log_views + view.evidence(), view.evidence(),
@@ -143,7 +153,6 @@ class Identity {
   Belief* find(int track_id);
   const Belief* find(int track_id) const;
   Belief& begin(int track_id, const Eigen::Vector2d& place_m, double stamp_s);
-  double newsOf(double elapsed_s, double way_m) const;
   double densityOf(int h, const Eigen::Vector2d& place_m, double stamp_s) const;
   Evidence priorOf(const Eigen::Vector2d& place_m, double stamp_s,
                    const ClutterCount& but = {}) const;

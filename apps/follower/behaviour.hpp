@@ -16,18 +16,25 @@
 
 namespace heel {
 
+/// Somebody who may be the person who is lost.
+struct Suspect {
+  Eigen::Vector2d place;
+  double probability = 0.0;  ///< That it is they.
+};
+
 /// All that a behaviour goes by; places are on the map [m, world].
 struct Situation {
   double elapsed_s = 0.0;   ///< Since the step before;
   double turned_rad = 0.0;  ///< the robot has turned so far, by odometry.
   FloorPose robot;
-  std::optional<MovingPerson> target;      ///< Whom it follows, where they are known to be.
-  MovingPerson last;                       ///< They, when they were seen last,
-  double unseen_s = 0.0;                   ///< so long ago.
-  std::optional<Eigen::Vector2d> suspect;  ///< Who may be they, while they are lost.
-  std::vector<MovingPerson> people;        ///< Everybody who is known of, the target last.
-  std::size_t seen_people = 0;             ///< The first ones, who are seen, and not the target.
-  std::optional<Eigen::Vector2d> way_to;   ///< The end of the way on which it is.
+  std::optional<MovingPerson> target;     ///< Whom it follows, where they are known to be.
+  MovingPerson last;                      ///< They, when they were seen last,
+  double unseen_s = 0.0;                  ///< so long ago.
+  std::vector<Suspect> suspects;          ///< Who may be they, while they are lost,
+  double elsewhere_per_s = 0.0;           ///< and how likely they are found elsewhere, a second.
+  std::vector<MovingPerson> people;       ///< Everybody who is known of, the target last.
+  std::size_t seen_people = 0;            ///< The first ones, who are seen, and not the target.
+  std::optional<Eigen::Vector2d> way_to;  ///< The end of the way on which it is.
 
   /// Where they are if they walked on, but for no longer than this.
   MovingPerson expected(double walks_on_s) const;
@@ -39,6 +46,8 @@ struct Ways {
   Clearance free;  ///< To things, and to people who stand.
   /// The way from one place to another; valid until the next question.
   FunctionRef<const GlobalPlan&(const Eigen::Vector2d&, const Eigen::Vector2d&)> plan;
+  /// How long it takes from a pose to a place; infinite where no way leads.
+  FunctionRef<double(const FloorPose&, const Eigen::Vector2d&)> takes_s;
 };
 
 /// What the robot is to do until the next step. Without any of it, it stands.

@@ -205,7 +205,10 @@ void Follower::lookAround(const RobotReadings& readings) {
   if (now_.target) own = FloorDisc{now_.target->position, params_.target_radius_m};
   // What is seen where people are may walk off.
   things_.begin(steady_s_, pose, own, people_.discs(now_.people, {}));
-  if (search_) search_->wait(now_.elapsed_s);
+  if (search_) {
+    search_->wait(now_.elapsed_s,
+                  [&](const Vector2d& place) { return people_.isSeenAt(place, now_); });
+  }
   if (readings.scan != nullptr) {
     const FloorPose T_base_scanner = motion_.seenFromNow(scan_s_) * robot_.T_base_scanner;
     things_.addScan(*readings.scan, T_base_scanner);
@@ -313,25 +316,26 @@ void Follower::noteTarget() {
   }
   if (was_known && !now_.target && search_) {
     // As it seems now: it may be lost because it was somebody else.
-    const Evidence who = perception_->identity().probabilities(followed_id_);
-    search_->lose(now_.last, now_.unseen_s, who.sum() > 0.0 ? who[kTarget] / who.sum() : 1.0);
+    search_->lose(now_.last, now_.unseen_s, perception_->identity().hadTarget(followed_id_));
   }
-  noteSuspect();
+  noteSuspects();
   look_who_.watch(now_);
 }
 
-// Who is likeliest to be the target, if anybody is worth a look.
-void Follower::noteSuspect() {
-  now_.suspect.reset();
+// Who may be the target, and how much the search promises.
+void Follower::noteSuspects() {
+  now_.suspects.clear();
   if (now_.target) return;
-  double most = params_.worth_a_look;
+  const Identity& identity = perception_->identity();
   for (const Track& track : perception_->tracks()) {
     if (track.status == TrackStatus::kTentative) continue;
-    const double probability = perception_->identity().targetProbability(track.id);
-    if (probability <= most) continue;
-    most = probability;
-    now_.suspect = track.motion.position_m();
+    now_.suspects.push_back({track.motion.position_m(), identity.targetProbability(track.id)});
   }
+  constexpr double kFullTurn_rad = 2.0 * M_PI;
+  const double per_s = search_ && search_->view()
+                           ? search_->view()->chance / search_->view()->time_s
+                           : params_.seek_radps / kFullTurn_rad;
+  now_.elsewhere_per_s = identity.away() * per_s;
 }
 
 // The Petri net plan (section 3.4).
@@ -365,7 +369,7 @@ void Follower::checkFacts() {
   for (const auto& behaviour : behaviours_) {
     if (behaviour) behaviour->tell(facts_);
   }
-  facts_[Fact::kLookedAround] = facts_[Fact::kFullTurn] || (!look_who_.wants(now_) && is_ahead);
+  facts_[Fact::kLookedAround] = facts_[Fact::kFullTurn] || (!look_who_.wants() && is_ahead);
   facts_[Fact::kBlind] = !watch_.blindness().empty() || step_.robot.lost;
   facts_[Fact::kDone] = false;
 }

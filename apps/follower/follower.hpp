@@ -110,7 +110,7 @@ class Follower {
   void learn(const Frame& frame);
   void see(const Frame* frame);
   void noteTarget();
-  void noteSuspect();
+  void noteSuspects();
   void decide();
   void checkFacts();
   void begin(FollowingAction action);

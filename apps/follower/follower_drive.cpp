@@ -52,7 +52,10 @@ void Follower::behave() {
   const auto plan = [this](const Vector2d& from, const Vector2d& to) -> const GlobalPlan& {
     return pilot_.plan(from, to);
   };
-  const Ways ways{room, free, plan};
+  const auto takes_s = [this](const FloorPose& from, const Vector2d& to) {
+    return pilot_.takes_s(from, to);
+  };
+  const Ways ways{room, free, plan, takes_s};
   const bool acts = action_ != FollowingAction::kStop;
   const bool looks_for_them =
       action_ == FollowingAction::kSeek || action_ == FollowingAction::kSearch;

@@ -76,16 +76,9 @@ struct FollowerParams {
   double waits_aside_s = 6.0;  ///< The robot waits beside the way for so long at most.
   double no_frame_s = 0.25;    ///< Without a picture for longer, tracks go on by the laser.
   double lost_after_s = 0.5;   ///< Without the target's place for longer, it is lost.
-  /// While the target is lost, somebody who is it with more than this probability is looked at.
-  double worth_a_look = 0.05;
   /// Somebody who walked is expected to walk on for so long: where they may be is looked at first,
   /// and avoided.
   double walks_on_s = 2.0;
-  /// People who may be the lost target are looked at for so long before anything else.
-  double first_looks_s = 5.0;
-  /// People who may be the lost target are looked at for this share of the time, beyond
-  /// first_looks_s.
-  double look_share = 0.15;
   double seek_radps = 0.9;       ///< Speed of turning while the robot looks around for the target.
   double ahead_rad = 0.3;        ///< What is within this angle of straight ahead is in view.
   double lost_turn_radps = 0.4;  ///< Speed of turning of a robot that does not know where it is.

@@ -104,6 +104,12 @@ bool PeopleAround::isAnybodyAt(const Vector2d& place, const Situation& now) cons
                      [&](const MovingPerson& person) { return isNear(place, person); });
 }
 
+bool PeopleAround::isSeenAt(const Vector2d& place, const Situation& now) const {
+  return std::any_of(now.people.begin(),
+                     now.people.begin() + static_cast<std::ptrdiff_t>(now.seen_people),
+                     [&](const MovingPerson& person) { return isNear(place, person); });
+}
+
 bool PeopleAround::isNear(const Vector2d& place, const std::optional<MovingPerson>& person) const {
   return person && (person->position - place).norm() < person_m_;
 }

@@ -30,6 +30,8 @@ class PeopleAround {
 
   /// Whether somebody who is known of is at a place.
   bool isAnybodyAt(const Eigen::Vector2d& place, const Situation& now) const;
+  /// Whether somebody but the target is seen there now.
+  bool isSeenAt(const Eigen::Vector2d& place, const Situation& now) const;
 
   /// Those who rest, but for the target, with the room beside them: paths lead another way.
   const std::vector<MovingPerson>& resting() const { return unseen_.resting(); }

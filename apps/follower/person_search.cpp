@@ -20,12 +20,12 @@ void PersonSearch::lose(const MovingPerson& last, double unseen_s, double probab
 }
 
 bool PersonSearch::choose(double elapsed_s, const FloorPose& robot, bool is_there,
-                          FunctionRef<double(const Eigen::Vector2d&)> way_m) {
+                          FunctionRef<double(const Eigen::Vector2d&)> way_s) {
   searched_s_ += elapsed_s;
   view_age_s_ += elapsed_s;
   if (view_ && !is_there && view_age_s_ <= params_.new_view_s) return false;
   const std::optional<SearchView> before = view_;
-  view_ = map_.nextView(robot, way_m);
+  view_ = map_.nextView(robot, way_s);
   view_age_s_ = 0.0;
   is_over_ = !view_;
   return !before || !view_ || view_->camera.position != before->camera.position;

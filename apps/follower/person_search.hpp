@@ -15,7 +15,7 @@ namespace heel {
 /// How a person who is lost is looked for.
 struct PersonSearchParams {
   SearchMapParams map;
-  double budget_s = 240.0;  ///< A search ends after so long.
+  double budget_s = 600.0;  ///< A search ends after so long.
   double new_view_s = 3.0;  ///< How often the robot chooses anew where to look.
 };
 
@@ -30,8 +30,10 @@ class PersonSearch {
   /// They are lost; a while ago they were here, and walked so.
   /// @param probability  That it was they; else they are still where they were looked for before.
   void lose(const MovingPerson& last, double unseen_s, double probability);
-  /// Time goes by without them.
-  void wait(double elapsed_s) { map_.spread(elapsed_s); }
+  /// Time goes by without them. @param is_taken  See SearchMap.
+  void wait(double elapsed_s, FunctionRef<bool(const Eigen::Vector2d&)> is_taken) {
+    map_.spread(elapsed_s, is_taken);
+  }
   /// They were not before the camera, which looked from here. @param seenTo  See SearchMap.
   void look(const FloorPose& camera, double elapsed_s,
             FunctionRef<std::optional<SeenTo>(const Eigen::Vector2d&)> seenTo) {
@@ -46,9 +48,9 @@ class PersonSearch {
   double density(const Eigen::Vector2d& place) const { return map_.density(place); }
 
   /// Chooses what to look at, if the last choice is old or the robot `is_there`; takes from the
-  /// budget. @param way_m  See SearchMap::nextView(). @return whether it is another place.
+  /// budget. @param way_s  See SearchMap::nextView(). @return whether it is another place.
   bool choose(double elapsed_s, const FloorPose& robot, bool is_there,
-              FunctionRef<double(const Eigen::Vector2d&)> way_m);
+              FunctionRef<double(const Eigen::Vector2d&)> way_s);
   /// The choice; nothing if nothing is left to look at.
   const std::optional<SearchView>& view() const { return view_; }
   /// Another choice, next time.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace heel {
@@ -47,6 +48,24 @@ void Pilot::reset() {
 const GlobalPlan& Pilot::plan(const Vector2d& from, const Vector2d& to) {
   planner_.plan(from, to, plan_);
   return plan_;
+}
+
+double Pilot::takes_s(const FloorPose& from, const Vector2d& to) {
+  const DriveLimits& drive = local_planner_.params().limits;
+  double least_s = std::numeric_limits<double>::infinity();
+  const auto compare = [&](const GlobalPlan& way, double waits_m) {
+    const double turn_rad = way.path.size() < 2 ? 0.0 : std::abs(bearingOf(from, way.path[1]));
+    least_s = std::min(
+        least_s, (way.length_m + waits_m) / drive.max_speed_mps + turn_rad / drive.max_turn_radps);
+  };
+  // From near a place that it can not reach it does not see what it would from there.
+  const bool is_open = plan(from.position, to).status == PlanStatus::kFound;
+  if (is_open) compare(plan_, 0.0);
+  if (things_ == nullptr) return least_s;
+  on_map_.plan(from.position, to, through_);
+  if (through_.status != PlanStatus::kFound) return least_s;
+  if (!is_open || through_.length_m < plan_.length_m) compare(through_, barred_m(through_.path));
+  return least_s;
 }
 
 PilotStep Pilot::step(const Intent& intent, const DriveState& robot,

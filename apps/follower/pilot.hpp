@@ -52,6 +52,9 @@ class Pilot {
   /// The way from one place to another around all that stands; valid until the next plan
   /// or step.
   const GlobalPlan& plan(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
+  /// How long it takes from a pose to a place around what stands, or waiting for it to go,
+  /// whichever is sooner; infinite where no way leads.
+  double takes_s(const FloorPose& from, const Eigen::Vector2d& to);
 
   /// @param people   Who walks and who stands.
   /// @param sensed   Distance to what the sensors have seen of late.

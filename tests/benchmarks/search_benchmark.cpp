@@ -101,17 +101,18 @@ std::optional<double> searchedFor(std::uint64_t seed, bool& was_lost) {
       search.lose(last, unseen_s, 1.0);
     }
     searched_s += kStep_s;
-    search.wait(kStep_s);
+    search.wait(kStep_s, [](const Vector2d&) { return false; });
     search.look(pose, kStep_s,
                 [](const Vector2d& place) -> std::optional<Vector2d> { return place; });
     if (now.laser != nullptr) {
       search.scan(*now.laser, pose * heel::FloorPose{scene.robot.laser.at.head<2>(), 0.0}, kStep_s);
     }
-    const auto way_m = [&](const Vector2d& place) {
+    const auto way_s = [&](const Vector2d& place) {
       planner.plan(pose.position, place, plan);
-      return plan.found() ? plan.length_m : std::numeric_limits<double>::infinity();
+      return plan.found() ? plan.length_m / robot.drive.max_speed_mps
+                          : std::numeric_limits<double>::infinity();
     };
-    search.choose(kStep_s, pose, is_there, way_m);
+    search.choose(kStep_s, pose, is_there, way_s);
     is_there = false;
     if (search.isOver()) return std::nullopt;
     const auto& view = search.view();

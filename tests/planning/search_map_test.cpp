@@ -294,6 +294,24 @@ TEST(SearchMap, ABodyMayBeThePersonAndSoTheirPlaceKeepsItsShare) {
   EXPECT_GT(density[1], 10.0 * density[0]);
 }
 
+// Bug: whoever stood in plain view had gone, as far as the search knew, for people walk.
+TEST(SearchMap, WhoeverIsSeenSomewhereIsThereStill) {
+  const Eigen::Vector2d eye(2.6, 2.1), person(4.9, 2.1);
+  const auto is_there = [&](const Eigen::Vector2d& p) { return (p - person).norm() < 0.25; };
+  const auto kept = [&](FunctionRef<bool(const Eigen::Vector2d&)> is_taken) {
+    SearchMap map = threeRooms();
+    map.start(kMiddle, {0.0, 0.0});
+    map.spread(4.0);
+    const double before = map.density(person);
+    for (int i = 0; i < 50; ++i) {
+      map.spread(0.1, is_taken);
+      map.look({eye, 0.0}, 0.1, [&](const Eigen::Vector2d& p) { return SeenTo(p, is_there(p)); });
+    }
+    return map.density(person) / before;
+  };
+  EXPECT_GT(kept(is_there), 5.0 * kept([](const Eigen::Vector2d&) { return false; }));
+}
+
 TEST(SearchMap, TheDensityIsTheBeliefASquareMetre) {
   SearchMapParams params;
   params.place_sigma_m = 0.1;

@@ -780,6 +780,30 @@ TEST(Identity, WhoLeavesATrackMayBeAnother) {
   EXPECT_LT(home.identity.probabilities(1).sum(), 0.1) << "it is empty";
 }
 
+// Bug: the target was missed for a second, somebody else took over their track, and the search
+// believed that it had followed somebody else all along.
+TEST(Identity, TellsWhoWasReplacedFromWhoWasNeverTheTarget) {
+  EXPECT_EQ(Home().identity.hadTarget(1), 1.0) << "its track has ended";
+  for (const bool is_replaced : {true, false}) {
+    Home home;
+    home.identity.makeTarget(1, {0.0, 0.0}, 0.0);
+    home.walk({1, {0.0, 0.0}, &kRed}, 2.0);
+    ASSERT_GT(home.identity.hadTarget(1), 0.99);
+    Body body{1, {2.0, 0.0}, &kBlue};
+    body.is_seen = false;
+    if (is_replaced) home.see({body}, 10);
+    body.is_seen = true;
+    if (is_replaced) home.density_per_m2 = 0.1;
+    home.walk(body, 4.0);
+    EXPECT_LT(home.target(1), 0.05);
+    if (is_replaced) {
+      EXPECT_GT(home.identity.hadTarget(1), 0.9);
+    } else {
+      EXPECT_LT(home.identity.hadTarget(1), 0.5);
+    }
+  }
+}
+
 TEST(Identity, WhateverWasSeenBeforeDoesNotCountForAnother) {
   Home home;
   home.walk({1, {0, 0}, &kRed}, 12.0);

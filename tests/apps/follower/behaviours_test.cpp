@@ -31,7 +31,12 @@ struct Floor {
       straight.end = to;
       return straight;
     };
-    return behaviour.step(now, {room, room, plan});
+    const auto takes_s = [&](const FloorPose& from, const Vector2d& to) {
+      const GlobalPlan& way = plan(from.position, to);
+      const bool is_open = way.status == PlanStatus::kFound;
+      return is_open ? way.length_m / 0.3 : std::numeric_limits<double>::infinity();
+    };
+    return behaviour.step(now, {room, room, plan, takes_s});
   }
 };
 
@@ -102,23 +107,71 @@ TEST_F(BehavioursTest, TurnsToTheSideWhereThePersonWentAndKnowsAFullTurn) {
   EXPECT_TRUE(facts[FollowingCondition::kFullTurn]);
 }
 
-TEST_F(BehavioursTest, LooksAtWhoMayBeThePersonButNotForever) {
-  LookWhoThatIs look(open, params);
-  EXPECT_FALSE(floor.ask(look, now)) << "nobody may be";
-  now.suspect = Vector2d(0.0, 3.0);
-  EXPECT_EQ(*floor.ask(look, now)->look_at, *now.suspect);
-  now.suspect = Vector2d(3.0, 0.0);
-  EXPECT_LT((*floor.ask(look, now)->go_to - Vector2d(2.0, 0.0)).norm(), 0.1)
-      << "ahead: from nearer more is seen";
-  now.suspect = Vector2d(0.5, 0.0);
-  EXPECT_LT(floor.ask(look, now)->go_to->x(), -0.25) << "too near to see all of them";
-  double looked_s = 0.0;
-  for (; floor.ask(look, now) && looked_s < 100.0; looked_s += 0.1) now.unseen_s += 0.1;
-  EXPECT_NEAR(looked_s, params.first_looks_s / (1.0 - params.look_share), 0.3);
-  now.target = kPerson;
-  look.watch(now);
-  now.target.reset();
-  EXPECT_TRUE(look.wants(now)) << "they were found, and are lost again";
+struct LooksTest : BehavioursTest {
+  LooksTest() { now.elsewhere_per_s = 0.01; }
+  std::optional<Intent> step() {
+    look.watch(now);
+    return floor.ask(look, now);
+  }
+  /// For how long it looks until it does not, at most.
+  double looks_s(double most_s) {
+    double s = 0.0;
+    while (s < most_s && step()) s += now.elapsed_s;
+    return s;
+  }
+  void forget() {
+    now.target = kPerson;
+    look.watch(now);
+    now.target.reset();
+  }
+  LookWhoThatIs look{open, params};
+};
+
+TEST_F(LooksTest, LooksAtWhoeverPromisesMore) {
+  EXPECT_FALSE(step()) << "nobody may be";
+  now.suspects = {{{0.0, 3.0}, 0.1}, {{0.0, -3.0}, 0.3}};
+  EXPECT_EQ(*step()->look_at, now.suspects[1].place);
+  now.suspects = {{{-3.0, 0.0}, 0.3}, {{3.0, 0.3}, 0.25}};
+  EXPECT_EQ(*step()->look_at, now.suspects[1].place) << "that takes a short turn";
+  now.elsewhere_per_s = 1.0;
+  EXPECT_FALSE(step()) << "they are likelier to be elsewhere";
+}
+
+TEST_F(LooksTest, LooksFromWhereAllOfThemIsInView) {
+  for (const double off_m : {3.0, 0.5}) {
+    forget();
+    now.suspects = {{{off_m, 0.0}, 0.3}};
+    EXPECT_FALSE(step()->go_to) << "a look from here costs no way";
+    std::optional<Vector2d> place;
+    for (int i = 0; i < 30 && !place; ++i) {
+      if (const auto intent = step()) place = intent->go_to;
+    }
+    ASSERT_TRUE(place);
+    EXPECT_NEAR((*place - now.suspects[0].place).norm(), 1.0, 0.2);
+  }
+}
+
+TEST_F(LooksTest, ALookThatTellsNothingIsNotGoneOnWith) {
+  now.suspects = {{{1.1, 0.0}, 0.2}};
+  EXPECT_NEAR(looks_s(100.0), params.search.map.look_s, 0.15);
+  const double still_look_s = params.perception.target.identity.still_look_s;
+  double away_s = 0.0;
+  while (away_s < 100.0 && !step()) away_s += now.elapsed_s;
+  EXPECT_NEAR(away_s, -std::log(1.0 - 0.01 * params.search.map.look_s / 0.2) * still_look_s, 0.5);
+  forget();
+  EXPECT_TRUE(step()) << "they were found, and are lost again";
+}
+
+TEST_F(LooksTest, GivesUpWhomItCanNotGetTo) {
+  now.suspects = {{{4.0, 0.0}, 0.3}};
+  const double way_s = 3.0 / params.drive.limits.max_speed_mps;
+  double tried_s = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    const auto intent = step();
+    if (intent && intent->go_to) tried_s += now.elapsed_s;
+  }
+  EXPECT_GT(tried_s, way_s);
+  EXPECT_LT(tried_s, 3.0 * way_s) << "of 100 s";
 }
 
 TEST_F(BehavioursTest, WithoutAMapThereIsNoSearch) {
