@@ -12,7 +12,8 @@
 namespace heel {
 namespace {
 
-constexpr double kKeep = 0.5;  // Of take_above: else the target would flicker about it.
+constexpr double kKeep = 0.5;     // Of take_above: else the target would flicker about it.
+constexpr double kBody_m = 0.35;  // The middles of two people are further apart.
 
 void require(bool holds, const char* what) {
   if (!holds) {
@@ -158,7 +159,16 @@ const Track* TargetTracker::likeliest() const {
   return best;
 }
 
-/// The likeliest track, if it is likely enough.
+double TargetTracker::probabilityAt(const Eigen::Vector2d& place_m, int but) const {
+  double sum = 0.0;
+  for (const Track& track : tracker_.tracks()) {
+    if (track.id == but || (track.motion.position_m() - place_m).norm() > kBody_m) continue;
+    sum += identity_.targetProbability(track.id);
+  }
+  return std::min(sum, 1.0);
+}
+
+/// The likeliest track, if the target is likely enough to be there.
 void TargetTracker::choose() {
   const int former = std::exchange(estimate_.track_id, TargetEstimate::kNoTrack);
   if (!had_target_ && !params_.start_by_appearance) return;
@@ -166,7 +176,7 @@ void TargetTracker::choose() {
   if (best == nullptr) return;
   const bool is_former = best->id == former;
   const double least = (is_former ? kKeep : 1.0) * params_.take_above;
-  if (identity_.targetProbability(best->id) < least) return;
+  if (probabilityAt(best->motion.position_m()) < least) return;
   tracker_.confirmTrack(best->id);
   estimate_.track_id = best->id;
   if (!is_former) estimate_.reason = TargetReason::kRecognized;
@@ -203,7 +213,7 @@ void TargetTracker::explainNone() {
 /// Fills the estimate from the target's track.
 void TargetTracker::describe(const Track& track, const std::vector<Observation>& observations) {
   estimate_.motion = track.motion;
-  estimate_.confidence = identity_.targetProbability(track.id);
+  estimate_.confidence = probabilityAt(track.motion.position_m());
   if (track.status == TrackStatus::kConfirmed) {
     estimate_.status = TargetStatus::kFollowed;
     estimate_.last_seen =

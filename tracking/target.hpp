@@ -74,7 +74,7 @@ struct TargetEstimate {
   GateVerdict verdict = GateVerdict::kAccepted;
   int track_id = kNoTrack;  ///< Of the target, while it is followed or coasting.
   MotionState motion;       ///< Where it is, while it is followed or coasting.
-  /// Probability that whoever is there is the target, and is there; without one, of the likeliest.
+  /// Probability that the target is there; without one, that the likeliest track is it.
   double confidence = 0.0;
   double away = 1.0;                  ///< Probability that the target is nobody in view.
   int candidates = 0;                 ///< Without a target: people in view who may be it.
@@ -110,6 +110,9 @@ class TargetTracker {
   const Tracker& tracker() const { return tracker_; }
   /// The track that is likeliest to be the target; null: none may be.
   const Track* likeliest() const;
+  /// That the target is at a place: that it is a track there, of which several may be one body's.
+  /// @param but  A track that does not count.
+  double probabilityAt(const Eigen::Vector2d& place_m, int but = TargetEstimate::kNoTrack) const;
   const Identity& identity() const { return identity_; }
   const TargetParams& params() const { return params_; }
 

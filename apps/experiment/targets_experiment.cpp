@@ -48,7 +48,7 @@ TargetResult lookFor(const std::string& person, const AppearanceModel& model,
     if (found.target.hasPlace()) target.estimate_m = found.target.motion.position_m();
     if (const Track* likeliest = cold.likeliest()) {
       target.likeliest_m = likeliest->motion.position_m();
-      target.probability = cold.identity().targetProbability(likeliest->id);
+      target.probability = cold.probabilityAt(*target.likeliest_m);
     }
     cold_frames.push_back(target);
   }

@@ -316,7 +316,9 @@ void Follower::noteTarget() {
   }
   if (was_known && !now_.target && search_) {
     // As it seems now: it may be lost because it was somebody else.
-    search_->lose(now_.last, now_.unseen_s, perception_->identity().hadTarget(followed_id_));
+    const double were_there = perception_->identity().hadTarget(followed_id_) +
+                              perception_->probabilityAt(now_.last.position, followed_id_);
+    search_->lose(now_.last, now_.unseen_s, std::min(were_there, 1.0));
   }
   noteSuspects();
   look_who_.watch(now_);
@@ -326,16 +328,16 @@ void Follower::noteTarget() {
 void Follower::noteSuspects() {
   now_.suspects.clear();
   if (now_.target) return;
-  const Identity& identity = perception_->identity();
   for (const Track& track : perception_->tracks()) {
     if (track.status == TrackStatus::kTentative) continue;
-    now_.suspects.push_back({track.motion.position_m(), identity.targetProbability(track.id)});
+    const Vector2d place = track.motion.position_m();
+    now_.suspects.push_back({place, perception_->probabilityAt(place)});
   }
   constexpr double kFullTurn_rad = 2.0 * M_PI;
   const double per_s = search_ && search_->view()
                            ? search_->view()->chance / search_->view()->time_s
                            : params_.seek_radps / kFullTurn_rad;
-  now_.elsewhere_per_s = identity.away() * per_s;
+  now_.elsewhere_per_s = perception_->identity().away() * per_s;
 }
 
 // The Petri net plan (section 3.4).

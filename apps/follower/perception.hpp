@@ -111,6 +111,10 @@ class Perception {
 
   /// The track that is likeliest to be the target; null: none may be.
   const Track* likeliest() const { return tracker_.likeliest(); }
+  /// That the target is at a place; see TargetTracker.
+  double probabilityAt(const Eigen::Vector2d& place_m, int but = TargetEstimate::kNoTrack) const {
+    return tracker_.probabilityAt(place_m, but);
+  }
   const Identity& identity() const { return tracker_.identity(); }
   const std::vector<Track>& tracks() const { return tracker_.tracker().tracks(); }
   const TrackerReport& report() const { return tracker_.tracker().report(); }

@@ -137,6 +137,20 @@ TEST(TargetTracker, OfTwoWhoLookAlikeNeitherIsTheTarget) {
   EXPECT_FALSE(estimate.hasPlace());
 }
 
+// Bug: as a body broke in two, neither half was the target surely enough, and it was lost.
+TEST(TargetTracker, OfTwoWhoMayBeOneBodyTheLikelierIsTheTarget) {
+  Scene run;
+  run.lookAround();
+  for (double off_m = 1.5; off_m > 0.2; off_m -= 0.1) run.see({seen(2, 0), seen(2, off_m)});
+  const TargetEstimate& estimate = run.see({seen(2, 0), seen(2, 0.2)});
+  ASSERT_EQ(run.target().tracker().tracks().size(), 2U);
+  EXPECT_EQ(estimate.status, TargetStatus::kFollowed);
+  EXPECT_GT(estimate.confidence, 0.9);
+  EXPECT_LT(run.target().identity().targetProbability(estimate.track_id),
+            run.target().params().take_above);
+  EXPECT_LT(run.target().probabilityAt({2.0, 0.15}, estimate.track_id), 0.6);
+}
+
 TEST(TargetTracker, IsNotSureOfSomebodyOfWhomNothingIsSeen) {
   Scene run;
   run.lookAround();
