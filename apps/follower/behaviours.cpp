@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace heel {
@@ -15,17 +14,10 @@ using Eigen::Vector2d;
 
 constexpr double kFullTurn_rad = 6.283185307179586;
 constexpr double kHalfBody_m = 0.25;
-constexpr double kAhead_m = 2.0;        // Any place ahead of a view.
-constexpr std::size_t kMostLooks = 32;  // Looks that are remembered.
+constexpr double kAhead_m = 2.0;  // Any place ahead of a view.
 
 std::optional<Vector2d> placeOf(const std::optional<MovingPerson>& person) {
   return person ? std::optional(person->position) : std::nullopt;
-}
-
-template <typename Event>
-void remember(const Event& event, std::vector<Event>& events) {
-  if (events.size() == kMostLooks) events.erase(events.begin());
-  events.push_back(event);
 }
 
 }  // namespace
@@ -132,95 +124,6 @@ void SearchForTarget::note(const IntentOutcome& outcome) {
 
 void SearchForTarget::tell(FollowingFacts& facts) const {
   facts[FollowingCondition::kSearchOver] = search_ != nullptr && search_->isOver();
-}
-
-LookWhoThatIs::LookWhoThatIs(const Premises& premises, const FollowerParams& params)
-    : looking_(params.perception.target.identity),
-      drive_(params.drive.limits),
-      look_s_(params.search.map.look_s),
-      ahead_rad_(params.ahead_rad),
-      near_m_(params.goal.least_standoff_m),
-      far_m_(params.far_m),
-      nearer_(premises, params.goal) {}
-
-void LookWhoThatIs::watch(const Situation& now) {
-  if (now.target) {
-    looks_.clear();
-    tries_.clear();
-    choice_.reset();
-    nearer_.begin(now);
-    return;
-  }
-  clock_s_ += now.elapsed_s;
-  std::optional<Choice> best;
-  for (const Suspect& suspect : now.suspects) {
-    const Choice choice = rated(suspect, now);
-    if (choice.per_s > (best ? best->per_s : now.elsewhere_per_s)) best = choice;
-  }
-  const bool goes_on = best && isOfChoice(best->place);
-  choice_ = best;
-  looked_s_ = goes_on && best->is_ahead ? looked_s_ + now.elapsed_s : 0.0;
-  if (looked_s_ < look_s_) return;
-  remember(Look{best->place, best->place - now.robot.position, clock_s_}, looks_);
-  looked_s_ = 0.0;
-}
-
-bool LookWhoThatIs::isOfChoice(const Vector2d& place) const {
-  return choice_ && (place - choice_->place).norm() < kHalfBody_m;
-}
-
-double LookWhoThatIs::tried_s(const Vector2d& place) const {
-  double sum_s = 0.0;
-  for (const Try& one : tries_) {
-    if ((one.place - place).norm() < kHalfBody_m) sum_s += one.for_s;
-  }
-  return sum_s;
-}
-
-double LookWhoThatIs::newsOf(const Vector2d& place, const Vector2d& ray_m) const {
-  double news = 1.0;
-  for (const Look& look : looks_) {
-    const double way_m = std::max((place - look.place).norm(), (ray_m - look.ray_m).norm());
-    news = std::min(news, looking_.newsOf(clock_s_ - look.stamp_s, way_m));
-  }
-  return news;
-}
-
-// From here, or from where all of them is in view: who stands close before the camera is a piece of
-// cloth to it. What has taken so long is likely to take as long again.
-LookWhoThatIs::Choice LookWhoThatIs::rated(const Suspect& suspect, const Situation& now) const {
-  const Vector2d ray_m = suspect.place - now.robot.position;
-  const double off_m = ray_m.norm();
-  const double best_m = std::clamp(off_m, near_m_, far_m_);
-  const double turn_rad = std::abs(bearingOf(now.robot, suspect.place));
-  const bool goes_on = isOfChoice(suspect.place);
-  const double look_s = turn_rad / drive_.max_turn_radps + look_s_ - (goes_on ? looked_s_ : 0.0);
-  const double way_s = std::abs(off_m - best_m) / drive_.max_speed_mps + tried_s(suspect.place);
-  const Vector2d best_ray_m = best_m / std::max(off_m, 1e-9) * ray_m;
-  const double here = newsOf(suspect.place, ray_m) / look_s;
-  const double there = newsOf(suspect.place, best_ray_m) / (look_s + way_s);
-  const bool is_ahead = turn_rad < ahead_rad_;
-  const bool goes = there > here;
-  return {suspect.place, is_ahead, goes, suspect.probability * std::max(here, there)};
-}
-
-std::optional<Intent> LookWhoThatIs::step(const Situation& now, const Ways& ways) {
-  if (!choice_) return std::nullopt;
-  Intent intent;
-  intent.reason = "looks who that is";
-  const Vector2d& place = choice_->place;
-  intent.look_at = place;
-  if (choice_->goes) {
-    if (tries_.empty() || (tries_.back().place - place).norm() > kHalfBody_m) {
-      remember(Try{place, 0.0}, tries_);
-    }
-    tries_.back().for_s += now.elapsed_s;
-    MovingPerson person;
-    person.position = place;
-    intent.go_to = nearer_.placeBy(person, now, ways);
-    intent.keep_in_view = place;
-  }
-  return intent;
 }
 
 }  // namespace heel

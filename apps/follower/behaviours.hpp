@@ -112,49 +112,4 @@ class SearchForTarget : public Behaviour {
   bool is_there_ = false;  // at the view, and turned to it
 };
 
-/// Looks at whoever may be the person who is lost, from where all of them is in view, as long as
-/// that is likelier to find them than a second spent elsewhere. Another look at somebody is worth
-/// what is new in it.
-class LookWhoThatIs : public Behaviour {
- public:
-  LookWhoThatIs(const Premises& premises, const FollowerParams& params);
-
-  /// To be told of each step.
-  void watch(const Situation& now);
-  /// Whether somebody is worth a look.
-  bool wants() const { return choice_.has_value(); }
-  std::optional<Intent> step(const Situation& now, const Ways& ways) override;
-
- private:
-  struct Look {
-    Eigen::Vector2d place, ray_m;  ///< Of whom, and that from the robot,
-    double stamp_s = 0.0;          ///< on the clock.
-  };
-  struct Try {
-    Eigen::Vector2d place;  ///< Of whom it went nearer to,
-    double for_s = 0.0;     ///< for so long.
-  };
-  struct Choice {
-    Eigen::Vector2d place;
-    bool is_ahead = false;
-    bool goes = false;   ///< To another distance first.
-    double per_s = 0.0;  ///< How likely it finds the person, a second.
-  };
-
-  bool isOfChoice(const Eigen::Vector2d& place) const;
-  double newsOf(const Eigen::Vector2d& place, const Eigen::Vector2d& ray_m) const;
-  double tried_s(const Eigen::Vector2d& place) const;
-  Choice rated(const Suspect& suspect, const Situation& now) const;
-
-  IdentityParams looking_;
-  DriveLimits drive_;
-  double look_s_, ahead_rad_, near_m_, far_m_;
-  FollowTarget nearer_;
-  std::optional<Choice> choice_;
-  double looked_s_ = 0.0;    // at that
-  std::vector<Look> looks_;  // since the person was lost, the last ones,
-  std::vector<Try> tries_;   // and these
-  double clock_s_ = 0.0;
-};
-
 }  // namespace heel

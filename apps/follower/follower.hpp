@@ -7,6 +7,7 @@
 
 #include <heel/apps/follower/behaviours.hpp>
 #include <heel/apps/follower/follower_params.hpp>
+#include <heel/apps/follower/look_who.hpp>
 #include <heel/apps/follower/make_room.hpp>
 #include <heel/apps/follower/motion_history.hpp>
 #include <heel/apps/follower/people_around.hpp>
