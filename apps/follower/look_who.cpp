@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -12,15 +13,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kHalfBody_m = 0.25;
-constexpr std::size_t kMostEvents = 32;
-
-bool isSame(const Vector2d& a, const Vector2d& b) { return (a - b).norm() < kHalfBody_m; }
-
-template <typename Event>
-void remember(const Event& event, std::vector<Event>& events) {
-  if (events.size() == kMostEvents) events.erase(events.begin());
-  events.push_back(event);
-}
+constexpr std::size_t kMostLooks = 32;
 
 }  // namespace
 
@@ -36,7 +29,6 @@ LookWhoThatIs::LookWhoThatIs(const Premises& premises, const FollowerParams& par
 void LookWhoThatIs::watch(const Situation& now) {
   if (now.target) {
     looks_.clear();
-    spent_.clear();
     choice_.reset();
     nearer_.begin(now);
     return;
@@ -47,12 +39,35 @@ void LookWhoThatIs::watch(const Situation& now) {
     const Choice choice = rated(suspect, now);
     if (choice.per_s > (best ? best->per_s : now.elsewhere_per_s)) best = choice;
   }
-  const bool goes_on = best && choice_ && isSame(best->place, choice_->place);
+  const bool was_done = std::exchange(is_done_, false);
+  if (!best && choice_ && !was_done) {  // A look that has begun goes on, at where they were.
+    best = rated({choice_->place, 0.0}, now);
+    best->goes = false;
+  }
+  const bool goes_on = best && isOfChoice(best->place);
   choice_ = best;
-  looked_s_ = goes_on && best->is_ahead ? looked_s_ + now.elapsed_s : 0.0;
+  looked_s_ = goes_on && (best->is_ahead || has_turned_) ? looked_s_ + now.elapsed_s : 0.0;
+  is_near_ = is_near_ && goes_on;
   if (looked_s_ < look_s_) return;
-  remember(Look{best->place, best->place - now.robot.position, clock_s_}, looks_);
+  remember(best->place, best->place - now.robot.position);
+  if (is_near_) remember(best->place, best->ray_m);
+  is_near_ = false;
   looked_s_ = 0.0;
+  is_done_ = true;
+}
+
+void LookWhoThatIs::note(const IntentOutcome& outcome) {
+  is_near_ = is_near_ || outcome.has_arrived;
+  has_turned_ = outcome.has_looked;
+}
+
+void LookWhoThatIs::remember(const Vector2d& place, const Vector2d& ray_m) {
+  if (looks_.size() == kMostLooks) looks_.erase(looks_.begin());
+  looks_.push_back({place, ray_m, clock_s_});
+}
+
+bool LookWhoThatIs::isOfChoice(const Vector2d& place) const {
+  return choice_ && (place - choice_->place).norm() < kHalfBody_m;
 }
 
 double LookWhoThatIs::newsOf(const Vector2d& place, const Vector2d& ray_m) const {
@@ -62,21 +77,6 @@ double LookWhoThatIs::newsOf(const Vector2d& place, const Vector2d& ray_m) const
     news = std::min(news, looking_.newsOf(clock_s_ - look.stamp_s, way_m));
   }
   return news;
-}
-
-double LookWhoThatIs::spent_s(const Vector2d& place) const {
-  double sum_s = 0.0;
-  for (const Spent& spent : spent_) sum_s += isSame(spent.place, place) ? spent.for_s : 0.0;
-  return sum_s;
-}
-
-void LookWhoThatIs::spend(const Vector2d& place, double for_s) {
-  for (Spent& spent : spent_) {
-    if (!isSame(spent.place, place)) continue;
-    spent.for_s += for_s;
-    return;
-  }
-  remember(Spent{place, for_s}, spent_);
 }
 
 // From here, or from where all of them is in view: who stands close before the camera is a piece of
@@ -91,9 +91,10 @@ LookWhoThatIs::Choice LookWhoThatIs::rated(const Suspect& suspect, const Situati
   const double way_s = std::abs(off_m - best_m) / drive_.max_speed_mps;
   const double here = newsOf(suspect.place, ray_m), there = newsOf(suspect.place, best_ray_m);
   const bool goes = there / (look_s + way_s) > here / look_s;
-  const double takes_s = look_s + (goes ? way_s : 0.0) + spent_s(suspect.place);
-  return {suspect.place, turn_rad < ahead_rad_, goes,
-          suspect.probability * (goes ? there : here) / takes_s};
+  const double takes_s = look_s + (goes ? way_s : 0.0);
+  const double left_s = takes_s - (isOfChoice(suspect.place) ? looked_s_ : 0.0);
+  return {suspect.place, goes ? best_ray_m : ray_m, turn_rad < ahead_rad_, goes,
+          suspect.probability * (goes ? there : here) / left_s};
 }
 
 std::optional<Intent> LookWhoThatIs::step(const Situation& now, const Ways& ways) {
@@ -102,12 +103,12 @@ std::optional<Intent> LookWhoThatIs::step(const Situation& now, const Ways& ways
   intent.reason = "looks who that is";
   const Vector2d& place = choice_->place;
   intent.look_at = place;
-  spend(place, now.elapsed_s);
   if (choice_->goes) {
     MovingPerson person;
     person.position = place;
     intent.go_to = nearer_.placeBy(person, now, ways);
     intent.keep_in_view = place;
+    is_near_ = is_near_ || !intent.go_to;
   }
   return intent;
 }

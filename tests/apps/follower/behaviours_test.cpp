@@ -135,7 +135,7 @@ TEST_F(LooksTest, LooksAtWhoeverPromisesMore) {
   now.suspects = {{{-3.0, 0.0}, 0.3}, {{3.0, 0.3}, 0.25}};
   EXPECT_EQ(*step()->look_at, now.suspects[1].place) << "that takes a short turn";
   now.elsewhere_per_s = 1.0;
-  EXPECT_FALSE(step()) << "they are likelier to be elsewhere";
+  EXPECT_LT(looks_s(100.0), 2.0 * params.search.map.look_s) << "they are likelier to be elsewhere";
 }
 
 TEST_F(LooksTest, LooksFromWhereAllOfThemIsInView) {
@@ -154,38 +154,43 @@ TEST_F(LooksTest, LooksFromWhereAllOfThemIsInView) {
 
 TEST_F(LooksTest, ALookThatTellsNothingIsNotGoneOnWith) {
   now.suspects = {{{1.1, 0.0}, 0.2}};
-  EXPECT_NEAR(looks_s(100.0), params.search.map.look_s, 0.15);
+  const double look_s = params.search.map.look_s;
+  EXPECT_NEAR(looks_s(100.0), look_s, 0.15);
   const double still_look_s = params.perception.target.identity.still_look_s;
   double away_s = 0.0;
   while (away_s < 100.0 && !step()) away_s += now.elapsed_s;
-  const double takes_s = 2.0 * params.search.map.look_s;  // With what it has taken.
-  EXPECT_NEAR(away_s, -std::log(1.0 - 0.01 * takes_s / 0.2) * still_look_s, 0.5);
+  EXPECT_NEAR(away_s, -std::log(1.0 - 0.01 * look_s / 0.2) * still_look_s, 0.5);
   forget();
   EXPECT_TRUE(step()) << "they were found, and are lost again";
 }
 
-TEST_F(LooksTest, GivesUpWhomItCanNotGetTo) {
+TEST_F(LooksTest, FromAsNearAsItCanGetIsNearEnough) {
   now.suspects = {{{4.0, 0.0}, 0.3}};
   double tried_s = 0.0;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 200; ++i) {
     const auto intent = step();
-    if (intent && intent->go_to) tried_s += now.elapsed_s;
+    if (!intent || !intent->go_to) continue;
+    tried_s += now.elapsed_s;
+    look.note({tried_s > 4.0, false});
   }
-  const double way_s = 3.0 / params.drive.limits.max_speed_mps;
-  EXPECT_GT(tried_s, way_s);
-  EXPECT_LT(tried_s, 3.0 * way_s) << "of 100 s";
+  EXPECT_GT(tried_s, 4.0);
+  EXPECT_LT(tried_s, 4.0 + 2.0 * params.search.map.look_s) << "of 20 s";
 }
 
 // Bug: a body that the laser saw only while the robot looked elsewhere was turned to for a minute.
-TEST_F(LooksTest, GivesUpWhoIsGoneWheneverItTurnsToThem) {
-  double turned_s = 0.0;
-  for (int i = 0; i < 1000; ++i) {
-    const bool is_seen = i % 30 < 10;
-    now.suspects = {{{-1.1, 0.0}, is_seen ? 0.3 : 0.0}};
-    if (step()) turned_s += now.elapsed_s;
+TEST_F(LooksTest, WhoIsGoneAsItTurnsToThemIsLookedForThere) {
+  const double turn_rad = params.drive.limits.max_turn_radps * now.elapsed_s;
+  double turns_s = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    const bool is_ahead = std::abs(bearingOf(now.robot, {-1.1, 0.0})) < 2.0;
+    now.suspects = {{{-1.1, 0.0}, is_ahead ? 0.0 : 0.3}};
+    const auto intent = step();
+    if (intent) turns_s += now.elapsed_s;
+    const Vector2d to = intent ? *intent->look_at : Vector2d(5.0, 0.0);
+    now.robot.yaw_rad += std::clamp(bearingOf(now.robot, to), -turn_rad, turn_rad);
   }
-  EXPECT_GT(turned_s, params.search.map.look_s);
-  EXPECT_LT(turned_s, 30.0) << "of 33 in which they were seen";
+  EXPECT_GT(turns_s, params.search.map.look_s);
+  EXPECT_LT(turns_s, 15.0) << "of 30";
 }
 
 TEST_F(BehavioursTest, WithoutAMapThereIsNoSearch) {
