@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace heel {
 namespace {
@@ -39,11 +38,6 @@ void LookWhoThatIs::watch(const Situation& now) {
     const Choice choice = rated(suspect, now);
     if (choice.per_s > (best ? best->per_s : now.elsewhere_per_s)) best = choice;
   }
-  const bool was_done = std::exchange(is_done_, false);
-  if (!best && choice_ && !was_done) {  // A look that has begun goes on, at where they were.
-    best = rated({choice_->place, 0.0}, now);
-    best->goes = false;
-  }
   const bool goes_on = best && isOfChoice(best->place);
   choice_ = best;
   looked_s_ = goes_on && (best->is_ahead || has_turned_) ? looked_s_ + now.elapsed_s : 0.0;
@@ -53,7 +47,6 @@ void LookWhoThatIs::watch(const Situation& now) {
   if (is_near_) remember(best->place, best->ray_m);
   is_near_ = false;
   looked_s_ = 0.0;
-  is_done_ = true;
 }
 
 void LookWhoThatIs::note(const IntentOutcome& outcome) {

@@ -51,8 +51,7 @@ class LookWhoThatIs : public Behaviour {
   std::optional<Choice> choice_;
   bool is_near_ = false;     // to that, as near as it can get,
   bool has_turned_ = false;  // and to it, as far as it can,
-  double looked_s_ = 0.0;    // and has looked,
-  bool is_done_ = false;     // until the end.
+  double looked_s_ = 0.0;    // and has looked.
   std::vector<Look> looks_;  // since the person was lost, the last ones
   double clock_s_ = 0.0;
 };

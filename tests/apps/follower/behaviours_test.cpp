@@ -135,7 +135,7 @@ TEST_F(LooksTest, LooksAtWhoeverPromisesMore) {
   now.suspects = {{{-3.0, 0.0}, 0.3}, {{3.0, 0.3}, 0.25}};
   EXPECT_EQ(*step()->look_at, now.suspects[1].place) << "that takes a short turn";
   now.elsewhere_per_s = 1.0;
-  EXPECT_LT(looks_s(100.0), 2.0 * params.search.map.look_s) << "they are likelier to be elsewhere";
+  EXPECT_FALSE(step()) << "they are likelier to be elsewhere";
 }
 
 TEST_F(LooksTest, LooksFromWhereAllOfThemIsInView) {
@@ -154,12 +154,11 @@ TEST_F(LooksTest, LooksFromWhereAllOfThemIsInView) {
 
 TEST_F(LooksTest, ALookThatTellsNothingIsNotGoneOnWith) {
   now.suspects = {{{1.1, 0.0}, 0.2}};
-  const double look_s = params.search.map.look_s;
-  EXPECT_NEAR(looks_s(100.0), look_s, 0.15);
+  EXPECT_NEAR(looks_s(100.0), params.search.map.look_s, 0.15);
   const double still_look_s = params.perception.target.identity.still_look_s;
   double away_s = 0.0;
   while (away_s < 100.0 && !step()) away_s += now.elapsed_s;
-  EXPECT_NEAR(away_s, -std::log(1.0 - 0.01 * look_s / 0.2) * still_look_s, 0.5);
+  EXPECT_NEAR(away_s, -std::log(1.0 - 0.01 * params.search.map.look_s / 0.2) * still_look_s, 0.5);
   forget();
   EXPECT_TRUE(step()) << "they were found, and are lost again";
 }
@@ -175,22 +174,6 @@ TEST_F(LooksTest, FromAsNearAsItCanGetIsNearEnough) {
   }
   EXPECT_GT(tried_s, 4.0);
   EXPECT_LT(tried_s, 4.0 + 2.0 * params.search.map.look_s) << "of 20 s";
-}
-
-// Bug: a body that the laser saw only while the robot looked elsewhere was turned to for a minute.
-TEST_F(LooksTest, WhoIsGoneAsItTurnsToThemIsLookedForThere) {
-  const double turn_rad = params.drive.limits.max_turn_radps * now.elapsed_s;
-  double turns_s = 0.0;
-  for (int i = 0; i < 300; ++i) {
-    const bool is_ahead = std::abs(bearingOf(now.robot, {-1.1, 0.0})) < 2.0;
-    now.suspects = {{{-1.1, 0.0}, is_ahead ? 0.0 : 0.3}};
-    const auto intent = step();
-    if (intent) turns_s += now.elapsed_s;
-    const Vector2d to = intent ? *intent->look_at : Vector2d(5.0, 0.0);
-    now.robot.yaw_rad += std::clamp(bearingOf(now.robot, to), -turn_rad, turn_rad);
-  }
-  EXPECT_GT(turns_s, params.search.map.look_s);
-  EXPECT_LT(turns_s, 15.0) << "of 30";
 }
 
 TEST_F(BehavioursTest, WithoutAMapThereIsNoSearch) {
