@@ -83,7 +83,8 @@ class Identity {
   Evidence probabilities(int track_id) const;
   /// That the target is there now: a track that is not seen where it should be has lost somebody.
   double targetProbability(int track_id) const;
-  /// That the target is who is on a track, or was, and somebody else has come in their place.
+  /// That the target is who is on a track, or was, and somebody else has come in their place; 1
+  /// where the track has ended.
   double hadTarget(int track_id) const;
   /// For how long a track has not left its place.
   double restsFor_s(int track_id, double stamp_s) const;

@@ -333,10 +333,8 @@ void Follower::noteSuspects() {
     const Vector2d place = track.motion.position_m();
     now_.suspects.push_back({place, perception_->probabilityAt(place)});
   }
-  constexpr double kFullTurn_rad = 2.0 * M_PI;
-  const double per_s = search_ && search_->view()
-                           ? search_->view()->chance / search_->view()->time_s
-                           : params_.seek_radps / kFullTurn_rad;
+  const std::optional<SearchView> view = search_ ? search_->view() : std::nullopt;
+  const double per_s = view ? view->chance / view->time_s : params_.seek_radps / (2.0 * M_PI);
   now_.elsewhere_per_s = perception_->identity().away() * per_s;
 }
 
