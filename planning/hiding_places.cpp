@@ -14,6 +14,7 @@ using Eigen::Vector2d;
 
 constexpr double kStep_m = 0.05;
 constexpr double kSqueezes_m = 0.05;  // A body has room where there is so much less.
+constexpr double kTouches = 1e-6;     // Of a beam: the one that passes the edge touches the body.
 constexpr double kDeepest_m = 2.0;    // Who is further behind an edge is seen in time.
 
 // The range of the next beam, if what two beams end on goes on straight: on a straight line the
@@ -26,13 +27,11 @@ double nextOnLine(double before_m, double now_m) {
 // Whether all beams at a body end before it, but for the one that touches it.
 bool isHidden(const LaserScan& scan, const Vector2d& body, double body_m) {
   const double away_m = body.norm();
-  const double half = std::asin(body_m / away_m) / std::abs(scan.step_rad);
-  const double middle = (std::atan2(body.y(), body.x()) - scan.first_rad) / scan.step_rad;
-  const auto beams = static_cast<double>(scan.ranges_m.size());
-  const double first = std::max(std::floor(middle - half) + 1.0, 0.0);
-  const double last = std::min(std::ceil(middle + half) - 1.0, beams - 1.0);
-  for (double i = first; i <= last; ++i) {
-    if (scan.ranges_m[static_cast<std::size_t>(i)] > away_m) return false;
+  const double half = std::asin(body_m / away_m) / std::abs(scan.step_rad) - kTouches;
+  const double middle = scan.beamAt(std::atan2(body.y(), body.x()));
+  for (double beam = std::ceil(middle - half); beam <= middle + half; ++beam) {
+    const std::size_t i = scan.index(beam);
+    if (i < scan.ranges_m.size() && scan.ranges_m[i] > away_m) return false;
   }
   return true;
 }
@@ -45,7 +44,9 @@ void findHidingPlaces(const LaserScan& scan, const FloorPose& scanner, Clearance
   const std::vector<float>& ranges_m = scan.ranges_m;
   for (std::size_t i = 0; i < ranges_m.size(); ++i) {
     for (const bool on_left : {false, true}) {  // of this beam, the next one passes the edge
-      const auto inner = on_left ? i - 1 : i + 1, outer = on_left ? i + 1 : i - 1;
+      const double next = on_left == (scan.step_rad > 0.0) ? 1.0 : -1.0;
+      const std::size_t inner = scan.index(static_cast<double>(i) - next);
+      const std::size_t outer = scan.index(static_cast<double>(i) + next);
       if (outer >= ranges_m.size() || inner >= ranges_m.size()) continue;
       const double near_m = ranges_m[i], far_m = ranges_m[outer];
       if (!(near_m > 0.0)) continue;

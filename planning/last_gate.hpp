@@ -45,7 +45,8 @@ struct GatedVelocity {
 /// - comes no nearer than `margin_m` to what was seen, or, where the nearest that it does not touch
 ///   was nearer at the last odometry, no nearer than that;
 /// - does the same with what came, in the last `remembers_s`, to where a look had seen nothing,
-///   wherever that may walk to meanwhile; what the robot leaves behind may come as near as it will;
+///   wherever that may walk to meanwhile, as long as the newest scan sees it; what the robot leaves
+///   behind may come as near as it will;
 /// - stays as far off the legs of who came in the last half minute, and stands, as a body goes
 ///   beyond them;
 /// - does not drive towards what it touched then, not even as far as it has moved off since;

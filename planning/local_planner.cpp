@@ -105,7 +105,9 @@ void LocalPlanner::reset() {
 LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed,
                              const std::vector<Vector2d>& path, Clearance clearance,
                              const std::vector<MovingPerson>& people,
-                             const std::optional<Vector2d>& face, Permission permits) {
+                             const std::optional<Vector2d>& face, Permission permits,
+                             std::optional<double> since_last_s) {
+  const double elapsed_s = since_last_s.value_or(params_.limits.period_s);
   DriveScene scene{{pose, speed}, last_, &path_, {}, &people, 0.0, face};
   if (face && !face->allFinite()) scene.face.reset();
   LocalPlan plan;
@@ -137,7 +139,7 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
     waited_s_ = 0.0;  // Then it looks again for a way ahead.
   }
   const bool backs = backs_s_ > 0.0 && !path_.empty();
-  backs_s_ = std::max(backs_s_ - params_.limits.period_s, 0.0);
+  backs_s_ = std::max(backs_s_ - elapsed_s, 0.0);
   if (threatened || backs) {  // To make room comes before getting on, and before ease.
     weights[static_cast<std::size_t>(DriveTerm::kProgress)] = 0.0;
     weights[static_cast<std::size_t>(DriveTerm::kSmooth)] *= 0.1;
@@ -178,7 +180,7 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
     plan.costs = costs;
     plan.command = command;
   }
-  explain(scene, plan, threatened);
+  explain(scene, plan, threatened, elapsed_s);
   last_ = plan.command;
   return plan;
 }
@@ -371,7 +373,8 @@ double LocalPlanner::allowedTowards(const DriveScene& scene, const MovingPerson&
   return std::max(allowed_mps, std::min(params_.least_speed_mps, 0.5 * kStands_mps / share));
 }
 
-void LocalPlanner::explain(const DriveScene& scene, LocalPlan& plan, bool threatened) {
+void LocalPlanner::explain(const DriveScene& scene, LocalPlan& plan, bool threatened,
+                           double elapsed_s) {
   const VelocityCommand& c = plan.command;
   const bool has_way = !path_.empty();
   const bool moves = drives(c);
@@ -401,8 +404,8 @@ void LocalPlanner::explain(const DriveScene& scene, LocalPlan& plan, bool threat
   const bool waits = has_way && !moves;
   const double progress_cost = plan.costs[static_cast<std::size_t>(DriveTerm::kProgress)];
   const bool turning_to_way = plan.status == DriveStatus::kTurning && progress_cost < 0.9;
-  blocked_s_ = waits && !turning_to_way ? blocked_s_ + params_.limits.period_s : 0.0;
-  waited_s_ = waits ? waited_s_ + params_.limits.period_s : 0.0;
+  blocked_s_ = waits && !turning_to_way ? blocked_s_ + elapsed_s : 0.0;
+  waited_s_ = waits ? waited_s_ + elapsed_s : 0.0;
   plan.blocked_s = blocked_s_;
 }
 

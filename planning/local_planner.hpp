@@ -95,17 +95,18 @@ class LocalPlanner {
   /// @throws std::invalid_argument  if a limit or a parameter is out of range.
   explicit LocalPlanner(const LocalPlannerParams& params = {});
 
-  /// Decides for one control period.
+  /// Decides for one control period; it may be asked more often.
   /// @param speed      What the robot does now.
   /// @param path       From about here to the goal [m, world]; empty if there is nowhere to go.
   /// @param clearance  Distance to what stands; without the people of `people`. Must not allocate.
   /// @param face       What to keep in view, and to turn to when there is no way to go.
   /// @param permits    Asked for commands that are not 0, in no certain order.
+  /// @param elapsed_s  Since the step before; absent: a control period.
   LocalPlan step(const FloorPose& pose, const VelocityCommand& speed,
                  const std::vector<Eigen::Vector2d>& path, Clearance clearance,
                  const std::vector<MovingPerson>& people,
                  const std::optional<Eigen::Vector2d>& face = std::nullopt,
-                 Permission permits = kAnyCommand);
+                 Permission permits = kAnyCommand, std::optional<double> elapsed_s = std::nullopt);
 
   /// Where somebody may come out whom nobody sees, from now on [m, world]: it comes towards them
   /// no faster than lets it stand when they reach it, and minds them no further.
@@ -136,7 +137,7 @@ class LocalPlanner {
   static double comes(double speed_mps, double walks_mps, double in_s);
   double allowedTowards(const DriveScene& scene, const MovingPerson& person, double walks_mps,
                         double way) const;
-  void explain(const DriveScene& scene, LocalPlan& plan, bool threatened);
+  void explain(const DriveScene& scene, LocalPlan& plan, bool threatened, double elapsed_s);
 
   LocalPlannerParams params_;
   std::size_t held_;  // periods for which a command is held

@@ -63,20 +63,14 @@ RecentSight::RecentSight(const RecentSightParams& params, double range_m, double
 
 // How many beams after the first a place is; the greatest is one before the first.
 double RecentSight::beamTo(const Look& look, const Vector2d& at) {
-  constexpr double kTurn_rad = 2.0 * M_PI;
-  const double sign = look.scan.step_rad < 0.0 ? -1.0 : 1.0;
-  double angle = sign * (std::atan2(at.y(), at.x()) - look.scan.first_rad);
-  angle -= kTurn_rad * std::floor(angle / kTurn_rad);
-  return angle / (sign * look.scan.step_rad);
+  return look.scan.beamAt(std::atan2(at.y(), at.x()));
 }
 
 // Whether a beam ends beyond a distance.
 bool RecentSight::endsBeyond(const Look& look, double beam, double away_m) {
-  const double turn = std::round(2.0 * M_PI / std::abs(look.scan.step_rad));
-  if (beam >= turn) beam -= turn;
-  if (beam < 0.0) beam += turn;
-  if (!(beam < static_cast<double>(look.scan.ranges_m.size()))) return false;
-  const auto range_m = static_cast<double>(look.scan.ranges_m[static_cast<std::size_t>(beam)]);
+  const std::size_t i = look.scan.index(beam);
+  if (i >= look.scan.ranges_m.size()) return false;
+  const auto range_m = static_cast<double>(look.scan.ranges_m[i]);
   return range_m > 0.0 && range_m > away_m;  // Not where it is not a number.
 }
 

@@ -88,6 +88,19 @@ std::size_t SearchMap::visibleIndex(std::size_t view, int cell) const {
   return view * index(edge * edge) + index(y * edge + x);
 }
 
+void SearchMap::start() {
+  walked_m_.assign(shares_.size(), 0.0F);
+  std::fill(reached_s_.begin(), reached_s_.end(), -kNever);
+  std::fill(shut_s_.begin(), shut_s_.end(), kNever);
+  for (int c = 0; c < floor_.cells(); ++c) {
+    shares_[index(c)].fill(floor_.isFree(c) ? 1.0 : 0.0);
+  }
+  speed_mps_ = params_.usual_speed_mps;
+  start_ = -1;
+  carried_s_ = 0.0;
+  sumUp();
+}
+
 void SearchMap::start(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity,
                       double ago_s, double probability) {
   if (!position.allFinite() || !velocity.allFinite()) {
@@ -96,8 +109,8 @@ void SearchMap::start(const Eigen::Vector2d& position, const Eigen::Vector2d& ve
   if (!(probability >= 0.0 && probability <= 1.0)) {
     throw std::invalid_argument("a probability is 0 to 1");
   }
-  start_ = floor_.nearestFree(position);
-  floor_.walkingDistances(start_, walked_m_, open_);
+  const int from = floor_.nearestFree(position);
+  floor_.walkingDistances(from, walked_m_, open_);
   // Never before they were there, and for the place's error they may have been a little further.
   const double then_s = clock_s_ - ago_s;
   for (std::size_t c = 0; c < reached_s_.size(); ++c) {
@@ -127,7 +140,10 @@ void SearchMap::start(const Eigen::Vector2d& position, const Eigen::Vector2d& ve
   sumUp();
   clock_s_ = then_s;
   lost_s_ += probability * (then_s - lost_s_);
-  if (probability > 0.5) std::fill(shut_s_.begin(), shut_s_.end(), kNever);
+  if (probability > 0.5) {
+    start_ = from;
+    std::fill(shut_s_.begin(), shut_s_.end(), kNever);
+  }
   carried_s_ = 0.0;
   spread(ago_s);
   for (std::size_t c = 0; c < shares_.size() && probability < 1.0; ++c) {
@@ -194,7 +210,8 @@ void SearchMap::walk() {
 // and has stood as long before: of all the time since they were seen they had but the rest.
 void SearchMap::shut() {
   const auto stands = [](const Screen& screen) { return screen.stands; };
-  if (std::none_of(screens_.begin(), screens_.end(), stands)) {  // The ways are those of the map.
+  if (start_ < 0 ||
+      std::none_of(screens_.begin(), screens_.end(), stands)) {  // The ways are those of the map.
     std::fill(shut_s_.begin(), shut_s_.end(), kNever);
     return;
   }
@@ -300,16 +317,17 @@ bool SearchMap::isSeenThrough(const LaserScan& scan, const FloorPose& scanner,
   const Eigen::Vector2d to = scanner.inverse() * point;
   const double range = to.norm();
   if (range <= params_.body_radius_m || range > params_.max_scan_m) return false;
-  const double half = std::asin(params_.body_radius_m / range);
-  const double middle = std::atan2(to.y(), to.x()) - scan.first_rad;
-  const double first = std::ceil((middle - half) / scan.step_rad);
-  const double last = std::floor((middle + half) / scan.step_rad);
-  if (first < 0.0 || last >= static_cast<double>(scan.ranges_m.size()) || last < first)
-    return false;
+  const double half = std::asin(params_.body_radius_m / range) / std::abs(scan.step_rad);
+  const double middle = scan.beamAt(std::atan2(to.y(), to.x()));
   const auto behind = static_cast<float>(range + params_.body_radius_m);
-  return std::all_of(scan.ranges_m.begin() + static_cast<std::ptrdiff_t>(first),
-                     scan.ranges_m.begin() + static_cast<std::ptrdiff_t>(last) + 1,
-                     [behind](float beam) { return beam > behind; });
+  const double last = std::floor(middle + half);
+  double beam = std::ceil(middle - half);
+  if (!(last >= beam)) return false;  // Not where it is not a number.
+  for (; beam <= last; ++beam) {
+    const std::size_t i = scan.index(beam);
+    if (i >= scan.ranges_m.size() || !(scan.ranges_m[i] > behind)) return false;
+  }
+  return true;
 }
 
 bool SearchMap::isInView(const FloorPose& camera, const Eigen::Vector2d& point) const {

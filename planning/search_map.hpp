@@ -76,6 +76,9 @@ class SearchMap {
 
   const CoarseFloor& floor() const { return floor_; }
 
+  /// The person may be anywhere.
+  void start();
+
   /// The person was last seen here, with this velocity [m/s], both in the map's frame, so long ago.
   /// @param probability  That it was they; else they are where they were looked for before.
   void start(const Eigen::Vector2d& position, const Eigen::Vector2d& velocity, double ago_s = 0.0,
@@ -166,7 +169,7 @@ class SearchMap {
   std::vector<double> reached_s_;  ///< On the clock: nobody can have walked there sooner.
   std::vector<double> shut_s_;     ///< Till when it is counted that every way there is barred.
   std::vector<float> open_m_;      ///< The ways that are not; memory of shut().
-  int start_ = -1;                 ///< The cell where the person was last seen,
+  int start_ = -1;                 ///< The cell where the person was last seen, if known,
   double lost_s_ = 0.0;            ///< and when, on the clock, weighed by how likely it was they.
   CoarseFloor::Open open_;
   double speed_mps_;

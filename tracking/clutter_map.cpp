@@ -84,6 +84,10 @@ void ClutterMap::look(const Eigen::Vector2d& from_m, const SightOf& sight_of, do
   }
 }
 
+void ClutterMap::setClock(double stamp_s) {
+  for (Cell& cell : cells_) cell.last_s = stamp_s;
+}
+
 void ClutterMap::add(const ClutterCount& count, double stamp_s) {
   forCorners(count.place_m, [&](std::size_t i, double weight) {
     if (!(weight > 0.0)) return;

@@ -64,6 +64,9 @@ class ClutterMap {
   /// Counts time in which the places around were seen through.
   void look(const Eigen::Vector2d& from_m, const SightOf& sight_of, double time_s);
 
+  /// The clock was set to this: whoever was observed somewhere was there until then.
+  void setClock(double stamp_s);
+
   /// Counts what was observed there until a time.
   void add(const ClutterCount& count, double stamp_s);
 

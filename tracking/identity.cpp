@@ -202,6 +202,9 @@ Identity::Belief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, 
     }
     belief = std::move(*same);
     left_.erase(same);
+    for (std::optional<Absence>& last : last_) {
+      if (last && last->track_id == belief.track_id) last->track_id = track_id;
+    }
     mixIn(belief, {another, another}, newcomers_per_m2 / (newcomers_per_m2 + most_per_m2));
     belief.is_alive = true;
     belief.present = 1.0;
@@ -301,6 +304,7 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
   if (dt_s < 0.0) {  // Of another clock.
     last_.assign(kHypotheses, std::nullopt);
     left_.clear();
+    clutter_.setClock(stamp_s);
   }
   for (const Track& track : tracks) {
     Belief* belief = find(track.id);

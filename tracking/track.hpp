@@ -40,10 +40,8 @@ struct TrackerParams {
   int confirm_hits = 2;
   /// A track that is not confirmed after so many frames (at most 32) is dropped.
   int confirm_frames = 3;
-  /// A confirmed track that was not seen for longer is lost. At a low frame rate, at least three
-  /// frames' time.
-  double max_coast_s = 1.0;
-  double max_gap_s = 2.0;  ///< A longer gap than this between two frames ends all tracks.
+  double max_coast_s = 1.0;  ///< A confirmed track that was not seen for longer is lost.
+  double max_gap_s = 2.0;    ///< A longer gap than this between two frames ends all tracks.
 };
 
 /// @throws std::invalid_argument  if a parameter is out of range; the text names it.

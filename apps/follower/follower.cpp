@@ -15,6 +15,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kOpenFloor_m = 100.0;  // Without a map, so far across.
+constexpr double kAnywhere_m2 = 1e4;    // Of a robot that is lost, whatever its particles say.
 
 OccupancyGrid openFloor(const Vector2d& middle) {
   constexpr double kCell_m = 0.1;
@@ -100,6 +101,7 @@ const FollowStep& Follower::step(const RobotReadings& readings, const StageDone&
   step_.stamp_s = readings.stamp_s;
   step_.acquisition = nullptr;
   step_.perception = nullptr;
+  if (!step_.is_learning) learner_.reset();
   const RobotReadings usable = watch_.step(stamped(readings));
   tellTime(readings.stamp_s);
 
@@ -205,23 +207,29 @@ void Follower::lookAround(const RobotReadings& readings) {
   if (now_.target) own = FloorDisc{now_.target->position, params_.target_radius_m};
   // What is seen where people are may walk off.
   things_.begin(steady_s_, pose, own, people_.discs(now_.people, {}));
+  const bool searches = search_ && !step_.robot.lost;
   if (search_) {
     search_->wait(now_.elapsed_s,
                   [&](const Vector2d& place) { return people_.isSeenAt(place, now_); });
   }
+  since_scan_s_ += now_.elapsed_s;
   if (readings.scan != nullptr) {
     const FloorPose T_base_scanner = motion_.seenFromNow(scan_s_) * robot_.T_base_scanner;
     things_.addScan(*readings.scan, T_base_scanner);
-    if (search_) search_->scan(*readings.scan, pose * T_base_scanner, now_.elapsed_s);
+    if (searches) {
+      search_->scan(*readings.scan, pose * T_base_scanner,
+                    std::min(since_scan_s_, params_.watch.max_scan_age_s));
+    }
+    since_scan_s_ = 0.0;
   }
   things_.feel(step_.velocity, speed_, now_.elapsed_s);
-  obstacles_age_s_ += now_.elapsed_s;
-  if (readings.frame != nullptr && obstacles_age_s_ > params_.obstacles_every_s - 1e-6) {
+  since_look_s_ += now_.elapsed_s;
+  if (readings.frame != nullptr && since_look_s_ > params_.obstacles_every_s - 1e-6) {
     takeIn(RobotCamera::kAhead, *readings.frame, frame_s_);
-    if (search_) {
+    if (searches) {
       const FloorPose then = pose * motion_.seenFromNow(frame_s_);
       // Where a picture has no depth the laser may have seen a door's leaf.
-      search_->look(then, obstacles_age_s_,
+      search_->look(then, std::min(since_look_s_, params_.watch.max_image_age_s),
                     [&, sight = things_.sight(),
                      T_then_world = then.inverse()](const Vector2d& p) -> std::optional<SeenTo> {
                       // A body hides its own place: whose it is, is not for the search to say.
@@ -231,7 +239,7 @@ void Follower::lookAround(const RobotReadings& readings) {
                       return SeenTo(then * *to, people_.isAnybodyAt(then * *to, now_));
                     });
     }
-    obstacles_age_s_ = 0.0;
+    since_look_s_ = 0.0;
   }
   if (readings.floor != nullptr) {
     takeIn(RobotCamera::kFloor, *readings.floor, steady_s_ - watch_.floorAge_s());
@@ -260,25 +268,27 @@ void Follower::learn(const Frame& frame) {
   skipLearning(learner_->learn());
   perception_->startAt(place);
   now_.last.position = place;
+  if (search_) search_->lose(now_.last, 0.0, 1.0);
 }
 
 void Follower::skipLearning(const AppearanceModel& whom) {
   PerceptionParams params = params_.perception;
   if (walls_) params.gate = wallGate(walls_, params_.gate);
   const auto density = [this](const Vector2d& place) -> std::optional<double> {
-    if (now_.target || !search_) return std::nullopt;
+    const bool is_known = followed_id_ != TargetEstimate::kNoTrack && !step_.robot.lost;
+    if (now_.target || !search_ || !is_known) return std::nullopt;
     return search_->density(place);
   };
   perception_.emplace(robot_.camera, whom, params, density);
   now_.last.position = step_.robot.pose.position;  // for want of a better place
-  if (search_) search_->lose(now_.last, 0.0, 1.0);
-  learner_.reset();
+  if (search_) search_->begin();
   step_.is_learning = false;
 }
 
 // Phase 2 (section 3.1, 3.2), by camera and laser.
 void Follower::see(const Frame* frame) {
   const auto placeAt = [this](double stamp_s) -> RobotPlace {
+    if (step_.robot.lost) return {poseAt(stamp_s), kAnywhere_m2 * Eigen::Matrix2d::Identity()};
     return {poseAt(stamp_s), step_.robot.covariance.topLeftCorner<2, 2>()};
   };
   const LaserBodies* legs = legs_.isFresh() ? &legs_ : nullptr;
@@ -292,6 +302,9 @@ void Follower::see(const Frame* frame) {
     // No later than the next image, or that would be too late to count.
     const double stamp_s = std::min(scan_s_, steady_s_ - frame_latency_s_);
     target_ = perception_->step(stamp_s, placeAt(scan_s_), *legs).target;
+  } else if (target_.hasPlace() &&
+             steady_s_ - tracked_s_ > params_.perception.tracker.max_coast_s) {
+    target_.status = TargetStatus::kLost;
   }
   noteTarget();
 }
@@ -309,7 +322,8 @@ void Follower::noteTarget() {
     if (rests_s >= params_.walks_on_s) now_.target->rests_s = rests_s;
     step_.target = now_.target->position;
   }
-  if (target_.status == TargetStatus::kFollowed) {
+  const bool is_seen_now = tracked_s_ == steady_s_;
+  if (target_.status == TargetStatus::kFollowed && is_seen_now) {
     now_.last = *now_.target;
     followed_id_ = target_.track_id;
     now_.unseen_s = 0.0;

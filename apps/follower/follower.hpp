@@ -162,7 +162,8 @@ class Follower {
   FollowingFacts facts_;
   FollowingAction action_ = FollowingAction::kStop;
   FollowingAction begun_ = FollowingAction::kStop;  // the last one but stops
-  double obstacles_age_s_ = 0.0;
+  double since_look_s_ = 0.0;                       // for obstacles, by the camera,
+  double since_scan_s_ = 0.0;                       // and since the newest scan
   bool has_arrived_ = false;  // where the last intent led, or as near as can be
 };
 

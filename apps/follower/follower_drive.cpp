@@ -89,7 +89,7 @@ IntentOutcome Follower::carryOut(const Intent& intent) {
   for (const Vector2d& place : hiding_places_) hidden_.push_back(from_motion * place);
   pilot_.expect(hidden_);
   const PilotStep now =
-      pilot_.step(intent, {step_.robot.pose, speed_}, now_.people, sensed, permits);
+      pilot_.step(intent, {step_.robot.pose, speed_}, now_.people, sensed, permits, now_.elapsed_s);
   append(step_.reason, now.reason);
   step_.velocity = now.velocity;
   step_.path = now.path;

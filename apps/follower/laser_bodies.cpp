@@ -11,7 +11,6 @@
 namespace heel {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
 constexpr double kSurfaceGap_m = 0.1;  // Between the legs of who stands there is more, as a rule.
 constexpr int kLeastBeams = 3;         // that go through a place, for it to be free
 
@@ -94,26 +93,21 @@ double LaserBodies::widestSurface(std::size_t first, std::size_t end) const {
 Sight LaserBodies::sightOf(const Eigen::Vector2d& place_m) const {
   const Eigen::Vector2d place = T_scanner_world_ * place_m;
   const double away_m = place.norm();
-  const auto count = static_cast<long>(scan_.ranges_m.size());
   if (away_m < params_.half_width_m || away_m > params_.max_range_m || scan_.step_rad == 0.0) {
     return Sight::kUnknown;
   }
   const double half_rad = std::asin(params_.half_width_m / away_m);
   const double beams_each_side = half_rad / std::abs(scan_.step_rad);
-  const double turn = std::round(kTwoPi / std::abs(scan_.step_rad));
-  // The first beam is at first_rad; others may be a turn further.
-  double middle =
-      std::remainder(std::atan2(place.y(), place.x()) - scan_.first_rad, kTwoPi) / scan_.step_rad;
-  if (middle < 0.0) middle += turn;
+  const double middle = scan_.beamAt(std::atan2(place.y(), place.x()));
   int through = 0;
   bool is_hidden = false, is_thing = false;
   for (double b = std::ceil(middle - beams_each_side); b <= middle + beams_each_side; ++b) {
-    const auto i = static_cast<long>(b < 0.0 ? b + turn : b >= turn ? b - turn : b);
-    if (i < 0 || i >= count) continue;
-    const auto range_m = static_cast<double>(scan_.ranges_m[static_cast<std::size_t>(i)]);
+    const std::size_t i = scan_.index(b);
+    if (i >= scan_.ranges_m.size()) continue;
+    const auto range_m = static_cast<double>(scan_.ranges_m[i]);
     if (!(range_m > 0.0)) continue;  // NaN too
     const double behind_m = range_m - away_m * std::cos((b - middle) * scan_.step_rad);
-    if (std::abs(behind_m) < params_.reach_m && may_be_person_[static_cast<std::size_t>(i)]) {
+    if (std::abs(behind_m) < params_.reach_m && may_be_person_[i]) {
       return Sight::kUnknown;
     }
     is_hidden = is_hidden || behind_m < -params_.reach_m;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace heel {
 namespace {
@@ -22,7 +23,7 @@ LookWhoThatIs::LookWhoThatIs(const Premises& premises, const FollowerParams& par
       look_s_(params.search.map.look_s),
       ahead_rad_(params.ahead_rad),
       near_m_(params.goal.least_standoff_m),
-      far_m_(params.far_m),
+      far_m_(std::max(params.far_m, near_m_)),
       nearer_(premises, params.goal) {}
 
 void LookWhoThatIs::watch(const Situation& now) {
@@ -33,6 +34,7 @@ void LookWhoThatIs::watch(const Situation& now) {
     return;
   }
   clock_s_ += now.elapsed_s;
+  const bool has_turned = std::exchange(has_turned_, false);
   std::optional<Choice> best;
   for (const Suspect& suspect : now.suspects) {
     const Choice choice = rated(suspect, now);
@@ -40,9 +42,9 @@ void LookWhoThatIs::watch(const Situation& now) {
   }
   const bool goes_on = best && isOfChoice(best->place);
   choice_ = best;
-  looked_s_ = goes_on && (best->is_ahead || has_turned_) ? looked_s_ + now.elapsed_s : 0.0;
+  looked_s_ = goes_on && (best->is_ahead || has_turned) ? looked_s_ + now.elapsed_s : 0.0;
   is_near_ = is_near_ && goes_on;
-  if (looked_s_ < look_s_) return;
+  if (!best || looked_s_ < look_s_) return;
   remember(best->place, best->place - now.robot.position);
   if (is_near_) remember(best->place, best->ray_m);
   is_near_ = false;

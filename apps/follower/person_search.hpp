@@ -15,7 +15,7 @@ namespace heel {
 /// How a person who is lost is looked for.
 struct PersonSearchParams {
   SearchMapParams map;
-  double budget_s = 600.0;  ///< A search ends after so long.
+  double budget_s = 600.0;  ///< A search ends after so long; looks at people are not counted.
   double new_view_s = 3.0;  ///< How often the robot chooses anew where to look.
 };
 
@@ -27,6 +27,8 @@ class PersonSearch {
   PersonSearch(const OccupancyGrid& floor, const OccupancyGrid& sight,
                const PersonSearchParams& params = {});
 
+  /// Nobody knows where they are.
+  void begin() { map_.start(); }
   /// They are lost; a while ago they were here, and walked so.
   /// @param probability  That it was they; else they are still where they were looked for before.
   void lose(const MovingPerson& last, double unseen_s, double probability);

@@ -69,8 +69,8 @@ double Pilot::takes_s(const FloorPose& from, const Vector2d& to) {
 }
 
 PilotStep Pilot::step(const Intent& intent, const DriveState& robot,
-                      const std::vector<MovingPerson>& people, Clearance sensed,
-                      Permission permits) {
+                      const std::vector<MovingPerson>& people, Clearance sensed, Permission permits,
+                      double elapsed_s) {
   const Vector2d& here = robot.pose.position;
   const auto room = [&](const Vector2d& p) { return std::min(room_.clearance(p), sensed(p)); };
   if (intent.is_new) reset();
@@ -89,8 +89,8 @@ PilotStep Pilot::step(const Intent& intent, const DriveState& robot,
   if (!has_way) plan_.path.clear();
 
   PilotStep out;
-  const LocalPlan now =
-      local_planner_.step(robot.pose, robot.speed, plan_.path, room, people, face, permits);
+  const LocalPlan now = local_planner_.step(robot.pose, robot.speed, plan_.path, room, people, face,
+                                            permits, elapsed_s);
   out.velocity = now.command;
   out.goal = goal;
   if (goal) out.path = &plan_.path;
@@ -100,7 +100,7 @@ PilotStep Pilot::step(const Intent& intent, const DriveState& robot,
         std::clamp(now.command.turn_radps, -intent.most_turn_radps, intent.most_turn_radps);
   }
   const DriveLimits& drive = local_planner_.params().limits;
-  stays_s_ += drive.period_s;
+  stays_s_ += elapsed_s;
   if (!goes || (here - stays_at_).norm() > drive.radius_m) {
     stays_at_ = here;
     stays_s_ = 0.0;

@@ -56,11 +56,13 @@ class Pilot {
   /// whichever is sooner; infinite where no way leads.
   double takes_s(const FloorPose& from, const Eigen::Vector2d& to);
 
-  /// @param people   Who walks and who stands.
-  /// @param sensed   Distance to what the sensors have seen of late.
-  /// @param permits  As LocalPlanner's.
+  /// @param people     Who walks and who stands.
+  /// @param sensed     Distance to what the sensors have seen of late.
+  /// @param permits    As LocalPlanner's.
+  /// @param elapsed_s  Since the step before.
   PilotStep step(const Intent& intent, const DriveState& robot,
-                 const std::vector<MovingPerson>& people, Clearance sensed, Permission permits);
+                 const std::vector<MovingPerson>& people, Clearance sensed, Permission permits,
+                 double elapsed_s);
 
  private:
   /// Where it was when it was as near to a goal as can be.

@@ -14,7 +14,7 @@ namespace {
 
 // A beam from which nothing came back is a reading, too.
 bool isUsable(const LaserScan& scan) {
-  return std::isfinite(scan.first_rad) && std::isfinite(scan.step_rad) &&
+  return std::isfinite(scan.first_rad) && std::isfinite(1.0 / scan.step_rad) &&
          std::any_of(scan.ranges_m.begin(), scan.ranges_m.end(),
                      [](float range_m) { return range_m > 0.0F; });
 }
@@ -42,17 +42,20 @@ RobotReadings SensorWatch::step(const RobotReadings& readings) {
   elapsed_s_ = time_jumped_ ? 0.0 : dt_s;
   begun_ = true;
   stamp_s_ = readings.stamp_s;
+  if (time_jumped_) image_clock_ = floor_clock_ = scan_clock_ = odometry_clock_ = std::nullopt;
 
   image_is_good_ = isUsable(readings);
-  image_age_s_ = image_is_good_ ? ageOf(readings.frame->stamp_s) : image_age_s_ + elapsed_s_;
+  image_age_s_ =
+      image_is_good_ ? ageOf(readings.frame->stamp_s, image_clock_) : image_age_s_ + elapsed_s_;
 
   const bool floor_is_good = floor_size_ && readings.floor != nullptr &&
                              readings.floor->depth_m.size() == *floor_size_ &&
                              readings.floor->depth_m.type() == CV_32FC1;
-  floor_age_s_ = floor_is_good ? ageOf(readings.floor->stamp_s) : floor_age_s_ + elapsed_s_;
+  floor_age_s_ =
+      floor_is_good ? ageOf(readings.floor->stamp_s, floor_clock_) : floor_age_s_ + elapsed_s_;
 
   scan_is_good_ = readings.scan != nullptr && heel::isUsable(*readings.scan);
-  scan_age_s_ = scan_is_good_ ? ageOf(readings.scan_stamp_s.value_or(readings.stamp_s))
+  scan_age_s_ = scan_is_good_ ? ageOf(readings.scan_stamp_s.value_or(readings.stamp_s), scan_clock_)
                               : scan_age_s_ + elapsed_s_;
 
   odometry_is_good_ = false;
@@ -62,7 +65,7 @@ RobotReadings SensorWatch::step(const RobotReadings& readings) {
   if (readings.odometry && readings.odometry->position.allFinite() &&
       std::isfinite(readings.odometry->yaw_rad)) {
     measureIncrement(*readings.odometry,
-                     ageOf(readings.odometry_stamp_s.value_or(readings.stamp_s)));
+                     ageOf(readings.odometry_stamp_s.value_or(readings.stamp_s), odometry_clock_));
   }
   odometry_age_s_ = odometry_is_good_ ? last_odometry_age_s_ : odometry_age_s_ + elapsed_s_;
 
@@ -81,10 +84,14 @@ RobotReadings SensorWatch::step(const RobotReadings& readings) {
   return usable;
 }
 
-// A stamp of another clock, or of before this one jumped, says nothing.
-double SensorWatch::ageOf(double stamp_s) const {
+// A first reading that is older than any can be has a stamp of another clock, and so have the next
+// ones: they are as old as they come later than it did. So is one of the future.
+double SensorWatch::ageOf(double stamp_s, std::optional<double>& clock_s) const {
   const double age_s = stamp_s_ - stamp_s;
-  return age_s >= 0.0 && age_s <= params_.max_gap_s ? age_s : 0.0;
+  if (!std::isfinite(age_s)) return 0.0;
+  if (!clock_s || age_s < *clock_s) clock_s = age_s;
+  if (age_s >= 0.0 && age_s <= params_.max_gap_s) clock_s = 0.0;
+  return age_s - *clock_s;
 }
 
 void SensorWatch::measureIncrement(const FloorPose& now, double age_s) {

@@ -80,7 +80,7 @@ class SensorWatch {
   const std::string& blindness() const { return blindness_; }
 
  private:
-  double ageOf(double stamp_s) const;
+  double ageOf(double stamp_s, std::optional<double>& clock_s) const;
   bool isUsable(const RobotReadings& readings) const;
   bool fitsCamera(const Frame& frame) const;
   void measureIncrement(const FloorPose& now, double age_s);
@@ -93,6 +93,8 @@ class SensorWatch {
   double stamp_s_ = 0.0;
   double elapsed_s_ = 0.0;
   double image_age_s_ = 0.0, floor_age_s_ = 0.0, scan_age_s_ = 0.0, odometry_age_s_ = 0.0;
+  // So far each sensor's clock is behind, once it has measured.
+  std::optional<double> image_clock_, floor_clock_, scan_clock_, odometry_clock_;
   bool time_jumped_ = false;
   bool image_is_good_ = false, scan_is_good_ = false, odometry_is_good_ = false;
   std::optional<FloorPose> odometry_;  // the last that was a number, good or not,

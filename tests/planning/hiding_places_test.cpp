@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "tests/support/same_scans.hpp"
 #include <heel/planning/hiding_places.hpp>
 
 #include <gtest/gtest.h>
@@ -62,6 +63,15 @@ TEST(HidingPlaces, BothSidesOfADoorwayHide) {
   const Vector2d middle = 0.5 * (places[0] + places[1]);
   EXPECT_NEAR(middle.x(), 5.0, 0.02);
   EXPECT_GT(middle.y(), 3.5);
+}
+
+TEST(HidingPlaces, AreTheSameHoweverAScannerCounts) {
+  const std::vector<Vector2d> places = placesIn(wallFrom(-100.0, -0.4));
+  for (const LaserScan& scan : test::sameScans(wallFrom(-100.0, -0.4))) {
+    const std::vector<Vector2d> same = placesIn(scan);
+    ASSERT_EQ(same.size(), places.size());
+    EXPECT_NEAR((same.front() - places.front()).norm(), 0.0, 1e-9);
+  }
 }
 
 // A wall that is 1 m thick.

@@ -115,6 +115,15 @@ TEST(ClutterMap, WhoStoodStaysAsLikelyAsTheyDidForThatShareOfTheTime) {
   EXPECT_EQ(later.things_per_m2, then.things_per_m2) << "things stay";
 }
 
+// Bug: a clock that was set back by an hour let nobody go for an hour.
+TEST(ClutterMap, WhoStoodGoesWhenTheClockWasSetBackToo) {
+  ClutterMap map;
+  map.add({middle(3, 3), 10.0, 0.0}, 4000.0);
+  map.setClock(0.0);
+  const double then = map.density(middle(3, 3), 0.0).people_per_m2;
+  EXPECT_NEAR(map.density(middle(3, 3), 10.0).people_per_m2, 0.5 * then, 1e-6);
+}
+
 TEST(ClutterMap, SharesAThingBetweenTheCellsAround) {
   ClutterMap map;
   map.add({{2 * kCell_m, 3 * kCell_m}, 4.0, 4.0}, 0.0);  // Where four cells meet.

@@ -51,7 +51,7 @@ class FollowerTest : public testing::Test {
     for (int i = 0; i < 50 && follower_->target().hasPlace(); ++i) step();
   }
 
-  enum class Shows { kSomebody, kNobody, kNothing };
+  enum class Shows { kSomebody, kNobody, kNothing };  // the last: no picture at all
 
   const FollowStep& step(Shows shows = Shows::kNobody) {
     stamp_s_ += 0.1;
@@ -61,7 +61,7 @@ class FollowerTest : public testing::Test {
             .frame(stamp_s_ - image_age_s_);
     RobotReadings readings;
     readings.stamp_s = stamp_s_;
-    readings.scan = &scan_;
+    if (has_scan_) readings.scan = &scan_;
     readings.odometry = FloorPose{};
     if (shows != Shows::kNothing) readings.frame = &frame;
     return follower_->step(readings);
@@ -69,6 +69,7 @@ class FollowerTest : public testing::Test {
 
   std::optional<Follower> follower_;
   double image_age_s_ = 0.0;
+  bool has_scan_ = true;
 
  private:
   LaserScan scan_;
@@ -113,6 +114,18 @@ TEST_F(FollowerTest, ADropoutHoldsWhatItDoes) {
   EXPECT_EQ(step().action, FollowingAction::kSearch);
   EXPECT_GT(calls.steps, before);
   EXPECT_EQ(calls.begins, 1);
+}
+
+// Bug: a target that was followed when all sensors fell silent was followed until they spoke again,
+// and had then been seen a moment ago, wherever it was by then.
+TEST_F(FollowerTest, NobodyIsFollowedWhileAllSensorsAreSilent) {
+  for (int i = 0; i < 15; ++i) step(Shows::kSomebody);
+  ASSERT_TRUE(follower_->target().hasPlace());
+  has_scan_ = false;
+  EXPECT_TRUE(step(Shows::kNothing).target) << "for a moment";
+  for (int i = 0; i < 15; ++i) step(Shows::kNothing);
+  EXPECT_FALSE(step(Shows::kNothing).target);
+  EXPECT_EQ(follower_->target().status, TargetStatus::kLost);
 }
 
 // Bug: between two images steps by the laser alone took the tracks' time up to its newest scan; the

@@ -29,6 +29,7 @@ struct Drive {
   std::vector<float> stood_s;
   std::optional<Pilot> pilot;
   PilotStep last;
+  double elapsed_s = 0.1;
 
   void begin() {
     const FollowerParams params = fittedTo(robot, {});
@@ -44,8 +45,8 @@ struct Drive {
     pilot->setAround(things, stood_s, resting);
   }
   void step(const Intent& intent) {
-    last = pilot->step(intent, state, people, kFarFromAll, kAnyCommand);
-    state = driven(robot.drive, state, last.velocity, robot.drive.period_s);
+    last = pilot->step(intent, state, people, kFarFromAll, kAnyCommand, elapsed_s);
+    state = driven(robot.drive, state, last.velocity, elapsed_s);
   }
   /// @return after how many steps it neither drives nor turns where it should be.
   int drive(const Intent& intent, int most = 600) {
@@ -121,6 +122,26 @@ TEST(Pilot, GoesToWhereTheMapLeadsIfThingsBarTheWay) {
   for (int i = 0; i < 200; ++i) drive.step(goTo({5.0, 2.0}));
   EXPECT_LT(drive.state.pose.position.x(), 3.0 - drive.robot.drive.radius_m);
   EXPECT_TRUE(drive.last.outcome.has_arrived) << "as near as can be";
+}
+
+// Bug: a step counted as a control period, and a robot with a camera of 30 Hz gave up three times
+// as soon.
+TEST(Pilot, GivesUpAfterTheSameTimeHoweverOftenItIsAsked) {
+  std::vector<double> times_s;
+  for (const double elapsed_s : {0.1, 0.03}) {
+    Drive drive;
+    drive.state.pose.position = {2.5, 2.0};
+    drive.elapsed_s = elapsed_s;
+    drive.begin();
+    drive.bar(Occupancy::kOccupied);
+    double time_s = 0.0;
+    for (; time_s < 60.0 && !drive.last.outcome.has_arrived; time_s += elapsed_s) {
+      drive.step(goTo({5.0, 2.0}));
+    }
+    times_s.push_back(time_s);
+  }
+  EXPECT_LT(times_s[0], 60.0);
+  EXPECT_NEAR(times_s[0], times_s[1], 0.5);
 }
 
 TEST(Pilot, PathsLeadAroundWhoStandsAndThroughWhoWalks) {

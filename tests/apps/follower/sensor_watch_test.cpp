@@ -108,6 +108,39 @@ TEST_F(SensorWatchTest, TellsHowOldReadingsAreByTheirStamps) {
   EXPECT_EQ(watch.scanAge_s(), 0.0);
 }
 
+// Bug: what came more than a second late was taken to be of another clock, and so of now.
+TEST_F(SensorWatchTest, AnImageThatComesLateIsOld) {
+  for (const double late_s : {0.5, 1.5}) {
+    watch = SensorWatch(cameraOf(SensorKind::kStereo));
+    readings.scan = &scan;
+    readings.odometry = odometry;
+    readings.frame = &frame;
+    for (int i = 0; i < 30; ++i) {
+      readings.stamp_s += 0.1;
+      frame.stamp_s = readings.stamp_s - std::min(0.1 * i, late_s);
+      watch.step(readings);
+    }
+    EXPECT_NEAR(watch.imageAge_s(), late_s, 1e-9);
+    EXPECT_EQ(watch.blindness(), late_s > 1.0 ? "no usable image" : "");
+  }
+}
+
+TEST_F(SensorWatchTest, ACamerasClockMayBeAnother) {
+  for (const double behind_s : {50.0, -50.0}) {
+    watch = SensorWatch(cameraOf(SensorKind::kStereo));
+    readings.scan = &scan;
+    readings.odometry = odometry;
+    readings.frame = &frame;
+    for (int i = 0; i < 30; ++i) {
+      readings.stamp_s += 0.1;
+      frame.stamp_s = readings.stamp_s - behind_s - (i == 29 ? 0.3 : 0.0);
+      watch.step(readings);
+      EXPECT_EQ(watch.blindness(), "");
+    }
+    EXPECT_NEAR(watch.imageAge_s(), 0.3, 1e-9) << "later than before";
+  }
+}
+
 TEST_F(SensorWatchTest, BearsEachSensorsSilenceForItsTime) {
   has_frame = false;
   EXPECT_EQ(after(5), "") << "0.5 s without an image";
