@@ -11,6 +11,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <sstream>
 #include <stdexcept>
@@ -24,7 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What map_saver writes. An unknown pixel is p = 0.19608, just over free_thresh.
+// What map_saver writes. An unknown pixel is p = 0.19608: over the free_thresh of ROS 1, under that
+// of Nav2.
 constexpr std::uint8_t kFreePixel = 254, kOccupiedPixel = 0, kUnknownPixel = 205;
 
 [[noreturn]] void fail(const fs::path& file, const std::string& why) {
@@ -88,6 +90,13 @@ Eigen::Vector2d readOrigin(YamlMap& map) {
   return origin.head<2>();
 }
 
+/// Whether a picture has no greys but what map savers write; white is what it is mended with.
+bool isOfMapSaver(const cv::Mat& image) {
+  return std::all_of(image.begin<std::uint8_t>(), image.end<std::uint8_t>(), [](auto grey) {
+    return grey == kFreePixel || grey == kOccupiedPixel || grey == kUnknownPixel || grey == 255;
+  });
+}
+
 }  // namespace
 
 OccupancyGrid gridFromImage(const fs::path& file, double cell_size_m,
@@ -98,14 +107,15 @@ OccupancyGrid gridFromImage(const fs::path& file, double cell_size_m,
   }
   if (!(cell_size_m > 0.0)) throw std::invalid_argument("a pixel's edge must be positive");
   const cv::Mat image = readImage(file);
-  OccupancyGrid grid(params.origin_m, cell_size_m, image.cols, image.rows);
+  const bool is_saved = !params.negate && isOfMapSaver(image);
+  OccupancyGrid grid(params.origin_m, cell_size_m, image.cols, image.rows, Occupancy::kUnknown);
   for (int y = 0; y < grid.height(); ++y) {
     const auto* row = image.ptr<std::uint8_t>(grid.height() - 1 - y);
     for (int x = 0; x < grid.width(); ++x) {
       const double p = (params.negate ? row[x] : 255 - row[x]) / 255.0;
-      grid.at(GridCell{x, y}) = p > params.occupied_thresh ? Occupancy::kOccupied
-                                : p < params.free_thresh   ? Occupancy::kFree
-                                                           : Occupancy::kUnknown;
+      if (is_saved && row[x] == kUnknownPixel) continue;
+      if (p > params.occupied_thresh) grid.at(GridCell{x, y}) = Occupancy::kOccupied;
+      if (p < params.free_thresh) grid.at(GridCell{x, y}) = Occupancy::kFree;
     }
   }
   return grid;

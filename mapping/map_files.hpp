@@ -15,7 +15,9 @@ namespace heel {
 
 /// How a picture's brightness becomes occupancy, as map_server's "trinary" mode: with p = 1 for
 /// black and 0 for white, p > occupied_thresh is a wall, p < free_thresh is free, the rest is
-/// unknown. Colours count by their brightness; an alpha channel is not looked at.
+/// unknown. Colours count by their brightness; an alpha channel is not looked at. In a picture that
+/// has no greys but 0, 205, 254 and 255, as map_saver writes it, 205 is unknown whatever
+/// free_thresh is, unless `negate`: under Nav2's own 0.25 it would be free.
 struct MapImageParams {
   /// Place of the picture's lower left corner.
   Eigen::Vector2d origin_m = Eigen::Vector2d::Zero();

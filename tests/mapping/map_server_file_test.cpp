@@ -69,6 +69,20 @@ TEST_F(MapServerFile, ThresholdsDecide) {
   EXPECT_EQ(load(with("occupied_thresh", "0.95")).at(GridCell{2, 0}), Occupancy::kUnknown);
 }
 
+TEST_F(MapServerFile, WhatMapSaverWritesForUnknownIsUnknownUnderNav2sThresholds) {
+  const auto cellsOf = [&](const std::string& pixels, const std::string& negate) {
+    folder_.write("map.pgm", "P5\n3 1\n255\n" + pixels);
+    std::string yaml = with("negate", negate);
+    return load(yaml.replace(yaml.find("0.196"), 5, "0.25")).cells();
+  };
+  const auto kWall = Occupancy::kOccupied, kFree = Occupancy::kFree, kNone = Occupancy::kUnknown;
+  using Cells = std::vector<Occupancy>;
+  EXPECT_EQ(cellsOf(std::string("\x00\xFE\xCD", 3), "0"), (Cells{kWall, kFree, kNone}));
+  EXPECT_EQ(cellsOf("\xCD\xFE\xFF", "0"), (Cells{kNone, kFree, kFree})) << "mended with white";
+  EXPECT_EQ(cellsOf("\xCD\xFE\xE0", "0"), (Cells{kFree, kFree, kFree})) << "it has other greys";
+  EXPECT_EQ(cellsOf("\xCD\xFE\xFE", "1"), (Cells{kWall, kWall, kWall})) << "white is a wall";
+}
+
 TEST_F(MapServerFile, IsReadBackAsItWasWritten) {
   OccupancyGrid grid({-3.05, 0.1}, 0.05, 7, 4, Occupancy::kUnknown);
   grid.at(GridCell{2, 3}) = Occupancy::kOccupied;
