@@ -90,6 +90,17 @@ Eigen::Vector2d readOrigin(YamlMap& map) {
   return origin.head<2>();
 }
 
+/// The picture that a map names. Map savers write where it was, which a copied map takes along.
+fs::path findImage(YamlMap& map, const fs::path& folder) {
+  const fs::path named = map.text("image");
+  const fs::path image = folder / named, beside = folder / named.filename();
+  std::error_code ignored;
+  if (fs::exists(image, ignored)) return image;
+  if (fs::exists(beside, ignored)) return beside;
+  map.fail("image", "is '" + named.string() + "', which is not there" +
+                        (image == beside ? "" : ", nor is '" + beside.string() + "'"));
+}
+
 /// Whether a picture has no greys but what map savers write; white is what it is mended with.
 bool isOfMapSaver(const cv::Mat& image) {
   return std::all_of(image.begin<std::uint8_t>(), image.end<std::uint8_t>(), [](auto grey) {
@@ -137,7 +148,7 @@ OccupancyGrid loadMapServer(const fs::path& yaml) {
   if (map.text("mode", "trinary") != "trinary") {
     map.fail("mode", "is '" + map.text("mode") + "', and only 'trinary' can be read");
   }
-  return gridFromImage(yaml.parent_path() / map.text("image"), cell_size_m, params);
+  return gridFromImage(findImage(map, yaml.parent_path()), cell_size_m, params);
 }
 
 bool isMapServerFile(const fs::path& file) {

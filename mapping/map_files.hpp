@@ -35,8 +35,9 @@ struct MapImageParams {
 OccupancyGrid gridFromImage(const std::filesystem::path& file, double cell_size_m,
                             const MapImageParams& params = {});
 
-/// Reads a map_server pair; the image's path is relative to the YAML file. Only the mode "trinary"
-/// and maps whose origin is not turned (yaw 0) are read.
+/// Reads a map_server pair; the image's path is relative to the YAML file, and where it is not
+/// there, the file of its name beside the YAML file is read. Only the mode "trinary" and maps whose
+/// origin is not turned (yaw 0) are read.
 /// @throws std::runtime_error  one sentence that names the file and the reason.
 OccupancyGrid loadMapServer(const std::filesystem::path& yaml);
 

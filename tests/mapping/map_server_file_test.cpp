@@ -122,12 +122,22 @@ TEST_F(MapServerFile, WhatIsWrongGetsASentenceWithTheKey) {
               AllOf(HasSubstr("none.yaml"), HasSubstr("no such file")));
 }
 
+TEST_F(MapServerFile, AnImageThatWasElsewhereIsFoundBesideTheYaml) {
+  EXPECT_EQ(load(with("image", "/home/robot/maps/map.pgm")).cells(), load(kYaml).cells());
+  const std::string gone = whyNot(with("image", "/home/robot/maps/gone.pgm"));
+  EXPECT_THAT(gone, AllOf(HasSubstr("map.yaml, line 1: 'image' of the map"),
+                          HasSubstr("'/home/robot/maps/gone.pgm', which is not there, nor is '" +
+                                    (folder_ / "gone.pgm").string() + "'")));
+  folder_.write("maps/map.pgm", std::string("P5\n1 1\n255\n\x00", 12));
+  EXPECT_EQ(load(with("image", "maps/map.pgm")).width(), 1) << "what is named comes first";
+}
+
 TEST_F(MapServerFile, ABadImageIsNamed) {
   const auto imageIs = [&](const std::string& name, const std::string& bytes) {
     folder_.write(name, bytes);
     return whyNot(with("image", name));
   };
-  EXPECT_THAT(whyNot(with("image", "none.png")), HasSubstr("none.png cannot be read"));
+  EXPECT_THAT(whyNot(with("image", "none.png")), HasSubstr("'none.png', which is not there"));
   EXPECT_THAT(imageIs("cut.pgm", "P5\n3 2\n255\n12345"), HasSubstr("cut.pgm: the image is trunc"));
   EXPECT_THAT(imageIs("head.pgm", "P5\n3"), HasSubstr("head.pgm: the image"));
   EXPECT_THAT(imageIs("huge.pgm", "P5\n99999999 99999999\n255\n1"), HasSubstr("truncated"));
