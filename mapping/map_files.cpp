@@ -7,11 +7,12 @@
 #include <heel/mapping/map_files.hpp>
 
 #include <octomap/OcTree.h>
-#include <opencv2/core/mat.hpp>
+#include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <sstream>
 #include <stdexcept>
@@ -55,17 +56,17 @@ bool isTruncated(const std::string& bytes) {
   return bytes.size() < at + 1 + samples * (numbers[2] > 255 ? 2U : 1U);
 }
 
-cv::Mat readImage(const fs::path& file) {
+/// @param bytes_per_pixel  What the picture takes, and what is made of it.
+cv::Mat readImage(const fs::path& file, cv::ImreadModes mode, std::size_t bytes_per_pixel) {
   const std::string bytes = readWholeFile(file);
   if (bytes.empty()) fail(file, "the image is empty (0 bytes)");
   if (isTruncated(bytes)) fail(file, "the image is truncated");
-  constexpr std::size_t kBytesPerPixel = 2;  // the picture's, and then the cell's
   checkImageMemory(file.string() + ": the image",
                    reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(),
-                   kBytesPerPixel);
+                   bytes_per_pixel);
   cv::Mat image;
   try {
-    image = cv::imdecode(std::vector<char>(bytes.begin(), bytes.end()), cv::IMREAD_GRAYSCALE);
+    image = cv::imdecode(std::vector<char>(bytes.begin(), bytes.end()), mode);
   } catch (const cv::Exception&) {
     // The sentence below says all that a reader can use.
   }
@@ -80,11 +81,15 @@ bool readFlag(YamlMap& map, const std::string& key) {
 }
 
 Eigen::Vector2d readOrigin(YamlMap& map) {
+  // A whole turn in six digits is none; it moves the far corner of a 200 m map by 2 mm.
+  constexpr double kNoTurn_rad = 1e-5;
   const Eigen::Vector3d origin = map.point3("origin");
-  if (origin.z() != 0.0) {
-    char reason[100];
+  if (std::abs(std::remainder(origin.z(), 2.0 * M_PI)) > kNoTurn_rad) {
+    char reason[200];
     std::snprintf(reason, sizeof reason,
-                  "is turned by %g rad, and only maps that are not turned can be read", origin.z());
+                  "is turned by %g rad, and only maps that are not turned can be read: turn the "
+                  "picture counter-clockwise by that, and give its new lower left corner and yaw 0",
+                  origin.z());
     map.fail("origin", reason);
   }
   return origin.head<2>();
@@ -108,6 +113,30 @@ bool isOfMapSaver(const cv::Mat& image) {
   });
 }
 
+/// Where a picture is not opaque; empty if it has no alpha channel.
+cv::Mat transparentPixels(const fs::path& file) {
+  constexpr std::size_t kBytesPerPixel = 14;  // four channels of 16 bits, alpha, mask, grey, cell
+  const cv::Mat image = readImage(file, cv::IMREAD_UNCHANGED, kBytesPerPixel);
+  if (image.channels() != 4) return {};
+  cv::Mat alpha;
+  cv::extractChannel(image, alpha, 3);
+  return alpha < (alpha.depth() == CV_16U ? 65535 : 255);
+}
+
+/// Where a picture says nothing, whatever its thresholds; empty: nowhere.
+cv::Mat unknownPixels(const fs::path& file, const cv::Mat& image, const MapImageParams& params) {
+  constexpr int kMostPercent = 100;
+  if (params.mode == MapImageMode::kRaw) return image > kMostPercent;
+  if (params.mode == MapImageMode::kScale) return transparentPixels(file);
+  return !params.negate && isOfMapSaver(image) ? cv::Mat(image == kUnknownPixel) : cv::Mat();
+}
+
+/// How occupied a pixel is: 0 to 1.
+double occupancyOf(std::uint8_t grey, const MapImageParams& params) {
+  if (params.mode == MapImageMode::kRaw) return grey / 100.0;
+  return (params.negate ? grey : 255 - grey) / 255.0;
+}
+
 }  // namespace
 
 OccupancyGrid gridFromImage(const fs::path& file, double cell_size_m,
@@ -117,14 +146,15 @@ OccupancyGrid gridFromImage(const fs::path& file, double cell_size_m,
     throw std::invalid_argument("a map's thresholds must be 0 <= free <= occupied <= 1");
   }
   if (!(cell_size_m > 0.0)) throw std::invalid_argument("a pixel's edge must be positive");
-  const cv::Mat image = readImage(file);
-  const bool is_saved = !params.negate && isOfMapSaver(image);
+  constexpr std::size_t kBytesPerPixel = 3;  // the picture's, the mask's, the cell's
+  const cv::Mat image = readImage(file, cv::IMREAD_GRAYSCALE, kBytesPerPixel);
+  const cv::Mat unknown = unknownPixels(file, image, params);
   OccupancyGrid grid(params.origin_m, cell_size_m, image.cols, image.rows, Occupancy::kUnknown);
   for (int y = 0; y < grid.height(); ++y) {
-    const auto* row = image.ptr<std::uint8_t>(grid.height() - 1 - y);
+    const int v = grid.height() - 1 - y;
     for (int x = 0; x < grid.width(); ++x) {
-      const double p = (params.negate ? row[x] : 255 - row[x]) / 255.0;
-      if (is_saved && row[x] == kUnknownPixel) continue;
+      if (!unknown.empty() && unknown.at<std::uint8_t>(v, x) != 0) continue;
+      const double p = occupancyOf(image.at<std::uint8_t>(v, x), params);
       if (p > params.occupied_thresh) grid.at(GridCell{x, y}) = Occupancy::kOccupied;
       if (p < params.free_thresh) grid.at(GridCell{x, y}) = Occupancy::kFree;
     }
@@ -145,9 +175,7 @@ OccupancyGrid loadMapServer(const fs::path& yaml) {
   if (params.free_thresh > params.occupied_thresh) {
     map.fail("free_thresh", "is over 'occupied_thresh'");
   }
-  if (map.text("mode", "trinary") != "trinary") {
-    map.fail("mode", "is '" + map.text("mode") + "', and only 'trinary' can be read");
-  }
+  params.mode = static_cast<MapImageMode>(map.choice("mode", {"trinary", "scale", "raw"}, 0));
   return gridFromImage(findImage(map, yaml.parent_path()), cell_size_m, params);
 }
 

@@ -13,17 +13,25 @@
 
 namespace heel {
 
-/// How a picture's brightness becomes occupancy, as map_server's "trinary" mode: with p = 1 for
-/// black and 0 for white, p > occupied_thresh is a wall, p < free_thresh is free, the rest is
-/// unknown. Colours count by their brightness; an alpha channel is not looked at. In a picture that
-/// has no greys but 0, 205, 254 and 255, as map_saver writes it, 205 is unknown whatever
-/// free_thresh is, unless `negate`: under Nav2's own 0.25 it would be free.
+/// How a picture's greys become occupancy: map_server's modes.
+enum class MapImageMode {
+  kTrinary,  ///< By both thresholds.
+  kScale,    ///< The same, but pixels that are not opaque are unknown.
+  kRaw,      ///< A grey from 0 to 100 is the occupancy in percent, the others are unknown.
+};
+
+/// How a picture's brightness becomes occupancy, as in map_server: with p = 1 for black and 0 for
+/// white, p > occupied_thresh is a wall, p < free_thresh is free, the rest is unknown. Colours
+/// count by their brightness; an alpha channel is looked at in the mode kScale only. In a picture
+/// that has no greys but 0, 205, 254 and 255, as map_saver writes it in the mode kTrinary, 205 is
+/// unknown whatever free_thresh is, unless `negate`: under Nav2's own 0.25 it would be free.
 struct MapImageParams {
   /// Place of the picture's lower left corner.
   Eigen::Vector2d origin_m = Eigen::Vector2d::Zero();
-  bool negate = false;            ///< Whether white is occupied (p = 1) and black free.
-  double occupied_thresh = 0.65;  ///< A pixel whose p is greater than this is a wall.
-  double free_thresh = 0.196;     ///< A pixel whose p is less than this is free.
+  bool negate = false;  ///< Whether white is occupied (p = 1) and black free; not of kRaw.
+  double occupied_thresh = 0.65;               ///< A pixel whose p is greater than this is a wall.
+  double free_thresh = 0.196;                  ///< A pixel whose p is less than this is free.
+  MapImageMode mode = MapImageMode::kTrinary;  ///< What greys mean.
 };
 
 /// Reads a picture (PGM, PNG, ...) as a floor plan; its upper row has the largest y.
@@ -36,8 +44,8 @@ OccupancyGrid gridFromImage(const std::filesystem::path& file, double cell_size_
                             const MapImageParams& params = {});
 
 /// Reads a map_server pair; the image's path is relative to the YAML file, and where it is not
-/// there, the file of its name beside the YAML file is read. Only the mode "trinary" and maps whose
-/// origin is not turned (yaw 0) are read.
+/// there, the file of its name beside the YAML file is read. Only maps whose origin is not turned
+/// (yaw 0) are read.
 /// @throws std::runtime_error  one sentence that names the file and the reason.
 OccupancyGrid loadMapServer(const std::filesystem::path& yaml);
 

@@ -98,9 +98,54 @@ TEST_F(MapServerFile, IsReadBackAsItWasWritten) {
               HasSubstr("folder.pgm cannot be written: No such file"));
 }
 
+TEST_F(MapServerFile, ScaleLeavesUnknownWhatIsNotOpaqueOrBetweenTheThresholds) {
+  cv::Mat picture(1, 5, CV_8UC4);
+  const cv::Vec4b pixels[] = {{0, 0, 0, 255},
+                              {254, 254, 254, 255},
+                              {128, 128, 128, 255},
+                              {0, 0, 0, 254},
+                              {254, 254, 254, 0}};
+  std::copy(std::begin(pixels), std::end(pixels), picture.begin<cv::Vec4b>());
+  cv::Mat in_16_bits;
+  picture.convertTo(in_16_bits, CV_16U, 257.0);
+  cv::imwrite(folder_ / "scale.png", picture);
+  cv::imwrite(folder_ / "scale16.png", in_16_bits);
+  const std::vector<Occupancy> truth = {Occupancy::kOccupied, Occupancy::kFree, Occupancy::kUnknown,
+                                        Occupancy::kUnknown, Occupancy::kUnknown};
+  EXPECT_EQ(load(with("image", "scale.png") + "mode: scale\n").cells(), truth);
+  EXPECT_EQ(load(with("image", "scale16.png") + "mode: scale\n").cells(), truth);
+  // Without an alpha channel all is opaque; and 205 is a shade like others.
+  EXPECT_EQ(load(with("free_thresh", "0.25") + "mode: scale\n").at(GridCell{2, 1}),
+            Occupancy::kFree);
+}
+
+TEST_F(MapServerFile, RawGreysArePercent) {
+  folder_.write("map.pgm", std::string("P5\n6 1\n255\n\x00\x13\x14\x41\x42\x64", 17));
+  const std::vector<Occupancy> truth = {Occupancy::kFree,     Occupancy::kFree,
+                                        Occupancy::kUnknown,  Occupancy::kUnknown,
+                                        Occupancy::kOccupied, Occupancy::kOccupied};
+  EXPECT_EQ(load(with("mode", "raw")).cells(), truth) << "0, 19, 20, 65, 66, 100 percent";
+  EXPECT_EQ(load(with("negate", "1") + "mode: raw\n").cells(), truth) << "as map_server has it";
+  folder_.write("map.pgm", "P5\n2 1\n255\n\x65\xFF");
+  EXPECT_EQ(load(with("mode", "raw")).cells(),
+            (std::vector<Occupancy>{Occupancy::kUnknown, Occupancy::kUnknown}))
+      << "over 100";
+}
+
+TEST_F(MapServerFile, AWholeTurnOrNearlyNoneIsNone) {
+  for (const char* yaw : {"1e-6", "-1e-6", "6.283185307", "-6.28319", "12.5663706"}) {
+    EXPECT_EQ(load(with("origin", std::string("[-1, 2, ") + yaw + "]")).origin_m(),
+              Eigen::Vector2d(-1.0, 2.0))
+        << yaw;
+  }
+}
+
 TEST_F(MapServerFile, ATurnedOriginIsRefusedInAClearSentence) {
   EXPECT_THAT(whyNot(with("origin", "[0, 0, 0.3]")),
-              AllOf(HasSubstr("map.yaml"), HasSubstr("turned by 0.3 rad")));
+              AllOf(HasSubstr("map.yaml"), HasSubstr("turned by 0.3 rad"),
+                    HasSubstr("turn the picture counter-clockwise")));
+  EXPECT_THAT(whyNot(with("origin", "[0, 0, 3.14159265]")), HasSubstr("turned by 3.14159 rad"));
+  EXPECT_THAT(whyNot(with("origin", "[0, 0, -0.0001]")), HasSubstr("turned by -0.0001 rad"));
 }
 
 TEST_F(MapServerFile, WhatIsWrongGetsASentenceWithTheKey) {
@@ -109,7 +154,7 @@ TEST_F(MapServerFile, WhatIsWrongGetsASentenceWithTheKey) {
       {"resolution", "1e9"},      {"resolution", "1e-9"}, {"origin", "[1e300, 0, 0]"},
       {"resolution", "[1, 2]"},   {"origin", "[0, 0]"},   {"origin", "[.inf, 0, 0]"},
       {"negate", "perhaps"},      {"free_thresh", "0.9"}, {"occupied_thresh", "65"},
-      {"free_thresh", "several"}, {"mode", "scale"}};
+      {"free_thresh", "several"}, {"mode", "grey"}};
   for (const auto& [key, value] : wrong) {
     EXPECT_THAT(whyNot(with(key, value)),
                 AllOf(HasSubstr("map.yaml, line "), HasSubstr("'" + key + "' of the map")))
