@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/recording/bags/bag_cloud.hpp>
+#include <heel/apps/recording/clouds/cloud_places.hpp>
 
 #include <pcl/PCLPointCloud2.h>
 #include <pcl/common/io.h>
@@ -15,13 +16,8 @@ namespace heel {
 namespace {
 
 void checkFields(const pcl::PCLPointCloud2& blob) {
-  for (const char* name : {"x", "y", "z"}) {
-    const int field = pcl::getFieldIndex(blob, name);
-    if (field < 0) throw std::runtime_error("the cloud has no fields x, y and z");
-    if (blob.fields[static_cast<std::size_t>(field)].datatype != pcl::PCLPointField::FLOAT32) {
-      throw std::runtime_error(std::string("the field ") + name + " does not hold 32-bit floats");
-    }
-  }
+  const std::string wrong = wrongWithPlaces(blob);
+  if (!wrong.empty()) throw std::runtime_error(wrong);
   if (pcl::getFieldIndex(blob, "rgb") < 0 && pcl::getFieldIndex(blob, "rgba") < 0) {
     throw std::runtime_error("the cloud has no colour (no field rgb or rgba)");
   }
@@ -57,6 +53,7 @@ ColorCloud::ConstPtr toColorCloud(const PointCloud2Msg& message) {
     throw std::runtime_error("the cloud has fewer bytes than its size needs");
   }
   blob.data = message.data;
+  makePlacesShort(blob);
   const auto cloud = pcl::make_shared<ColorCloud>();
   pcl::fromPCLPointCloud2(blob, *cloud);
   if (std::none_of(cloud->begin(), cloud->end(), [](const auto& p) { return pcl::isFinite(p); })) {

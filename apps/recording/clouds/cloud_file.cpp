@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/recording/clouds/cloud_file.hpp>
+#include <heel/apps/recording/clouds/cloud_places.hpp>
 #include <heel/apps/recording/clouds/pcd_file.hpp>
 #include <heel/apps/recording/clouds/ply_file.hpp>
 #include <heel/apps/recording/folders/indexed_recording.hpp>
 
 #include <glob.h>
-#include <pcl/common/io.h>
 #include <pcl/common/point_tests.h>
 #include <pcl/console/print.h>
 #include <pcl/conversions.h>
@@ -57,13 +57,8 @@ bool endsIn(const fs::path& file, const std::string& ending) {
 
 /// What layout a cloud's fields have; fails if it lacks places or points.
 void takeLayout(const fs::path& file, const pcl::PCLPointCloud2& layout, CloudFacts& facts) {
-  for (const char* axis : {"x", "y", "z"}) {
-    const int field = pcl::getFieldIndex(layout, axis);
-    if (field < 0) fail(file, "the cloud has no fields x, y and z");
-    if (layout.fields[static_cast<std::size_t>(field)].datatype != pcl::PCLPointField::FLOAT32) {
-      fail(file, std::string("the field ") + axis + " does not hold 32-bit floats");
-    }
-  }
+  const std::string wrong = wrongWithPlaces(layout);
+  if (!wrong.empty()) fail(file, wrong);
   facts.fields.clear();
   facts.color_field.clear();
   for (const auto& field : layout.fields) {
@@ -121,6 +116,7 @@ void readPcdData(const fs::path& file, CloudFile& cloud) {
     checkAsciiData(file, cloud.facts, header.data_start, header.values);
   }
   if (!readPcdPoints(file, header, cloud.blob)) fail(file, "the cloud is damaged");
+  makePlacesShort(cloud.blob);
 }
 
 void readPlyData(const fs::path& file, CloudFile& cloud) {

@@ -38,7 +38,7 @@ struct CloudFacts {
 /// A PCD or PLY file: all of its fields, and what Heel needs of them.
 struct CloudFile {
   CloudFacts facts;
-  pcl::PCLPointCloud2 blob;  ///< Every field of the file.
+  pcl::PCLPointCloud2 blob;  ///< Every field of the file; places are 32-bit floats.
   Eigen::Vector4f origin = Eigen::Vector4f::Zero();
   Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
   ColorCloud cloud;  ///< Its places and colours, point by point; black if it has no colours.
@@ -47,8 +47,8 @@ struct CloudFile {
 /// Whether the name ends as that of a cloud: .pcd or .ply.
 bool isCloudName(const std::filesystem::path& file);
 
-/// Reads a PCD or PLY file with fields x, y and z (32-bit floats); organized or not, with colours
-/// or without.
+/// Reads a PCD or PLY file with fields x, y and z (floats; what has 64 bits gets 32), organized or
+/// not, with colours or without.
 /// @throws std::runtime_error  with one sentence that names the file, if it is missing, truncated,
 ///         damaged or no cloud at all, or has no points, or none with finite coordinates.
 CloudFile readCloud(const std::filesystem::path& file);

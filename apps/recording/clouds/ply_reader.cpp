@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include <heel/apps/recording/clouds/cloud_places.hpp>
 #include <heel/apps/recording/clouds/ply_file.hpp>
 #include <heel/cloud/files.hpp>
 
@@ -332,6 +333,7 @@ void readPlyPoints(const fs::path& file, const PlyHeader& header, CloudFile& clo
     if (element.properties.empty()) continue;  // it has no data
     if (&element == header.find("vertex")) {
       readVertices(element, in, blob);
+      makePlacesShort(blob);
     } else if (element.name == "camera") {
       readCamera(element, in, cloud, columns, rows);
     } else if (element.name == "range_grid") {

@@ -420,6 +420,35 @@ TEST_P(BagRecordings, OfCloudsGiveTheirColoursAsAnImage) {
   EXPECT_EQ(read.last.image_bgr.at<cv::Vec3b>(2, 3), cv::Vec3b(0, 0, 200));
 }
 
+TEST_P(BagRecordings, OfCloudsMayHavePlacesOf64Bits) {
+  constexpr std::uint8_t kFloat32 = 7, kFloat64 = 8;
+  PointCloud2Msg cloud;
+  cloud.header = header(1.5);
+  cloud.width = 1;
+  cloud.height = 2;
+  cloud.points_fields = {{"x", 0, kFloat64, 1},
+                         {"y", 8, kFloat64, 1},
+                         {"z", 16, kFloat64, 1},
+                         {"rgb", 24, kFloat32, 1}};
+  cloud.point_step = 28;
+  cloud.row_step = 40;  // rows may be padded
+  cloud.data.assign(80, 0);
+  const double places[2][3] = {{0.1, -2.0, 3.0}, {1e300, 5.0, 6.0}};
+  for (std::size_t row = 0; row < 2; ++row) {
+    std::memcpy(&cloud.data[row * 40], places[row], sizeof places[row]);
+    cloud.data[row * 40 + 26] = 200;
+  }
+  const auto bag = createBag(path());
+  bag->write("/points", 1500000000, cloud);
+  bag->commit();
+  const Read read = readAll(path());
+  ASSERT_THAT(read.stamps_s, ElementsAre(1.5));
+  EXPECT_EQ(read.last.cloud->at(0, 0).getVector3fMap(), Eigen::Vector3f(0.1F, -2.0F, 3.0F));
+  EXPECT_EQ(read.last.cloud->at(0, 0).r, 200);
+  EXPECT_EQ(read.last.cloud->at(0, 1).z, 6.0F);
+  EXPECT_FALSE(read.last.cloud->is_dense) << "1e300 is no float of 32 bits";
+}
+
 TEST_P(BagRecordings, ThatAreCutOffGiveTheirBeginning) {
   auto bag = beginStereo();
   for (int i = 1; i <= 2000; ++i) {

@@ -6,9 +6,11 @@
 
 #include <gmock/gmock.h>
 #include <pcl/common/io.h>
+#include <pcl/conversions.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
 
+#include <cstring>
 #include <limits>
 
 namespace heel::test {
@@ -258,6 +260,81 @@ TEST(CloudFile, OfPlyIsReadWhateverItsPropertiesAndTheirOrder) {
            "3 0 0 0\n1 2 3 4 5\n");
   EXPECT_EQ(second.cloud[0].y, 2.0F);
   EXPECT_EQ(second.facts.fields, "x y z normal_x alpha");
+}
+
+/// Two points with places and normals of 64 bits, a colour, and a time that needs them.
+pcl::PCLPointCloud2 wideCloud() {
+  pcl::PCLPointCloud2 blob;
+  const auto add = [&](const std::string& name, std::uint8_t type) {
+    pcl::PCLPointField field;
+    field.name = name;
+    field.offset = blob.point_step;
+    field.datatype = type;
+    field.count = 1;
+    blob.fields.push_back(field);
+    blob.point_step += static_cast<std::uint32_t>(pcl::getFieldSize(type));
+  };
+  for (const char* name : {"x", "y", "z", "normal_x", "normal_y", "normal_z", "stamp"}) {
+    add(name, pcl::PCLPointField::FLOAT64);
+  }
+  add("rgba", pcl::PCLPointField::UINT32);
+  blob.width = 2;
+  blob.height = 1;
+  blob.row_step = 2 * blob.point_step;
+  for (const double shift : {0.0, 1.0}) {
+    const double values[] = {shift + 0.1, shift - 2.25, shift + 3.0,      0.0,
+                             -0.5,        1.0,          1700000000.123456};
+    const std::uint32_t color = 0xFF0A141E;
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(values);
+    blob.data.insert(blob.data.end(), bytes, bytes + sizeof values);
+    bytes = reinterpret_cast<const std::uint8_t*>(&color);
+    blob.data.insert(blob.data.end(), bytes, bytes + sizeof color);
+  }
+  return blob;
+}
+
+TEST(CloudFile, WhosePlacesHave64BitsGetsThemIn32HoweverItIsStored) {
+  const TempFolder folder;
+  pcl::PCDWriter writer;
+  writer.writeASCII((folder / "a.pcd").string(), wideCloud(), Eigen::Vector4f::Zero(),
+                    Eigen::Quaternionf::Identity(), 17);
+  writer.writeBinary((folder / "b.pcd").string(), wideCloud());
+  writer.writeBinaryCompressed((folder / "c.pcd").string(), wideCloud());
+  CloudFile wide;
+  wide.blob = wideCloud();
+  writeCloud(folder / "d.ply", wide);
+  for (const char* name : {"a.pcd", "b.pcd", "c.pcd", "d.ply"}) {
+    // What is written of it again is the same.
+    CloudFile cloud = readCloud(folder / name);
+    for (const char* again : {"", "again.pcd", "again.ply"}) {
+      if (*again != '\0') {
+        writeCloud(folder / again, cloud);
+        cloud = readCloud(folder / again);
+      }
+      EXPECT_EQ(cloud.facts.fields, "x y z normal_x normal_y normal_z stamp rgba") << name;
+      EXPECT_EQ(cloud.cloud[0].getVector3fMap(), Eigen::Vector3f(0.1F, -2.25F, 3.0F)) << name;
+      EXPECT_EQ(cloud.cloud[1].getVector3fMap(), Eigen::Vector3f(1.1F, -1.25F, 4.0F)) << name;
+      EXPECT_EQ(cloud.cloud[1].g, 20) << name;
+      pcl::PointCloud<pcl::PointNormal> normals;
+      pcl::fromPCLPointCloud2(cloud.blob, normals);
+      EXPECT_EQ(normals[1].normal_y, -0.5F) << name;
+      const auto stamp = static_cast<std::size_t>(pcl::getFieldIndex(cloud.blob, "stamp"));
+      double stamp_s = 0.0;
+      std::memcpy(&stamp_s, &cloud.blob.data[cloud.blob.fields[stamp].offset], sizeof stamp_s);
+      EXPECT_EQ(stamp_s, 1700000000.123456) << name;
+    }
+  }
+}
+
+TEST(CloudFile, OfPlyWith64BitsHasNoPlaceWhereItsGridHasNone) {
+  const TempFolder folder;
+  writeText(folder / "grid.ply",
+            plyText("element vertex 1\nproperty double x\nproperty double y\nproperty double z\n"
+                    "element range_grid 2\nproperty list uchar int vertex_indices\n",
+                    "1 2 3\n0\n1 0\n"));
+  const CloudFile grid = readCloud(folder / "grid.ply");
+  EXPECT_EQ(grid.facts.finite_points, 1U);
+  EXPECT_EQ(grid.cloud[1].z, 3.0F);
 }
 
 TEST(CloudFile, OfPlyKeepsThePictureThatItsGridOrItsCameraTells) {

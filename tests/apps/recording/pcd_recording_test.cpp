@@ -120,9 +120,9 @@ TEST(PcdFile, SaysWhyItIsOfNoUse) {
   EXPECT_EQ(messageOf([&] { openRecording(file); }), readMessage(file));
 
   writeText(file,
-            "VERSION .7\nFIELDS x y z rgb\nSIZE 4 8 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH 1\n"
+            "VERSION .7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F I F F\nCOUNT 1 1 1 1\nWIDTH 1\n"
             "HEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1\nDATA ascii\n1 2 3 4\n");
-  EXPECT_EQ(readMessage(file), name + ": the field y does not hold 32-bit floats");
+  EXPECT_EQ(readMessage(file), name + ": the field y does not hold floats (of 32 or 64 bits)");
 
   auto cloud = someCloud<pcl::PointXYZRGB>(4, 3);
   for (auto& p : cloud) p.z = std::numeric_limits<float>::quiet_NaN();
