@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/bag/bag.hpp>
+#include <heel/apps/bag/ros1_folder.hpp>
 #include <heel/apps/bag/ros2_folder.hpp>
 #ifdef HEEL_HAS_BAGS
 #include <heel/apps/bag/bag_sequence.hpp>
@@ -21,12 +22,6 @@ namespace heel {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// ".bag", and what a recorder calls a bag that it has not closed: ".bag.active".
-bool isRos1Name(const fs::path& path) {
-  return path.extension() == ".bag" ||
-         (path.extension() == ".active" && path.stem().extension() == ".bag");
-}
 
 bool holdsBagFile(const fs::path& folder) {
   return std::any_of(fs::directory_iterator(folder), fs::directory_iterator(),
@@ -50,16 +45,19 @@ bool BagReader::wants(const std::string& topic) const {
 bool isBag(const fs::path& path) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) {
-    return fs::exists(path / "metadata.yaml") || holdsBagFile(path);
+    return fs::exists(path / "metadata.yaml") || holdsBagFile(path) || isRos1Folder(path);
   }
-  return isRos1Name(path) || isRos2File(path);
+  return isRos1File(path) || isRos2File(path);
 }
 
 #ifdef HEEL_HAS_BAGS
 
 std::unique_ptr<BagReader> openBag(const fs::path& path) {
   if (!fs::exists(path)) throw std::runtime_error(path.string() + ": there is no such bag");
-  if (isRos1Name(path)) return std::make_unique<Ros1BagReader>(path);
+  if (fs::is_directory(path) && isRos1Folder(path)) {
+    return std::make_unique<BagSequence>(path, ros1Files(path));
+  }
+  if (isRos1File(path)) return std::make_unique<Ros1BagReader>(path);
   const std::vector<fs::path> files = ros2Files(path);
   if (files.front().extension() != ".mcap") return std::make_unique<Ros2BagReader>(path, files);
   if (files.size() == 1) return std::make_unique<McapBagReader>(files.front());

@@ -109,7 +109,8 @@ class BagReader {
 std::string printable(std::string_view name);
 
 /// Whether `path` is named like a bag: X.bag (ROS 1), X.db3, X.mcap, or a folder with a
-/// metadata.yaml, a .db3 or a .mcap in it (ROS 2).
+/// metadata.yaml, a .db3 or a .mcap in it (ROS 2), or with nothing to read but X.bag (ROS 1,
+/// split).
 bool isBag(const std::filesystem::path& path);
 
 /// @throws std::runtime_error  one sentence that names the file, if it is no bag or can't be read.

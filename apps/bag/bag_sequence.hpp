@@ -11,7 +11,7 @@
 
 namespace heel {
 
-/// The MCAP files of a ROS 2 bag, one after the other.
+/// The MCAP files of a ROS 2 bag, or the pieces of a ROS 1 bag, one after the other.
 class BagSequence final : public BagReader {
  public:
   /// @throws std::runtime_error  if none of them can be opened.

@@ -31,7 +31,8 @@ std::unique_ptr<IndexedRecording> openFiles(const fs::path& path, const Recordin
       " holds no recording of a known layout, which are: an RGB-D folder in the TUM layout "
       "(rgb.txt, depth.txt, camera.yaml), stereo images (left/ and right/, image_0/ and image_1/, "
       "cam0/ and cam1/, left*.png and right*.png, or im0.png and im1.png; with calib.yaml, "
-      "left.yaml and right.yaml, or calib.txt), PCD files (*.pcd), and ROS 2 bags (*.db3, *.mcap)");
+      "left.yaml and right.yaml, or calib.txt), PCD files (*.pcd), ROS 2 bags (*.db3, *.mcap), and "
+      "the pieces of a ROS 1 bag (*.bag, and nothing else)");
 }
 
 }  // namespace

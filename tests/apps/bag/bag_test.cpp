@@ -297,6 +297,53 @@ TEST(Ros1Bag, OfTheOldFormatSaysHowToConvertIt) {
   EXPECT_THAT(messageOf([&] { openBag(path); }), HasSubstr("rosbag fix"));
 }
 
+/// As `rosbag record --split` leaves it; by their names, the last piece comes first.
+class Ros1Pieces : public testing::Test {
+ protected:
+  void write(const std::string& name, std::vector<int> scans) {
+    const auto bag = createBag(pieces() / name);
+    for (const int i : scans) bag->write("/scan", i * 100000000LL, scanOf(i));
+    bag->commit();
+  }
+  std::filesystem::path pieces() const { return folder_ / "pieces"; }
+  TempFolder folder_;
+};
+
+TEST_F(Ros1Pieces, AreReadInTheOrderOfTheirTimes) {
+  write("robot_9.bag", {1, 2});
+  write("robot_10.bag", {3, 4});
+  write("a_robot_11.bag", {5});
+  writeText(pieces() / "notes.txt", "in the kitchen");
+  EXPECT_TRUE(isBag(pieces()));
+  EXPECT_EQ(readScans(pieces()), (std::vector<int>{1, 2, 3, 4, 5}));
+  const auto bag = openBag(pieces());
+  EXPECT_EQ(bag->form(), BagForm::kRos1);
+  EXPECT_EQ(bag->topics().size(), 1U);
+  ASSERT_NE(bag->index(), nullptr);
+  EXPECT_EQ(bag->index()->topics[0].count, 5U);
+}
+
+TEST_F(Ros1Pieces, WithABrokenOneGiveTheOthersAndSaySo) {
+  write("robot_0.bag", {1, 2});
+  writeText(pieces() / "robot_1.bag", "nothing of a bag");
+  std::string lost;
+  EXPECT_EQ(readScans(pieces(), &lost), (std::vector<int>{1, 2}));
+  EXPECT_THAT(lost, HasSubstr("robot_1.bag can't be read"));
+}
+
+TEST_F(Ros1Pieces, ThatWereRecordedAtTheSameTimeAreNoPieces) {
+  write("camera.bag", {1, 50});
+  write("laser.bag", {10, 60});
+  EXPECT_THAT(messageOf([&] { openBag(pieces()); }),
+              HasSubstr("pieces: camera.bag and laser.bag were recorded at the same time"));
+}
+
+TEST_F(Ros1Pieces, BesideOtherFilesAreNoBag) {
+  write("robot_0.bag", {1});
+  writeText(pieces() / "tracks.csv", "");
+  EXPECT_FALSE(isBag(pieces()));
+}
+
 TEST(Ros2Bag, InAStorageThatWeCannotReadIsAnErrorThatNamesIt) {
   const TempFolder folder;
   writeText(

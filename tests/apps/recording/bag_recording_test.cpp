@@ -244,6 +244,40 @@ TEST_P(BagRecordings, FindsTheCameraOnTheRobotInTf) {
               HasSubstr("is on 'torso'; it is on 'base_footprint', 'base_link'"));
 }
 
+TEST(Ros1Pieces, KnowInTheLastWhatTfAndCameraInfoSaidInTheFirst) {
+  const TempFolder folder;
+  TFMessageMsg tf;
+  tf.transforms.resize(1);
+  tf.transforms[0].header = header(0.0, "base_link");
+  tf.transforms[0].child_frame_id = "optical";
+  tf.transforms[0].transform.translation.z = 1.5;
+  for (const int piece : {0, 1}) {
+    const auto bag = createBag(folder / ("pieces/robot_" + std::to_string(piece) + ".bag"));
+    if (piece == 0) {
+      bag->write("/tf_static", 1, tf, true);
+      bag->write("/left/camera_info", 1, cameraInfo(0.0));
+      bag->write("/right/camera_info", 1, cameraInfo(-3.0));
+    }
+    for (int i = 1; i <= 30; ++i) {
+      const double s = 3.0 * piece + 0.1 * i;
+      for (const char* topic : {"/left/image_raw", "/right/image_raw"}) {
+        bag->write(topic, std::llround(s * 1e9), image(s, "mono8", i, 1));
+      }
+    }
+    bag->commit();
+  }
+  for (const double from_s : {0.0, 4.0}) {
+    TimeSpan span;
+    span.from_s = from_s;
+    const Read read = readAll(folder / "pieces", {}, span);
+    EXPECT_THAT(read.numbers, SizeIs(from_s == 0.0 ? 60 : 21)) << from_s;
+    EXPECT_DOUBLE_EQ(read.stamps_s.back(), 6.0);
+    ASSERT_TRUE(read.info.T_base_camera) << from_s;
+    EXPECT_EQ(read.info.T_base_camera->translation().z(), 1.5);
+    EXPECT_THAT(read.skipped, IsEmpty());
+  }
+}
+
 TEST_P(BagRecordings, TakesATopicByItsNameWithoutWhatCompressionAddsToIt) {
   const auto bag = beginStereo();
   for (const auto& [topic, value] : {std::pair(left_, 10), std::pair(right_, 90)}) {
