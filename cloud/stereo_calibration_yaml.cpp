@@ -246,12 +246,9 @@ CameraInfo readOne(const fs::path& file) {
   }
   const YAML::Node model = find(root, {"distortion_model"});
   const std::string name = model && model.IsScalar() ? model.Scalar() : "plumb_bob";
-  if (name != "plumb_bob" && name != "rational_polynomial" && !name.empty()) {
-    fail(file.string(),
-         "the distortion model " + name + " is not known (plumb_bob, rational_polynomial)");
-  }
   info.camera.K = readMatrix(file, root, {"camera_matrix", "K", "k"}, 3, 3);
-  info.camera.distortion = readMatrix(file, root, {"distortion_coefficients", "D", "d"}, 0, 0);
+  setDistortion(file.string(), name,
+                readMatrix(file, root, {"distortion_coefficients", "D", "d"}, 0, 0), info.camera);
   info.camera.R = readMatrix(file, root, {"rectification_matrix", "R", "r"}, 3, 3);
   info.camera.P = readMatrix(file, root, {"projection_matrix", "P", "p"}, 3, 4);
   return info;
@@ -313,7 +310,7 @@ StereoRig readOpenCvCalibration(const std::vector<fs::path>& files, cv::Size ima
     if (cv::norm(T) < 1e-9) fail(stored.origin(), "there is no baseline between the cameras");
     if (size.empty()) fail(stored.origin(), "the size of the images is not given");
     for (const RawCamera* raw : {&left, &right}) {
-      checkDistortion(stored.origin(), raw->distortion.total());
+      checkDistortion(stored.origin(), *raw);
     }
     cv::Mat Q;
     cv::stereoRectify(left.K, left.distortion, right.K, right.distortion, size, R, T.reshape(1, 3),

@@ -61,7 +61,24 @@ bool isIdentity(const RawCamera& camera) {
 
 }  // namespace
 
-void checkDistortion(const std::string& origin, std::size_t numbers) {
+void setDistortion(const std::string& origin, const std::string& model, const cv::Mat& numbers,
+                   RawCamera& camera) {
+  if (numbers.empty() || cv::norm(numbers, cv::NORM_INF) < 1e-12) return;
+  camera.is_fisheye = model == "equidistant";
+  if (!camera.is_fisheye && model != "plumb_bob" && model != "rational_polynomial" &&
+      !model.empty()) {
+    throw std::runtime_error(origin + ": the distortion model " + model +
+                             " is not known (plumb_bob, rational_polynomial, equidistant)");
+  }
+  camera.distortion = numbers.reshape(1, 1).clone();
+}
+
+void checkDistortion(const std::string& origin, const RawCamera& camera) {
+  const std::size_t numbers = camera.distortion.total();
+  if (camera.is_fisheye && numbers != 4) {
+    throw std::runtime_error(origin + ": a distortion of " + std::to_string(numbers) +
+                             " numbers is not known of the model equidistant (4)");
+  }
   for (const std::size_t known : {0U, 4U, 5U, 8U, 12U, 14U}) {
     if (numbers == known) return;
   }
@@ -69,16 +86,25 @@ void checkDistortion(const std::string& origin, std::size_t numbers) {
                            " numbers is not known (4, 5, 8, 12 or 14)");
 }
 
+void makeRectifyMaps(const RawCamera& camera, cv::Size image_size, int type, cv::Mat& first,
+                     cv::Mat& second) {
+  if (camera.is_fisheye) {
+    cv::fisheye::initUndistortRectifyMap(camera.K, camera.distortion, camera.R, camera.P,
+                                         image_size, type, first, second);
+  } else {
+    cv::initUndistortRectifyMap(camera.K, camera.distortion, camera.R, camera.P, image_size, type,
+                                first, second);
+  }
+}
+
 StereoRig::StereoRig(RawCamera left, RawCamera right, cv::Size image_size,
                      const std::string& origin)
     : camera_(rectifiedCamera(left.P, right.P, image_size)) {
   check(camera_, left.P, right.P, origin);
-  for (const RawCamera* raw : {&left, &right}) checkDistortion(origin, raw->distortion.total());
+  for (const RawCamera* raw : {&left, &right}) checkDistortion(origin, *raw);
   if (isIdentity(left) && isIdentity(right)) return;
-  cv::initUndistortRectifyMap(left.K, left.distortion, left.R, left.P, image_size, CV_16SC2,
-                              left_map_, left_weights_);
-  cv::initUndistortRectifyMap(right.K, right.distortion, right.R, right.P, image_size, CV_16SC2,
-                              right_map_, right_weights_);
+  makeRectifyMaps(left, image_size, CV_16SC2, left_map_, left_weights_);
+  makeRectifyMaps(right, image_size, CV_16SC2, right_map_, right_weights_);
 }
 
 StereoRig::StereoRig(const StereoCamera& camera) : camera_(camera) {

@@ -13,18 +13,30 @@
 
 namespace heel {
 
-/// One camera as calibrated: u = K distort(X / Z, Y / Z), OpenCV's model.
+/// One camera as calibrated: u = K distort(X / Z, Y / Z), by OpenCV's model or its fisheye model.
 struct RawCamera {
-  cv::Mat K;           ///< 3x3, CV_64F.
-  cv::Mat distortion;  ///< 1xN, N = 4, 5, 8, 12 or 14, CV_64F; empty: none.
-  cv::Mat R;           ///< 3x3: rotates the camera's frame into the rectified one.
-  cv::Mat P;           ///< 3x4: projects the rectified frame.
+  cv::Mat K;                ///< 3x3, CV_64F.
+  cv::Mat distortion;       ///< 1xN, N = 4, 5, 8, 12 or 14 (fisheye: 4), CV_64F; empty: none.
+  cv::Mat R;                ///< 3x3: rotates the camera's frame into the rectified one.
+  cv::Mat P;                ///< 3x4: projects the rectified frame.
+  bool is_fisheye = false;  ///< Whether the distortion is that of the fisheye model.
 };
 
+/// Sets a camera's distortion by the name that ROS has for its model: plumb_bob (also without a
+/// name), rational_polynomial, or equidistant, which is the fisheye model. Where all numbers are 0
+/// there is none, whatever the model, as ROS has it.
+/// @throws std::runtime_error  one sentence that begins with `origin`, if the model is not known.
+void setDistortion(const std::string& origin, const std::string& model, const cv::Mat& numbers,
+                   RawCamera& camera);
+
 /// @throws std::runtime_error  one sentence that begins with `origin`, if a camera has a distortion
-/// of
-///         so many numbers as OpenCV has no model for.
-void checkDistortion(const std::string& origin, std::size_t numbers);
+///         of so many numbers as OpenCV has no model for.
+void checkDistortion(const std::string& origin, const RawCamera& camera);
+
+/// Makes the maps by which cv::remap rectifies a camera's images.
+/// @param type  Of the first map: CV_16SC2 or CV_32FC1.
+void makeRectifyMaps(const RawCamera& camera, cv::Size image_size, int type, cv::Mat& first,
+                     cv::Mat& second);
 
 /// Two calibrated cameras. Immutable once made; `const` members are thread-safe.
 class StereoRig {

@@ -12,6 +12,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include <filesystem>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -374,6 +375,44 @@ TEST_F(StereoCalibration, ReadsAPairOfRosFiles) {
   EXPECT_TRUE(readStereoRig(folder_.path()).isRectified());
 }
 
+/// `camera_info` of a fisheye, turned in its pair.
+std::string fisheyeInfo(const cv::Mat& R, double minus_fx_baseline) {
+  std::ostringstream text;
+  text << "height: 480\nwidth: 640\ndistortion_model: equidistant\nD: [-0.1, 0.02, 0.01, 0.001]\n"
+       << "K: [300, 0, 325, 0, 301, 236, 0, 0, 1]\nR: " << R.reshape(1, 1) << "\nP: [280, 0, 320, "
+       << minus_fx_baseline << ", 0, 280, 240, 0, 0, 0, 1, 0]\n";
+  return text.str();
+}
+
+TEST_F(StereoCalibration, OfFisheyesRectifiesByTheirModel) {
+  cv::Mat turned[2];
+  cv::Rodrigues(cv::Vec3d(0.02, -0.03, 0.01), turned[0]);
+  cv::Rodrigues(cv::Vec3d(-0.01, 0.02, -0.02), turned[1]);
+  const StereoRig rig = readCameraInfo(write("l.yaml", fisheyeInfo(turned[0], 0.0)),
+                                       write("r.yaml", fisheyeInfo(turned[1], -28.0)));
+  EXPECT_DOUBLE_EQ(rig.camera().baseline_m, 0.1);
+  const cv::Matx33d K(300, 0, 325, 0, 301, 236, 0, 0, 1);
+  for (const cv::Vec3d& point : {cv::Vec3d(0.1, 0.0, 1.5), cv::Vec3d(-1.2, 0.6, 2.0)}) {
+    cv::Mat raw[2], rectified[2];
+    for (const int side : {0, 1}) {
+      // R takes the camera's frame to the rectified one, in which the right camera is 0.1 m aside.
+      const cv::Vec3d seen = point - cv::Vec3d(0.1 * side, 0.0, 0.0);
+      cv::Mat rotation;
+      cv::Rodrigues(turned[side].t(), rotation);
+      std::vector<cv::Point2d> pixel;
+      cv::fisheye::projectPoints(std::vector<cv::Point3d>{cv::Point3d(seen)}, pixel, rotation,
+                                 cv::Vec3d(), K, cv::Vec4d(-0.1, 0.02, 0.01, 0.001));
+      raw[side] = spotImage(pixel[0]);
+    }
+    rig.rectify(raw[0], raw[1], rectified[0], rectified[1]);
+    for (const int side : {0, 1}) {
+      const cv::Point2d at = spot(rectified[side]);
+      EXPECT_NEAR(at.x, 320 + 280 * (point[0] - 0.1 * side) / point[2], 0.3) << side;
+      EXPECT_NEAR(at.y, 240 + 280 * point[1] / point[2], 0.3) << side;
+    }
+  }
+}
+
 TEST_F(StereoCalibration, ReadsEchoedRosMessages) {
   const auto message = [](const std::string& P) {
     return "height: 480\nwidth: 640\ndistortion_model: plumb_bob\nD: [0, 0, 0, 0, 0]\n"
@@ -402,9 +441,20 @@ TEST_F(StereoCalibration, SaysWhatIsWrongWithARosFile) {
   EXPECT_THAT(said("image_width: x\nimage_height: 3\n"), HasSubstr("not a number"));
   EXPECT_THAT(said("a: [1,"), HasSubstr("not YAML"));
   EXPECT_THAT(said("hello"), HasSubstr("no named values"));
-  std::string fisheye = cameraInfo(kRightP);
-  fisheye.replace(fisheye.find("plumb_bob"), 9, "equidistant");
-  EXPECT_THAT(said(fisheye), HasSubstr("equidistant"));
+  const auto ofModel = [](const std::string& model, const std::string& D) {
+    std::string text = cameraInfo(kRightP, D);
+    return text.replace(text.find("plumb_bob"), 9, model);
+  };
+  EXPECT_THAT(said(ofModel("equidistant", "[-0.2, 0.05, 0, 0, 0]")),
+              AllOf(HasSubstr("right.yaml"), HasSubstr("5 numbers"), HasSubstr("equidistant (4)")));
+  EXPECT_THAT(
+      said(ofModel("kannala", "[-0.2, 0.05, 0, 0]")),
+      AllOf(HasSubstr("right.yaml"), HasSubstr("the distortion model kannala is not known")));
+  EXPECT_EQ(readCameraInfo(left, write("right.yaml", ofModel("kannala", "[0, 0, 0, 0]")))
+                .camera()
+                .baseline_m,
+            0.12)
+      << "no distortion is none, whatever its model";
   std::string small = cameraInfo(kRightP);
   small.replace(small.find("640"), 3, "320");
   EXPECT_THAT(said(small), HasSubstr("its image size is not that of"));

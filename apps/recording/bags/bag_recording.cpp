@@ -8,7 +8,6 @@
 #include <heel/apps/recording/stamp_order.hpp>
 #include <heel/cloud/image_extent.hpp>
 
-#include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -31,17 +30,13 @@ cv::Mat matrixOf(const std::array<double, N>& values) {
 }
 
 /// A camera as camera_info tells; what is rectified already has neither distortion nor rotation.
-RawCamera cameraOf(const CameraInfoMsg& info, bool is_rectified) {
+RawCamera cameraOf(const std::string& origin, const CameraInfoMsg& info, bool is_rectified) {
   RawCamera camera;
   camera.P = matrixOf(info.P);
   camera.K = is_rectified ? camera.P.colRange(0, 3).clone() : matrixOf(info.K);
   camera.R = is_rectified ? cv::Mat(cv::Mat::eye(3, 3, CV_64F)) : matrixOf(info.R);
-  if (!is_rectified && !info.D.empty()) camera.distortion = cv::Mat(info.D).reshape(1, 1).clone();
+  if (!is_rectified) setDistortion(origin, info.distortion_model, cv::Mat(info.D), camera);
   return camera;
-}
-
-bool isDistorted(const CameraInfoMsg& info) {
-  return std::any_of(info.D.begin(), info.D.end(), [](double d) { return std::abs(d) > 1e-12; });
 }
 
 /// Without distortion: rectified as P tells, else raw as K does.
@@ -51,14 +46,16 @@ PinholeCamera pinholeOf(const CameraInfoMsg& info, bool is_rectified) {
   return {width, height, info.K[0], info.K[4], info.K[2], info.K[5]};
 }
 
-/// The maps that take the distortion out of raw images.
+/// The maps that take the distortion out of raw images; none if there is none.
 void makeMaps(const std::string& origin, const CameraInfoMsg& info, cv::Mat& x, cv::Mat& y) {
+  RawCamera camera = cameraOf(origin, info, false);
+  if (camera.distortion.empty()) return;
   checkCameraMemory(origin, info.width, info.height);
-  checkDistortion(origin, info.D.size());
-  const cv::Mat K = matrixOf(info.K);
-  cv::initUndistortRectifyMap(K, cv::Mat(info.D), cv::noArray(), K,
-                              {static_cast<int>(info.width), static_cast<int>(info.height)},
-                              CV_32FC1, x, y);
+  checkDistortion(origin, camera);
+  camera.R = cv::Mat::eye(3, 3, CV_64F);
+  camera.P = camera.K;
+  makeRectifyMaps(camera, {static_cast<int>(info.width), static_cast<int>(info.height)}, CV_32FC1,
+                  x, y);
 }
 
 void undistortDepth(const cv::Mat& raw_m, const cv::Mat& x, const cv::Mat& y, cv::Mat& depth_m) {
@@ -147,9 +144,11 @@ void BagRecording::setUpStereo(const BagSurvey& survey, const BagCamera& camera)
   const CameraInfoMsg& left = cameraInfoOf(survey, *camera.first);
   const CameraInfoMsg& right = cameraInfoOf(survey, *camera.second);
   const bool is_rectified = isRectified(*camera.first);
-  rig_.emplace(cameraOf(left, is_rectified), cameraOf(right, is_rectified),
+  const std::string origin = path_ + ", camera_info of ";
+  rig_.emplace(cameraOf(origin + first_.topic, left, is_rectified),
+               cameraOf(origin + second_.topic, right, is_rectified),
                cv::Size(static_cast<int>(left.width), static_cast<int>(left.height)),
-               path_ + ", camera_info of " + first_.topic);
+               origin + first_.topic);
   info_.camera = rig_->camera();
 }
 
@@ -161,7 +160,7 @@ void BagRecording::setUpRgbd(const BagSurvey& survey, const BagCamera& camera) {
     throw std::runtime_error(path_ + ": the camera_info of " + first_.topic +
                              " is empty: the camera was not calibrated");
   }
-  if (!is_rectified && isDistorted(info)) {
+  if (!is_rectified) {
     makeMaps(path_ + ", camera_info of " + first_.topic, info, undistort_x_, undistort_y_);
   }
   setUpDepth(survey, camera);
@@ -196,7 +195,7 @@ void BagRecording::setUpDepth(const BagSurvey& survey, const BagCamera& camera) 
     throw std::runtime_error(origin + ": tf's place of '" + depth.frame_id + "' is not finite");
   }
   depth_camera_ = own;
-  if (!is_rectified && isDistorted(*info)) {
+  if (!is_rectified) {
     makeMaps(path_ + ", camera_info of " + depth.topic.name, *info, depth_x_, depth_y_);
   }
   registration_.emplace(own, info_.camera.left, *T_color_depth);

@@ -13,6 +13,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -21,6 +22,7 @@ namespace {
 
 using test::messageOf;
 using test::TempFolder;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -373,6 +375,63 @@ std::unique_ptr<BagWriter> beginUnregistered(const std::filesystem::path& path,
   message.transforms.push_back(link);
   bag->write("/tf_static", 1, message, true);
   return bag;
+}
+
+/// An image whose brightness is eight times the column.
+ImageMsg rampImage(double stamp_s) {
+  ImageMsg ramp = image(stamp_s, "mono8", 0, 1);
+  for (std::size_t i = 0; i < ramp.data.size(); ++i) {
+    ramp.data[i] = static_cast<std::uint8_t>(8 * std::min<std::size_t>(i % ramp.step, 31));
+  }
+  return ramp;
+}
+
+/// Depth of 10 mm times the column, and 1 m.
+ImageMsg rampDepth(double stamp_s) {
+  ImageMsg ramp = image(stamp_s, "16UC1", 0, 2);
+  for (std::size_t v = 0; v < kHeight; ++v) {
+    for (std::size_t u = 0; u < kWidth; ++u) {
+      const auto mm = static_cast<std::uint16_t>(1000 + 10 * u);
+      std::memcpy(&ramp.data[v * ramp.step + 2 * u], &mm, sizeof mm);
+    }
+  }
+  return ramp;
+}
+
+TEST_P(BagRecordings, TakeTheDistortionOutByItsModel) {
+  const auto readWith = [&](const std::string& model, std::vector<double> D) {
+    CameraInfoMsg info = cameraInfo(0.0);
+    info.distortion_model = model;
+    info.D = std::move(D);
+    const auto bag = createBag(path());
+    bag->write("/rgb/camera_info", 1, info);
+    bag->write("/rgb/image_raw", 100'000'000, rampImage(0.1));
+    bag->write("/depth/image_raw", 100'000'000, rampDepth(0.1));
+    bag->commit();
+    return readAll(path()).last;
+  };
+  // The pixel (27, 20), and its column in the raw image.
+  const double x = 11.5 / 30, y = 8.5 / 30, r = std::hypot(x, y), theta = std::atan(r);
+  const auto columnOf = [](double scale) { return 15.5 + 11.5 * scale; };
+  const std::tuple<const char*, std::vector<double>, double> models[] = {
+      {"equidistant",
+       {-0.3, 0.1, 0.0, 0.0},
+       columnOf(theta * (1 - 0.3 * std::pow(theta, 2) + 0.1 * std::pow(theta, 4)) / r)},
+      {"plumb_bob", {-0.3, 0.1, 0.0, 0.0, 0.0}, columnOf(1 - 0.3 * r * r + 0.1 * std::pow(r, 4))},
+      {"", {-0.3, 0.1, 0.0, 0.0}, columnOf(1 - 0.3 * r * r + 0.1 * std::pow(r, 4))},
+      {"", {}, 27.0},
+      {"made_up", {0.0, 0.0}, 27.0}};
+  for (const auto& [model, D, column] : models) {
+    const Frame frame = readWith(model, D);
+    ASSERT_FALSE(frame.image_bgr.empty()) << model;
+    EXPECT_NEAR(frame.image_bgr.at<cv::Vec3b>(20, 27)[0] / 8.0, column, 0.1) << model;
+    EXPECT_NEAR(frame.depth_m.at<float>(20, 27), 1.0 + 0.01 * std::round(column), 1e-6) << model;
+  }
+  EXPECT_THAT(messageOf([&] {
+                readWith("made_up", {-0.3, 0.1, 0.0, 0.0});
+              }),
+              AllOf(HasSubstr(path().string() + ", camera_info of /rgb/image_raw"),
+                    HasSubstr("the distortion model made_up is not known")));
 }
 
 TEST_P(BagRecordings, RegisterDepthOfAnotherFrameToColour) {
