@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <regex>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -36,10 +37,19 @@ bool isImage(const BagTopicSummary& t) {
   return t.count > 0 && (t.topic.holds<ImageMsg>() || t.topic.holds<CompressedImageMsg>());
 }
 
+bool saysDepth(const BagTopicSummary& t) {
+  return has(t.topic.name, "depth") || has(t.topic.name, "Depth");
+}
+
+/// Whether images are of what is neither depth nor colour, as a part of their topic's name tells.
+bool isNamedOther(const BagTopicSummary& t) {
+  static const std::regex kOther(
+      "(^|[^a-zA-Z])([iI][rR]([^a-zA-Z]|$)|[iI]nfra|[tT]hermal|[cC]onfidence|[aA]mplitude)");
+  return std::regex_search(t.topic.name, kOther);
+}
+
 bool isDepthImage(const BagTopicSummary& t) {
-  return isImage(t) &&
-         (isDepthEncoding(t.encoding) ||
-          (t.encoding == "mono16" && (has(t.topic.name, "depth") || has(t.topic.name, "Depth"))));
+  return isImage(t) && (isDepthEncoding(t.encoding) || (t.encoding == "mono16" && saysDepth(t)));
 }
 
 bool isColorImage(const BagTopicSummary& t) {
@@ -56,7 +66,10 @@ int rankOf(const BagTopicSummary& t) {
   return 2 * rank + (t.topic.holds<CompressedImageMsg>() ? 1 : 0);
 }
 
-int depthRankOf(const BagTopicSummary& t) { return rankOf(t) + (isNamedRegistered(t) ? 0 : 100); }
+int depthRankOf(const BagTopicSummary& t) {
+  return rankOf(t) + (isNamedRegistered(t) ? 0 : 100) + (saysDepth(t) ? 0 : 200) +
+         (isNamedOther(t) ? 400 : 0);
+}
 
 template <class Is, class Rank>
 const BagTopicSummary* best(const BagSurvey& survey, const Is& is, const Rank& rank) {
@@ -93,17 +106,19 @@ std::optional<BagCamera> findPair(const BagSurvey& survey, const Words& words) {
 std::optional<BagCamera> findRgbd(const BagSurvey& survey) {
   BagCamera found;
   found.sensor = SensorKind::kRgbd;
-  found.second = best(survey, isDepthImage, depthRankOf);
+  const auto is_depth = [](const BagTopicSummary& t) {
+    return isDepthImage(t) && (saysDepth(t) || !isNamedOther(t));
+  };
+  found.second = best(survey, is_depth, depthRankOf);
+  if (found.second == nullptr) return std::nullopt;
+  const auto is_color = [](const BagTopicSummary& t) {
+    return isColorImage(t) && !isNamedOther(t);
+  };
   // Depth has the colour camera's size where it was made to fit it.
   const auto fits = [&](const BagTopicSummary& t) {
-    return isColorImage(t) && t.width == found.second->width && t.height == found.second->height &&
-           !has(t.topic.name, "infra") && !has(t.topic.name, "/ir/");
+    return is_color(t) && t.width == found.second->width && t.height == found.second->height;
   };
-  if (found.second == nullptr) return std::nullopt;
   found.first = best(survey, fits, rankOf);
-  const auto is_color = [](const BagTopicSummary& t) {
-    return isColorImage(t) && !has(t.topic.name, "infra") && !has(t.topic.name, "/ir/");
-  };
   if (found.first == nullptr) found.first = best(survey, is_color, rankOf);
   if (found.first == nullptr) return std::nullopt;
   return found;

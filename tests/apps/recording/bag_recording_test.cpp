@@ -452,6 +452,58 @@ TEST_P(BagRecordings, SayThatDepthCannotBeRegisteredWithoutTf) {
                         "from 'optical'"));
 }
 
+/// Infrared, heat, and how sure depth is come in the encodings of depth, too.
+class OtherImages : public testing::TestWithParam<const char*> {
+ protected:
+  std::unique_ptr<BagWriter> begin() {
+    auto bag = createBag(folder_ / "r.bag");
+    bag->write("/camera/a/camera_info", 1, cameraInfo(0.0));
+    bag->write(GetParam(), 100'000'000, image(0.1, "16UC1", 2, 2));
+    bag->write("/camera/a/image_color", 100'000'000, image(0.1, "rgb8", 90, 3));
+    return bag;
+  }
+  Frame read() const { return readAll(folder_ / "r.bag").last; }
+  TempFolder folder_;
+};
+INSTANTIATE_TEST_SUITE_P(Names, OtherImages,
+                         testing::Values("/camera/a_ir/image_raw", "/camera/a/image_ir_rect",
+                                         "/camera/ir2/image_raw", "/camera/infra1/image_raw",
+                                         "/a/thermal/image_raw", "/a/confidence/confidence_map",
+                                         "/a/Infrared_0/image/data", "/camera/amplitude"));
+
+TEST_P(OtherImages, AreNotTakenForDepth) {
+  const auto bag = begin();
+  bag->write("/camera/sd/image", 100'000'000, image(0.1, "16UC1", 4, 2));
+  bag->commit();
+  EXPECT_NEAR(read().depth_m.at<float>(5, 5), 0.001 * 0x404, 1e-6);
+}
+
+TEST_P(OtherImages, AloneAreNoDepth) {
+  begin()->commit();
+  EXPECT_THAT(messageOf([&] { read(); }), HasSubstr("no colour with depth images"));
+}
+
+TEST_P(OtherImages, AreNotTakenForColour) {
+  const auto bag = createBag(folder_ / "r.bag");
+  bag->write("/camera/a/camera_info", 1, cameraInfo(0.0));
+  bag->write(GetParam(), 100'000'000, image(0.1, "mono8", 2, 1));
+  bag->write("/camera/a/image", 100'000'000, image(0.1, "rgb8", 90, 3));
+  bag->write("/camera/a/depth", 100'000'000, image(0.1, "16UC1", 4, 2));
+  bag->commit();
+  EXPECT_EQ(read().image_bgr.at<cv::Vec3b>(5, 5), cv::Vec3b(90, 90, 90));
+}
+
+TEST_P(BagRecordings, PreferDepthThatIsNamedSo) {
+  const auto bag = createBag(path());
+  bag->write("/camera/camera_info", 1, cameraInfo(0.0));
+  bag->write("/camera/range/image_rect", 100'000'000, image(0.1, "16UC1", 2, 2));
+  bag->write("/depth_camera/ir/image_rect", 100'000'000, image(0.1, "16UC1", 3, 2));
+  bag->write("/depth_camera/sd/image", 100'000'000, image(0.1, "16UC1", 4, 2));
+  bag->write("/camera/image_raw", 100'000'000, image(0.1, "rgb8", 90, 3));
+  bag->commit();
+  EXPECT_NEAR(readAll(path()).last.depth_m.at<float>(5, 5), 0.001 * 0x404, 1e-6);
+}
+
 TEST_P(BagRecordings, NameTheCameraThatIsReadOfTwo) {
   const auto bag = beginUnregistered(path(), "/front", true);
   bag->write("/rear/color/image_raw", 100000000, image(0.1, "rgb8", 7, 3));
