@@ -49,7 +49,8 @@ bool isNamedOther(const BagTopicSummary& t) {
 }
 
 bool isDepthImage(const BagTopicSummary& t) {
-  return isImage(t) && (isDepthEncoding(t.encoding) || (t.encoding == "mono16" && saysDepth(t)));
+  const bool has_16_bits = t.encoding == "mono16" || t.encoding.rfind("mono16; png", 0) == 0;
+  return isImage(t) && (isDepthEncoding(t.encoding) || (has_16_bits && saysDepth(t)));
 }
 
 bool isColorImage(const BagTopicSummary& t) {

@@ -78,7 +78,8 @@ void fromMillimetres(const cv::Mat& raw, cv::Mat& depth_m) {
 }  // namespace
 
 bool isDepthEncoding(const std::string& encoding) {
-  return encoding == "16UC1" || encoding == "32FC1" ||
+  // A compressed image's format begins with the encoding that it had: "16UC1; png compressed ".
+  return encoding == "16UC1" || encoding == "32FC1" || encoding.rfind("16UC1; png", 0) == 0 ||
          encoding.find("compressedDepth") != std::string::npos;
 }
 

@@ -24,7 +24,8 @@ class BagImageReader {
   /// 16UC1 and mono16 in millimetres, 32FC1 in metres.
   /// @param depth_m  Out: CV_32FC1, NaN where there is none.
   void readDepth(const ImageMsg& message, cv::Mat& depth_m);
-  /// "compressedDepth" with PNG: 12 bytes about the quantization, then the picture.
+  /// A PNG of 16 bits in millimetres; "compressedDepth" with PNG: 12 bytes about the quantization,
+  /// then the picture.
   void readDepth(const CompressedImageMsg& message, cv::Mat& depth_m);
 
  private:

@@ -452,6 +452,26 @@ TEST_P(BagRecordings, SayThatDepthCannotBeRegisteredWithoutTf) {
                         "from 'optical'"));
 }
 
+TEST_P(BagRecordings, TakeAPngOf16BitsForDepth) {
+  for (const char* format : {"16UC1; png compressed ", "mono16; png compressed "}) {
+    CompressedImageMsg depth;
+    depth.header = header(0.1);
+    depth.format = format;
+    cv::Mat raw(kHeight, kWidth, CV_16UC1, cv::Scalar(2500));
+    raw.at<std::uint16_t>(0, 0) = 0;
+    cv::imencode(".png", raw, depth.data);
+    const auto bag = createBag(path());
+    bag->write("/camera/rgb/camera_info", 1, cameraInfo(0.0));
+    bag->write("/camera/rgb/image_raw", 100'000'000, image(0.1, "rgb8", 90, 3));
+    bag->write("/camera/depth_registered/image_raw/compressed", 100'000'000, depth);
+    bag->commit();
+    const Read read = readAll(path());
+    ASSERT_EQ(read.info.sensor, SensorKind::kRgbd) << format;
+    EXPECT_FLOAT_EQ(read.last.depth_m.at<float>(5, 5), 2.5F) << format;
+    EXPECT_TRUE(std::isnan(read.last.depth_m.at<float>(0, 0))) << format;
+  }
+}
+
 /// Infrared, heat, and how sure depth is come in the encodings of depth, too.
 class OtherImages : public testing::TestWithParam<const char*> {
  protected:
