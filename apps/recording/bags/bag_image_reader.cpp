@@ -44,6 +44,13 @@ constexpr Encoding kEncodings[] = {
     {"yuyv", CV_8UC2, cv::COLOR_YUV2BGR_YUY2},
 };
 
+/// Null if it is not read.
+const Encoding* findEncoding(const std::string& name) {
+  const auto* known = std::find_if(std::begin(kEncodings), std::end(kEncodings),
+                                   [&](const Encoding& e) { return name == e.name; });
+  return known == std::end(kEncodings) ? nullptr : known;
+}
+
 /// The message's own bytes as an image.
 cv::Mat viewOf(const ImageMsg& message, int type) {
   const std::size_t row = std::size_t{message.width} * static_cast<std::size_t>(CV_ELEM_SIZE(type));
@@ -89,9 +96,8 @@ void BagImageReader::readColor(const ImageMsg& message, cv::Mat& image_bgr) {
     cv::cvtColor(scratch_, image_bgr, cv::COLOR_GRAY2BGR);
     return;
   }
-  const auto* known = std::find_if(std::begin(kEncodings), std::end(kEncodings),
-                                   [&](const Encoding& e) { return message.encoding == e.name; });
-  if (known == std::end(kEncodings)) {
+  const Encoding* known = findEncoding(message.encoding);
+  if (known == nullptr) {
     throw std::runtime_error("the encoding '" + message.encoding + "' is not read");
   }
   const cv::Mat raw = viewOf(message, known->type);
@@ -103,8 +109,15 @@ void BagImageReader::readColor(const ImageMsg& message, cv::Mat& image_bgr) {
 }
 
 void BagImageReader::readColor(const CompressedImageMsg& message, cv::Mat& image_bgr) {
-  decodeImage("the image", message.data, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION,
-              image_bgr);
+  // image_transport compresses a Bayer pattern as the grey picture that it is.
+  const bool may_be_raw = message.format.rfind("bayer_", 0) == 0;
+  const int flags = may_be_raw ? cv::IMREAD_ANYCOLOR : cv::IMREAD_COLOR;
+  decodeImage("the image", message.data, flags | cv::IMREAD_IGNORE_ORIENTATION, image_bgr);
+  if (image_bgr.channels() != 1) return;
+  const Encoding* raw = findEncoding(message.format.substr(0, message.format.find(';')));
+  if (raw == nullptr) throw std::runtime_error("the format '" + message.format + "' is not read");
+  cv::swap(image_bgr, scratch_);
+  cv::cvtColor(scratch_, image_bgr, raw->conversion);
 }
 
 void BagImageReader::readDepth(const ImageMsg& message, cv::Mat& depth_m) {

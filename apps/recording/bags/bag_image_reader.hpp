@@ -18,7 +18,7 @@ class BagImageReader {
   /// bgr8, rgb8, bgra8, rgba8, mono8, mono16, Bayer patterns, yuv422.
   /// @param image_bgr  Out: CV_8UC3.
   void readColor(const ImageMsg& message, cv::Mat& image_bgr);
-  /// JPEG, PNG and whatever else OpenCV reads.
+  /// JPEG, PNG and whatever else OpenCV reads; of a Bayer pattern, too.
   void readColor(const CompressedImageMsg& message, cv::Mat& image_bgr);
 
   /// 16UC1 and mono16 in millimetres, 32FC1 in metres.

@@ -667,6 +667,30 @@ TEST(BagImageReader, KnowsTheBayerPatternByItsFirstRow) {
   EXPECT_EQ(bgr.at<cv::Vec3b>(10, 10), cv::Vec3b(0, 0, 200));
 }
 
+TEST(BagImageReader, KnowsTheBayerPatternOfACompressedImageToo) {
+  cv::Mat mosaic(kHeight, kWidth, CV_8UC1, cv::Scalar(0));
+  for (int v = 0; v < kHeight; v += 2) {  // only the red pixels have light
+    for (int u = 0; u < kWidth; u += 2) mosaic.at<std::uint8_t>(v, u) = 200;
+  }
+  CompressedImageMsg message;
+  cv::Mat bgr;
+  BagImageReader reader;
+  for (const char* ending : {".png", ".jpg"}) {
+    message.format = "bayer_rggb8; jpeg compressed ";
+    cv::imencode(ending, mosaic, message.data, {cv::IMWRITE_JPEG_QUALITY, 100});
+    reader.readColor(message, bgr);
+    ASSERT_EQ(bgr.type(), CV_8UC3);
+    EXPECT_LE(cv::norm(bgr.at<cv::Vec3b>(10, 10), cv::Vec3b(0, 0, 200), cv::NORM_INF), 3) << ending;
+  }
+  message.format = "bayer_rggb8; jpeg compressed bgr8";  // a colour image already
+  cv::imencode(".png", cv::Mat(kHeight, kWidth, CV_8UC3, cv::Scalar(10, 20, 30)), message.data);
+  reader.readColor(message, bgr);
+  EXPECT_EQ(bgr.at<cv::Vec3b>(10, 10), cv::Vec3b(10, 20, 30));
+  message.format = "bayer_xyz; jpeg compressed ";
+  cv::imencode(".png", mosaic, message.data);
+  EXPECT_THAT(messageOf([&] { reader.readColor(message, bgr); }), HasSubstr("'bayer_xyz; jpeg"));
+}
+
 TEST(BagImageReader, ReadsCompressedDepth) {
   cv::Mat raw(kHeight, kWidth, CV_16UC1, cv::Scalar(2000));
   raw.at<std::uint16_t>(0, 0) = 0;
