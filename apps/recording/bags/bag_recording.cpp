@@ -39,6 +39,20 @@ RawCamera cameraOf(const std::string& origin, const CameraInfoMsg& info, bool is
   return camera;
 }
 
+/// Gives the right camera its baseline by tf, where neither P has one, as simulators leave it; only
+/// of cameras that stand side by side and look the same way, for what P says holds of no others.
+void takeBaselineFromTf(const BagSurvey& survey, const BagCamera& camera, const RawCamera& left,
+                        RawCamera& right) {
+  constexpr double kSameWay_rad = 1e-3, kAside = 0.01;  // less than a pixel
+  if (left.P.at<double>(0, 3) != 0.0 || right.P.at<double>(0, 3) != 0.0) return;
+  const auto T = survey.transformBetween(camera.first->frame_id, camera.second->frame_id);
+  if (!T || !T->matrix().allFinite()) return;
+  const Eigen::Vector3d way = T->translation();
+  const bool is_turned = Eigen::AngleAxisd(T->rotation()).angle() > kSameWay_rad;
+  if (is_turned || std::hypot(way.y(), way.z()) > kAside * std::abs(way.x())) return;
+  right.P.at<double>(0, 3) = -right.P.at<double>(0, 0) * way.x();
+}
+
 /// Without distortion: rectified as P tells, else raw as K does.
 PinholeCamera pinholeOf(const CameraInfoMsg& info, bool is_rectified) {
   const int width = static_cast<int>(info.width), height = static_cast<int>(info.height);
@@ -141,13 +155,15 @@ BagRecording::BagRecording(const BagSurvey& survey, std::unique_ptr<BagReader> r
 }
 
 void BagRecording::setUpStereo(const BagSurvey& survey, const BagCamera& camera) {
-  const CameraInfoMsg& left = cameraInfoOf(survey, *camera.first);
-  const CameraInfoMsg& right = cameraInfoOf(survey, *camera.second);
+  const CameraInfoMsg& left_info = cameraInfoOf(survey, *camera.first);
+  const CameraInfoMsg& right_info = cameraInfoOf(survey, *camera.second);
   const bool is_rectified = isRectified(*camera.first);
   const std::string origin = path_ + ", camera_info of ";
-  rig_.emplace(cameraOf(origin + first_.topic, left, is_rectified),
-               cameraOf(origin + second_.topic, right, is_rectified),
-               cv::Size(static_cast<int>(left.width), static_cast<int>(left.height)),
+  const RawCamera left = cameraOf(origin + first_.topic, left_info, is_rectified);
+  RawCamera right = cameraOf(origin + second_.topic, right_info, is_rectified);
+  takeBaselineFromTf(survey, camera, left, right);
+  rig_.emplace(left, right,
+               cv::Size(static_cast<int>(left_info.width), static_cast<int>(left_info.height)),
                origin + first_.topic);
   info_.camera = rig_->camera();
 }

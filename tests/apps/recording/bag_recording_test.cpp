@@ -280,6 +280,39 @@ TEST(Ros1Pieces, KnowInTheLastWhatTfAndCameraInfoSaidInTheFirst) {
   }
 }
 
+TEST_P(BagRecordings, OfStereoWithoutABaselineTakeTfs) {
+  const auto open = [&](const Eigen::Isometry3d& T_left_right) {
+    TFMessageMsg tf;
+    tf.transforms.resize(1);
+    tf.transforms[0].header = header(0.0, "left_optical");
+    tf.transforms[0].child_frame_id = "right_optical";
+    TransformMsg& T = tf.transforms[0].transform;
+    T.translation.x = T_left_right.translation().x();
+    T.translation.y = T_left_right.translation().y();
+    const Eigen::Quaterniond q(T_left_right.linear());
+    T.rotation.y = q.y();
+    T.rotation.w = q.w();
+    const auto bag = createBag(path());
+    bag->write("/tf_static", 1, tf, true);
+    for (const std::string side : {"left", "right"}) {
+      ImageMsg picture = image(0.1, "mono8", 90, 1);
+      picture.header.frame_id = side + "_optical";
+      bag->write("/stereo/" + side + "/camera_info", 1, cameraInfo(0.0));
+      bag->write("/stereo/" + side + "/image_rect", 100'000'000, picture);
+    }
+    bag->commit();
+    return readAll(path()).info.camera.baseline_m;
+  };
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.translation().x() = 0.12;
+  EXPECT_NEAR(open(T), 0.12, 1e-12);
+  T.translation().y() = 0.05;
+  EXPECT_THAT(messageOf([&] { open(T); }), HasSubstr("there is no baseline")) << "one is higher";
+  T.translation().y() = 0.0;
+  T.rotate(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY()));
+  EXPECT_THAT(messageOf([&] { open(T); }), HasSubstr("there is no baseline")) << "one is turned";
+}
+
 TEST_P(BagRecordings, TakesATopicByItsNameWithoutWhatCompressionAddsToIt) {
   const auto bag = beginStereo();
   for (const auto& [topic, value] : {std::pair(left_, 10), std::pair(right_, 90)}) {
