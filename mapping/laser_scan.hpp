@@ -12,7 +12,7 @@
 namespace heel {
 
 /// One scan: `ranges_m[i]` is along `first_rad + i * step_rad` in the scanner's frame (X forward,
-/// Y left); infinite where nothing came back.
+/// Y left); infinite where nothing came back, NaN where nothing could be measured.
 struct LaserScan {
   double first_rad = 0.0;
   double step_rad = 0.0;

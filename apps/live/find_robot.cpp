@@ -54,7 +54,7 @@ class Lately {
 }  // namespace
 
 FoundRobot findRobot(LiveNetwork& network, const BagTopics& topics,
-                     const CameraSetupParams& camera_setup,
+                     const CameraSetupParams& camera_setup, bool knows_scanner,
                      const std::function<bool(const std::string&)>& goes_on) {
   std::set<std::string> subscribed;
   Lately lately;
@@ -79,6 +79,8 @@ FoundRobot findRobot(LiveNetwork& network, const BagTopics& topics,
         const BagSurvey survey = surveyMessages(messages, "the network");
         FoundRobot robot;
         robot.readings = std::make_unique<LiveReadings>(survey, topics);
+        const std::string unplaced = robot.readings->laser().unplaced();
+        if (!knows_scanner && !unplaced.empty()) throw std::runtime_error(unplaced);
         auto again = std::make_unique<FedBagReader>(network.form());
         FedBagReader& replayed = *again;
         RecordingParams opening;

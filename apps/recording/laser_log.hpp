@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace heel {
 
@@ -41,6 +42,12 @@ class LaserLog {
 
   /// How high its plane is over the base frame's origin, if the log knows.
   virtual std::optional<double> scannerHeight_m() const { return std::nullopt; }
+
+  /// Why the log does not know where the scanner is though it might, in a sentence; else empty.
+  virtual std::string unplaced() const { return {}; }
+
+  /// What a user should know of how it is read, in sentences.
+  virtual std::vector<std::string> warnings() const { return {}; }
 
   /// What of a damaged log can't be read, in a sentence; empty: nothing.
   virtual std::string lost() const { return {}; }

@@ -100,8 +100,8 @@ Follower makeFollower(const ShadowParams& params, const PetriPlan& plan, const C
   RobotDescription robot = describeRobot(params.config.robot);
   robot.camera = setup;
   robot.floor_camera.reset();  // No log has its images.
-  robot.T_base_scanner = laser.T_base_scanner;
-  robot.scanner_height_m = laser.height_m;
+  robot.T_base_scanner = laser.place.T_base_scanner;
+  robot.scanner_height_m = laser.place.height_m;
   const auto start = [&]() -> std::optional<FloorPose> {
     if (!params.map.walls) return odometry;
     const auto in_map = motionInMap(params.recording, params.opening);

@@ -57,10 +57,10 @@ bool isToldToStop(const LiveCommands& commands) {
 }
 
 FoundRobot waitForRobot(LiveNetwork& network, const LiveCommands& commands,
-                        const LiveOptions& options, const RobotConfig& config) {
+                        const LiveOptions& options, const RobotConfig& config, bool knows_scanner) {
   const double began_s = steadyClock_s();
   std::string told;
-  return findRobot(network, options.topics, config.camera_setup, [&](const std::string& missing) {
+  const auto goes_on = [&](const std::string& missing) {
     if (isToldToStop(commands)) throw Stopped("stopped before there was a robot");
     const std::string& below = options.network.ros_namespace;
     if (missing != told) {
@@ -68,7 +68,8 @@ FoundRobot waitForRobot(LiveNetwork& network, const LiveCommands& commands,
     }
     told = missing;
     return steadyClock_s() - began_s < options.wait_s;
-  });
+  };
+  return findRobot(network, options.topics, config.camera_setup, knows_scanner, goes_on);
 }
 
 /// The map that somebody sends.
@@ -98,15 +99,11 @@ OccupancyGrid waitForMap(LiveNetwork& network, const LiveCommands& commands,
   }
 }
 
-RobotDescription describeFound(const LiveOptions& options, const FoundRobot& found,
-                               const RobotConfig& config, LogMap& map) {
-  const LaserLog& laser = found.readings->laser();
-  RobotDescription robot = describeRobot(config.robot);
-  if (!options.config.empty()) map.setScanner(robot.T_base_scanner, robot.scanner_height_m);
+RobotDescription describeFound(RobotDescription robot, const FoundRobot& found, const LogMap& map) {
+  const ScannerPlace scanner = placeScanner(found.readings->laser(), map);
   robot.camera = found.camera;
-  robot.T_base_scanner =
-      map.scanner ? *map.scanner : laser.T_base_scanner().value_or(map.default_scanner);
-  robot.scanner_height_m = laser.scannerHeight_m().value_or(map.scanner_height_m);
+  robot.T_base_scanner = scanner.T_base_scanner;
+  robot.scanner_height_m = scanner.height_m;
   return robot;
 }
 
@@ -163,11 +160,16 @@ void run(const LiveOptions& options) {
     const OccupancyGrid grid = waitForMap(*network, commands, options);
     map.walls = std::make_shared<const WallMap>(extruded(grid));
   }
-  const FoundRobot found = waitForRobot(*network, commands, options, config);
+  const RobotDescription described = describeRobot(config.robot);
+  if (!options.config.empty()) {
+    map.setScanner(described.T_base_scanner, described.scanner_height_m);
+  }
+  const FoundRobot found = waitForRobot(*network, commands, options, config,
+                                        map.scanner.has_value() || map.default_scanner.has_value());
   for (const std::string& warning : found.camera.warnings) warn(warning);
   LiveReadings& readings = *found.readings;
   std::fprintf(stderr, "heel: the robot's camera: %s\n", readings.info().layout.c_str());
-  const RobotDescription robot = describeFound(options, found, config, map);
+  const RobotDescription robot = describeFound(described, found, map);
   const PetriPlan plan = loadPlan(planFile(options.plan), followingVocabulary());
   const auto makeFollower = [&](const std::optional<FloorPose>& start) {
     auto made = std::make_unique<Follower>(robot, map.walls, plan, start, config.follow);

@@ -50,18 +50,26 @@ OccupancyGrid readMap(LocalizeOptions& options) {
   LogLocalizationParams& params = options.params;
   const auto log = openLaserLog(options.log, params.topics);
   if (!log->lost().empty()) warn(log->lost());
+  for (const std::string& warning : log->warnings()) warn(warning);
   const std::optional<FloorPose> scanner_on_robot = log->T_base_scanner();
   if (scanner_on_robot) params.T_base_scanner = *scanner_on_robot;
   if (!options.scanner.empty()) {
     params.T_base_scanner = {{options.scanner[0], options.scanner[1]}, options.scanner[2]};
   }
+  const auto warnOfPlace = [&] {
+    if (options.scanner.empty() && !log->unplaced().empty()) warn(log->unplaced());
+  };
   if (options.map.empty()) {
+    warnOfPlace();
     params.left_out = options.map_scans;
     return mapFromLog(options.log, options.map_scans, options.cell_size_m, params.T_base_scanner,
                       params.topics);
   }
   const fs::path file = floorPlan(options);
-  if (isMapServerFile(file)) return loadMapServer(file);
+  if (isMapServerFile(file)) {
+    warnOfPlace();
+    return loadMapServer(file);
+  }
   const Scene scene = loadScene(file.string());
   if (options.scanner.empty() && !scanner_on_robot) {
     params.T_base_scanner = {scene.robot.laser.at.head<2>(), 0.0};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/follower/follower_params.hpp>
+#include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/shared/arguments.hpp>
 #include <heel/apps/heel/shared/map_source.hpp>
 #include <heel/apps/heel/shared/robot_places.hpp>
@@ -60,13 +61,19 @@ LogMap openLogMap(const LogMapOptions& options) {
   return map;
 }
 
+ScannerPlace placeScanner(const LaserLog& scans, const LogMap& map) {
+  for (const std::string& warning : scans.warnings()) warn(warning);
+  std::optional<FloorPose> place = map.scanner ? map.scanner : scans.T_base_scanner();
+  if (!place) place = map.default_scanner;
+  if (!place && !scans.unplaced().empty()) warn(scans.unplaced());
+  return {place.value_or(FloorPose()), scans.scannerHeight_m().value_or(map.scanner_height_m)};
+}
+
 LogLaser openLogLaser(const std::filesystem::path& path, const BagTopics& topics,
                       const LogMap& map) {
   LogLaser laser;
   laser.scans = openLaserLog(path, topics);
-  laser.T_base_scanner =
-      map.scanner ? *map.scanner : laser.scans->T_base_scanner().value_or(map.default_scanner);
-  laser.height_m = laser.scans->scannerHeight_m().value_or(map.scanner_height_m);
+  laser.place = placeScanner(*laser.scans, map);
   return laser;
 }
 
@@ -124,8 +131,8 @@ void RobotPlaces::putOnMap(const std::filesystem::path& path, const RecordingPar
   }
   scans_ = std::move(laser.scans);
   localization_ =
-      std::make_unique<Localization>(map.walls->floorGrid(HeightBand::around(laser.height_m)),
-                                     laser.T_base_scanner, map.localization);
+      std::make_unique<Localization>(map.walls->floorGrid(HeightBand::around(laser.place.height_m)),
+                                     laser.place.T_base_scanner, map.localization);
   has_scan_ = scans_->next(scan_);
 }
 

@@ -44,7 +44,7 @@ struct LogMap {
   std::optional<FloorPose> start;        ///< Else from tf, the log's reference, or anywhere.
   std::optional<FloorPose> scanner;  ///< In the base frame; else the log's own, else the scene's.
   /// Where nothing else tells it: what the robot's file says, or the scene.
-  FloorPose default_scanner;
+  std::optional<FloorPose> default_scanner;
   double scanner_height_m = 0.3;  ///< The same of its height.
   LocalizationParams localization;
 
@@ -57,11 +57,20 @@ struct LogMap {
 /// @throws std::runtime_error  as mapSource() and openMap().
 LogMap openLogMap(const LogMapOptions& options);
 
+/// Where the laser is on the robot, and its plane over the floor.
+struct ScannerPlace {
+  FloorPose T_base_scanner;
+  double height_m = 0.0;
+};
+
+/// As the options say, else the log, else what `map` has by default; else, with a warning, at the
+/// base's origin. Tells the log's other warnings, too.
+ScannerPlace placeScanner(const LaserLog& scans, const LogMap& map);
+
 /// The laser of a log, and where it is on the robot.
 struct LogLaser {
   std::unique_ptr<LaserLog> scans;
-  FloorPose T_base_scanner;
-  double height_m = 0.0;
+  ScannerPlace place;
 };
 
 /// @throws std::runtime_error  as openLaserLog().

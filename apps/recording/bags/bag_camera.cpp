@@ -244,6 +244,15 @@ std::optional<BagCamera> namedCamera(const BagSurvey& survey, const BagTopics& t
 
 }  // namespace
 
+std::string severalNote(const BagSurvey& survey, const std::string& what, const std::string& read,
+                        std::vector<std::string> topics, const std::string& how_to_change) {
+  topics.erase(std::remove(topics.begin(), topics.end(), read), topics.end());
+  std::string text = survey.path.string() + ": there are several " + what + "; what is read is " +
+                     read + ", not " + topics.at(0);
+  if (topics.size() > 1) text += " and " + std::to_string(topics.size() - 1) + " more";
+  return text + " (" + how_to_change + ")";
+}
+
 void failWithTopics(const BagSurvey& survey, const std::string& what) {
   throw std::runtime_error(survey.path.string() + " " + what + "; its topics are " +
                            survey.topicNames());

@@ -60,6 +60,11 @@ std::optional<std::string> baseFrameOf(const BagSurvey& survey, const BagTopics&
 std::optional<Eigen::Isometry3d> placeOnRobot(const BagSurvey& survey, const BagTopics& topics,
                                               const std::string& frame);
 
+/// "X.bag: there are several ...; what is read is A, not B and 2 more (...)".
+/// @param topics  All of them; `read` may be among them.
+std::string severalNote(const BagSurvey& survey, const std::string& what, const std::string& read,
+                        std::vector<std::string> topics, const std::string& how_to_change);
+
 /// "X.bag has no ...; its topics are ...".
 [[noreturn]] void failWithTopics(const BagSurvey& survey, const std::string& what);
 

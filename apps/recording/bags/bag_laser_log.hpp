@@ -9,10 +9,15 @@
 #include <heel/apps/recording/laser_log.hpp>
 
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace heel {
 
-/// Reads the LaserScan messages of one topic, with the latest odometry and truth at each.
+/// Reads the LaserScan messages of one topic, with the latest odometry and truth at each. Scans are
+/// as those of a scanner that stands upright and turns to the left, with angles in [-pi, pi),
+/// whatever the bag's is. What could not be measured is NaN (REP 117).
 class BagLaserLog : public LaserLog {
  public:
   /// @throws std::runtime_error  one sentence that names the topics, if scans or odometry are
@@ -24,14 +29,19 @@ class BagLaserLog : public LaserLog {
   bool next(LaserReading& reading) override;
   std::optional<FloorPose> T_base_scanner() const override { return T_base_scanner_; }
   std::optional<double> scannerHeight_m() const override { return scanner_height_m_; }
+  std::string unplaced() const override { return unplaced_; }
+  std::vector<std::string> warnings() const override { return warnings_; }
   std::string lost() const override { return lost_; }
 
  private:
+  void place(const BagSurvey& survey, const BagTopics& topics, const std::string& frame);
   std::unique_ptr<BagReader> bag_;
   std::optional<BagPoses> poses_;
   std::optional<FloorPose> T_base_scanner_;
   std::optional<double> scanner_height_m_;
-  std::string scan_topic_, lost_;
+  bool is_upside_down_ = false;
+  std::vector<std::string> warnings_;
+  std::string scan_topic_, unplaced_, lost_;
   bool has_stamps_ = true;
   LaserScanMsg scan_;
 };

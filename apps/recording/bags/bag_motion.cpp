@@ -24,6 +24,7 @@ BagMotion::BagMotion(const BagSurvey& survey, const BagTopics& topics,
   query_ = survey.queryOf({}, true, kAround_s);
   if (!odometry_topic_.empty()) query_.topics.push_back(odometry_topic_);
   motion_.of_camera = !base;
+  if (!odometry_topic_.empty()) motion_.warning = severalOdometries(survey, topics);
   if (findWay(base.value_or(camera_frame), topics)) return;
   // Something moves, but tf does not join the camera to it.
   motion_.of_camera = false;

@@ -6,6 +6,7 @@
 #include <heel/apps/recording/bags/bag_poses.hpp>
 
 #include <algorithm>
+#include <regex>
 #include <stdexcept>
 
 namespace heel {
@@ -27,24 +28,56 @@ std::string movingBase(const BagSurvey& survey, const BagTopics& topics) {
   return {};
 }
 
-/// The topic that is named, else the first that tells the truth, or that does not.
-const BagTopicSummary* findPoses(const BagSurvey& survey, const std::string& name, bool of_truth) {
-  if (!name.empty()) return findBagTopic<OdometryMsg>(survey, name);
+/// Topics of what tells the truth, or of what does not.
+std::vector<const BagTopicSummary*> allPoses(const BagSurvey& survey, bool of_truth) {
+  std::vector<const BagTopicSummary*> all;
   for (const BagTopicSummary& t : survey.topics) {
-    if (t.topic.holds<OdometryMsg>() && t.count > 0 && tellsTruth(t) == of_truth) return &t;
+    if (t.topic.holds<OdometryMsg>() && t.count > 0 && tellsTruth(t) == of_truth) {
+      all.push_back(&t);
+    }
   }
-  return nullptr;
+  return all;
+}
+
+/// The lower the better. Pictures and satellites lose their way now and then, and jump.
+int odometryRank(const std::string& name) {
+  static const std::regex kLast("gps|visual|camera|rtabmap|(/|_)vo(/|_|$)");
+  static const std::regex kOdom("/odom$"), kFiltered("odometry/filtered$");
+  if (std::regex_search(name, kLast)) return 4;
+  if (name == "/odom") return 0;
+  if (std::regex_search(name, kOdom)) return 1;
+  return std::regex_search(name, kFiltered) ? 2 : 3;
+}
+
+const BagTopicSummary* findTruth(const BagSurvey& survey, const std::string& name) {
+  if (!name.empty()) return findBagTopic<OdometryMsg>(survey, name);
+  const auto all = allPoses(survey, true);
+  return all.empty() ? nullptr : all.front();
 }
 
 }  // namespace
 
 const BagTopicSummary* findOdometry(const BagSurvey& survey, const BagTopics& topics) {
-  return findPoses(survey, topics.odometry, false);
+  if (!topics.odometry.empty()) return findBagTopic<OdometryMsg>(survey, topics.odometry);
+  const auto all = allPoses(survey, false);
+  const auto best = std::min_element(all.begin(), all.end(), [](const auto* a, const auto* b) {
+    return odometryRank(a->topic.name) < odometryRank(b->topic.name);
+  });
+  return best == all.end() ? nullptr : *best;
+}
+
+std::string severalOdometries(const BagSurvey& survey, const BagTopics& topics) {
+  if (!topics.odometry.empty()) return {};
+  std::vector<std::string> names;
+  for (const BagTopicSummary* t : allPoses(survey, false)) names.push_back(t->topic.name);
+  if (names.size() < 2) return {};
+  return severalNote(survey, "topics of odometry", findOdometry(survey, topics)->topic.name, names,
+                     "--odometry-topic reads another");
 }
 
 BagPoses::BagPoses(const BagSurvey& survey, const BagTopics& topics) {
   const BagTopicSummary* odometry = findOdometry(survey, topics);
-  const BagTopicSummary* truth = findPoses(survey, topics.truth, true);
+  const BagTopicSummary* truth = findTruth(survey, topics.truth);
   if (odometry != nullptr) odometry_topic_ = odometry->topic.name;
   if (truth != nullptr) truth_topic_ = truth->topic.name;
   if (odometry == nullptr) odometry_frame_ = movingBase(survey, topics);

@@ -23,10 +23,13 @@ struct StampedPose {
   FloorPose pose;
 };
 
-/// The Odometry messages that do not tell the truth: of the topic that is named, else the first.
-/// Null if there are none.
+/// The Odometry messages that do not tell the truth: of the topic that is named, else of /odom and
+/// the like, and of what sees or hears its way last. Null if there are none.
 /// @throws std::runtime_error  if a topic that is named is not there.
 const BagTopicSummary* findOdometry(const BagSurvey& survey, const BagTopics& topics);
+
+/// Which of several is read, in a sentence; empty if there is one, or it is named.
+std::string severalOdometries(const BagSurvey& survey, const BagTopics& topics);
 
 /// Poses as they come in a bag's messages: the odometry, from Odometry messages or else from the
 /// tf of the base frame, and the truth, from Odometry messages whose topic is named so.

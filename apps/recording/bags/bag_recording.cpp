@@ -79,14 +79,9 @@ void undistortDepth(const cv::Mat& raw_m, const cv::Mat& x, const cv::Mat& y, cv
 
 /// Which of several cameras is read, and one that is not.
 std::string severalCameras(const BagSurvey& survey, const BagCamera& camera) {
-  std::string text = survey.path.string() + ": there are several cameras; what is read is " +
-                     camera.first->topic.name;
-  if (camera.second != nullptr) text += " with " + camera.second->topic.name;
-  text += ", not " + camera.others.front();
-  if (camera.others.size() > 1) {
-    text += " and " + std::to_string(camera.others.size() - 1) + " more";
-  }
-  return text + " (name the topics to read another)";
+  std::string read = camera.first->topic.name;
+  if (camera.second != nullptr) read += " with " + camera.second->topic.name;
+  return severalNote(survey, "cameras", read, camera.others, "name the topics to read another");
 }
 
 std::string layoutOf(const BagSurvey& survey, const BagCamera& camera) {

@@ -333,6 +333,16 @@ std::optional<Eigen::Isometry3d> BagSurvey::transform(const std::string& base,
   return std::nullopt;  // round in a circle
 }
 
+std::string BagSurvey::rootOf(const std::string& frame) const {
+  std::string at = frameName(frame);
+  for (std::size_t steps = 0; steps < frames.size(); ++steps) {
+    const auto link = frames.find(at);
+    if (link == frames.end() || link->second.moves) break;
+    at = link->second.parent;
+  }
+  return at;
+}
+
 std::optional<Eigen::Isometry3d> BagSurvey::transformBetween(const std::string& to,
                                                              const std::string& from) const {
   std::string common = frameName(to);

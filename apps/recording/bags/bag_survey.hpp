@@ -69,6 +69,9 @@ struct BagSurvey {
   std::optional<Eigen::Isometry3d> transformBetween(const std::string& to,
                                                     const std::string& from) const;
 
+  /// The last of the frames that `frame` stands in firmly; itself, if there is none.
+  std::string rootOf(const std::string& frame) const;
+
   /// What of the topics of these names is in the part, and tf, if `with_tf`.
   /// @param around_s  So much more before and after it.
   BagQuery queryOf(std::vector<std::string> names, bool with_tf, double around_s = 0.0) const;

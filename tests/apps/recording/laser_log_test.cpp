@@ -3,12 +3,14 @@
 
 #include "tests/support/data.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/bag/bag.hpp>
 #include <heel/apps/recording/laser_log.hpp>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <zlib.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -196,6 +198,221 @@ TEST(SimulatedLaserLog, SaysWhichFileIsMissingOrBroken) {
   const auto log = openLaserLog(folder.path());
   LaserReading reading;
   EXPECT_NE(test::messageOf([&] { log->next(reading); }).find("scan.csv:2:"), std::string::npos);
+}
+
+constexpr float kInf = std::numeric_limits<float>::infinity();
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+LaserScanMsg scanOf(double first_rad, double step_rad, const std::vector<float>& ranges) {
+  LaserScanMsg scan;
+  scan.header.stamp.ns = 200'000'000;
+  scan.header.frame_id = "laser";
+  scan.angle_min = static_cast<float>(first_rad);
+  scan.angle_increment = static_cast<float>(step_rad);
+  scan.range_min = 0.1F;
+  scan.range_max = 10.0F;
+  scan.ranges = ranges;
+  return scan;
+}
+
+/// A bag of one scan, of a laser that tf puts on a frame by a turn.
+class LaserBag {
+ public:
+  explicit LaserBag(const LaserScanMsg& scan, const Eigen::Quaterniond& turn = upright(),
+                    const std::string& parent = "base_link") {
+    TFMessageMsg transforms;
+    TransformStampedMsg laser;
+    laser.header.frame_id = parent;
+    laser.child_frame_id = "laser";
+    laser.transform.translation.x = 0.1;
+    laser.transform.translation.z = 0.3;
+    laser.transform.rotation = {turn.x(), turn.y(), turn.z(), turn.w()};
+    transforms.transforms = {laser};
+    const auto bag = createBag(path_);
+    if (!parent.empty()) bag->write("/tf_static", 100'000'000, transforms, true);
+    OdometryMsg odometry;
+    odometry.header.stamp.ns = 100'000'000;
+    odometry.header.frame_id = "odom";
+    odometry.child_frame_id = "base_link";
+    odometry.pose.pose.orientation.w = 1.0;
+    bag->write("/odom", 100'000'000, odometry);
+    bag->write("/scan", 200'000'000, scan);
+    bag->commit();
+    log_ = openLaserLog(path_);
+  }
+  static Eigen::Quaterniond upright() { return Eigen::Quaterniond::Identity(); }
+
+  const LaserLog& log() const { return *log_; }
+  LaserScan scan() {
+    LaserReading reading;
+    EXPECT_TRUE(log_->next(reading));
+    return reading.scan;
+  }
+
+ private:
+  test::TempFolder folder_;
+  std::filesystem::path path_ = folder_ / "r.bag";
+  std::unique_ptr<LaserLog> log_;
+};
+
+/// The range of the beam that points nearest to a direction of the base frame.
+float rangeTowards(const LaserScan& scan, const FloorPose& T_base_scanner, double bearing_rad) {
+  std::size_t nearest = 0;
+  const auto off = [&](std::size_t i) {
+    return std::abs(wrapped(T_base_scanner.yaw_rad + scan.angle(i) - bearing_rad));
+  };
+  for (std::size_t i = 0; i < scan.ranges_m.size(); ++i)
+    nearest = off(i) < off(nearest) ? i : nearest;
+  EXPECT_LT(off(nearest), 1e-6);
+  return scan.ranges_m[nearest];
+}
+
+TEST(BagLaserLog, AScannerUpsideDownSeesWhatIsOnTheLeftOnTheLeft) {
+  const LaserScanMsg message = scanOf(-0.5, 0.5, {1.0F, 2.0F, 3.0F});
+  const Eigen::Quaterniond rolled(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
+  const Eigen::Quaterniond yawed(Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()));
+  LaserBag bag(message, yawed * rolled);
+  const FloorPose place = *bag.log().T_base_scanner();
+  EXPECT_NEAR(place.yaw_rad, 0.7, 1e-9);
+  EXPECT_THAT(bag.log().warnings(), testing::IsEmpty());
+  const LaserScan scan = bag.scan();
+  // Its first beam is 0.5 to the right of its X as it sees it: that is to the left of the robot.
+  EXPECT_EQ(rangeTowards(scan, place, 0.7 + 0.5), 1.0F);
+  EXPECT_EQ(rangeTowards(scan, place, 0.7), 2.0F);
+  EXPECT_EQ(rangeTowards(scan, place, 0.7 - 0.5), 3.0F);
+  // By pitch it comes to the same, and then it looks back.
+  LaserBag pitched(message, Eigen::Quaterniond(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitY())));
+  const FloorPose back = *pitched.log().T_base_scanner();
+  EXPECT_EQ(rangeTowards(pitched.scan(), back, M_PI + 0.5), 1.0F);
+}
+
+TEST(BagLaserLog, WarnsOfALaserThatIsTilted) {
+  const auto pitched = [](double rad) {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(rad, Eigen::Vector3d::UnitY()));
+  };
+  const LaserScanMsg message = scanOf(-0.5, 0.5, {1.0F, 2.0F, 3.0F});
+  EXPECT_THAT(LaserBag(message, pitched(0.4)).log().warnings(), testing::IsEmpty());
+  EXPECT_THAT(LaserBag(message, pitched(0.5)).log().warnings(),
+              testing::ElementsAre(testing::HasSubstr("'laser' is tilted by 29 degrees")));
+}
+
+TEST(BagLaserLog, BeamsThatTurnToTheRightAreTurnedRound) {
+  const LaserScan scan = LaserBag(scanOf(1.0, -0.5, {1.0F, 2.0F, 3.0F})).scan();
+  EXPECT_NEAR(scan.first_rad, 0.0, 1e-6);
+  EXPECT_NEAR(scan.step_rad, 0.5, 1e-6);
+  EXPECT_THAT(scan.ranges_m, testing::ElementsAre(3.0F, 2.0F, 1.0F));
+}
+
+TEST(BagLaserLog, AFullCircleFromZeroOnBeginsBehind) {
+  const LaserScan scan = LaserBag(scanOf(0.0, M_PI / 2.0, {1.0F, 2.0F, 3.0F, 4.0F})).scan();
+  EXPECT_NEAR(scan.first_rad, -M_PI, 1e-6);
+  EXPECT_THAT(scan.ranges_m, testing::ElementsAre(3.0F, 4.0F, 1.0F, 2.0F));
+  // One that has both ends of the circle has one of them twice.
+  EXPECT_THAT(LaserBag(scanOf(0.0, M_PI / 2.0, {1.0F, 2.0F, 3.0F, 4.0F, 9.0F})).scan().ranges_m,
+              testing::ElementsAre(3.0F, 4.0F, 1.0F, 2.0F));
+  // One that begins behind already is as it was, though pi is rounded up as a float.
+  const LaserScan behind = LaserBag(scanOf(-M_PI, M_PI / 2.0, {1.0F, 2.0F, 3.0F})).scan();
+  EXPECT_NEAR(behind.first_rad, -M_PI, 1e-6);
+  EXPECT_THAT(behind.ranges_m, testing::ElementsAre(1.0F, 2.0F, 3.0F));
+}
+
+TEST(BagLaserLog, PartOfACircleThatGoesOnBehindHasAGap) {
+  const LaserScan scan =
+      LaserBag(scanOf(M_PI / 2.0, M_PI / 4.0, {1.0F, 2.0F, 3.0F, 4.0F, 5.0F})).scan();
+  EXPECT_NEAR(scan.first_rad, -M_PI, 1e-6);
+  const auto gap = testing::IsNan();
+  EXPECT_THAT(scan.ranges_m, testing::ElementsAre(3.0F, 4.0F, 5.0F, gap, gap, gap, 1.0F, 2.0F));
+}
+
+TEST(BagLaserLog, LeavesAnglesThatCanNotBeToTheReader) {
+  for (const double step : {1e-12, 0.0, std::nan("")}) {
+    EXPECT_EQ(LaserBag(scanOf(M_PI, step, {1.0F, 2.0F})).scan().ranges_m.size(), 2U) << step;
+  }
+  EXPECT_TRUE(std::isnan(LaserBag(scanOf(std::nan(""), 0.1, {1.0F})).scan().first_rad));
+}
+
+TEST(BagLaserLog, WhatCouldNotBeMeasuredIsNotFree) {
+  LaserScanMsg message =
+      scanOf(0.0, 0.1, {kNaN, -kInf, 0.0F, 0.05F, 0.1F, 9.9F, 10.0F, 12.0F, kInf});
+  const auto unknown = testing::IsNan();
+  EXPECT_THAT(
+      LaserBag(message).scan().ranges_m,
+      testing::ElementsAre(unknown, unknown, unknown, unknown, 0.1F, 9.9F, kInf, kInf, kInf));
+  message.range_max = 0.0F;  // not set
+  EXPECT_THAT(
+      LaserBag(message).scan().ranges_m,
+      testing::ElementsAre(unknown, unknown, unknown, unknown, 0.1F, 9.9F, 10.0F, 12.0F, kInf));
+}
+
+TEST(BagLaserLog, SaysWhyItDoesNotKnowWhereTheLaserIs) {
+  const LaserScanMsg message = scanOf(0.0, 0.1, {1.0F, 2.0F});
+  EXPECT_EQ(LaserBag(message).log().unplaced(), "");
+  const LaserBag other(message, LaserBag::upright(), "chassis_link");
+  EXPECT_FALSE(other.log().T_base_scanner());
+  EXPECT_THAT(other.log().unplaced(),
+              testing::EndsWith("r.bag: tf does not join 'laser' to base_footprint or base_link "
+                                "(its root is 'chassis_link'): use --base-frame or --scanner"));
+  EXPECT_THAT(LaserBag(message, LaserBag::upright(), "").log().unplaced(),
+              testing::HasSubstr("(its root is 'laser')"));
+}
+
+/// What a bag with these topics of odometry, each at a place of its own, is read to be at.
+class OdometryBag {
+ public:
+  explicit OdometryBag(const std::vector<std::string>& names) {
+    const auto bag = createBag(path_);
+    OdometryMsg odometry;
+    odometry.header.frame_id = "odom";
+    odometry.child_frame_id = "base_link";
+    for (const std::string& name : names) {
+      odometry.pose.pose.position.x += 1.0;
+      bag->write(name, 100'000'000, odometry);
+    }
+    for (const char* scan : {"/rear/scan", "/scan_front"}) {
+      bag->write(scan, 200'000'000, scanOf(0.0, 0.1, {1.0F}));
+    }
+    bag->commit();
+  }
+  std::unique_ptr<LaserLog> open(const BagTopics& topics = {}) const {
+    return openLaserLog(path_, topics);
+  }
+  double x_m(const BagTopics& topics = {}) const {
+    LaserReading reading;
+    EXPECT_TRUE(open(topics)->next(reading));
+    return reading.odometry.position.x();
+  }
+
+ private:
+  test::TempFolder folder_;
+  std::filesystem::path path_ = folder_ / "r.bag";
+};
+
+TEST(BagLaserLog, OfSeveralOdometriesThatOfTheWheelsIsRead) {
+  EXPECT_EQ(OdometryBag({"/gps/odom", "/robot/odom", "/odom"}).x_m(), 3.0);
+  EXPECT_EQ(OdometryBag({"/wheels", "/odometry/filtered", "/robot/odom"}).x_m(), 3.0);
+  EXPECT_EQ(OdometryBag({"/wheels", "/odometry/filtered", "/vo"}).x_m(), 2.0);
+  EXPECT_EQ(OdometryBag({"/rtabmap/odom", "/camera/odom", "/visual_odom", "/zed/vo/odom", "/drive"})
+                .x_m(),
+            5.0);
+  EXPECT_EQ(OdometryBag({"/rtabmap/odom"}).x_m(), 1.0);
+  BagTopics named;
+  named.odometry = "/gps/odom";
+  EXPECT_EQ(OdometryBag({"/odom", "/gps/odom"}).x_m(named), 2.0);
+}
+
+TEST(BagLaserLog, SaysWhichOfSeveralTopicsIsRead) {
+  const OdometryBag bag({"/gps/odom", "/odom", "/vo"});
+  EXPECT_THAT(
+      bag.open()->warnings(),
+      testing::ElementsAre(
+          testing::EndsWith("r.bag: there are several topics of laser scans; what is read is "
+                            "/scan_front, not /rear/scan (--scan-topic reads another)"),
+          testing::EndsWith("there are several topics of odometry; what is read is /odom, not "
+                            "/gps/odom and 1 more (--odometry-topic reads another)")));
+  BagTopics named;
+  named.odometry = "/odom";
+  named.scan = "/rear/scan";
+  EXPECT_THAT(bag.open(named)->warnings(), testing::IsEmpty());
 }
 
 }  // namespace
