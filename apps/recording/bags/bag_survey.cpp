@@ -44,6 +44,18 @@ bool isLatched(const BagTopic& topic) {
   return topic.holds<TFMessageMsg>() && topic.name.find("static") != std::string::npos;
 }
 
+/// Whether a link is elsewhere than at first. Encoders of joints that hold still tremble; how the
+/// robot itself is told to move counts to its last digit, for then somebody tells it.
+bool hasMoved(const Eigen::Isometry3d& first, const Eigen::Isometry3d& now, bool is_robots) {
+  constexpr double kSame = 1e-9;
+  constexpr double kTremble_m = 0.002, kTremble_rad = 0.0035;  // 0.2 degrees
+  const bool is_same = (first.matrix() - now.matrix()).cwiseAbs().maxCoeff() <= kSame;
+  if (is_same || is_robots) return !is_same;
+  const Eigen::Isometry3d T = first.inverse() * now;
+  return !(T.translation().norm() <= kTremble_m &&
+           Eigen::AngleAxisd(T.linear()).angle() <= kTremble_rad);
+}
+
 class Surveyor {
  public:
   Surveyor(BagReader& reader, BagSurvey& survey) : reader_(reader), survey_(survey) {}
@@ -279,12 +291,11 @@ class Surveyor {
       PointMsg place;
       setPoint(place, at);
       const Eigen::Isometry3d T = poseOf(place, t.transform.rotation);
-      const auto [known, is_new] =
-          survey_.frames.insert({frameName(t.child_frame_id), {parent, T, false}});
+      const std::string child = frameName(t.child_frame_id);
+      const auto [known, is_new] = survey_.frames.insert({child, {parent, T, false}});
       BagSurvey::Link& link = known->second;
-      constexpr double kSame = 1e-9;
-      if (!is_new && (link.parent != parent ||
-                      (link.T_parent_child.matrix() - T.matrix()).cwiseAbs().maxCoeff() > kSame)) {
+      const bool is_robots = child == "base_footprint" || child == "base_link";
+      if (!is_new && (link.parent != parent || hasMoved(link.T_parent_child, T, is_robots))) {
         link.moves = true;
       }
     }

@@ -67,6 +67,30 @@ class BagMotions : public testing::TestWithParam<const char*> {
 };
 INSTANTIATE_TEST_SUITE_P(Forms, BagMotions, testing::Values("r.bag", "r.db3", "r.mcap"));
 
+TEST_P(BagMotions, AHeadThatTremblesHoldsItsCameraFirmly) {
+  const auto pitched = [](double rad, double up_m) {
+    return at(0, 0, 1 + up_m) * Eigen::Isometry3d(Eigen::AngleAxisd(rad, Eigen::Vector3d::UnitY()));
+  };
+  addStatic("trembling", "optical", at(0.1, 0, 0));
+  addStatic("turning", "other", at(0.1, 0, 0));
+  addStatic("rising", "third", at(0.1, 0, 0));
+  for (int i = 0; i <= 10; ++i) {
+    const double trembles = i % 2;
+    addTf(0.1 * i, "base_link", "trembling", pitched(0.003 * trembles, 0.0015 * trembles));
+    addTf(0.1 * i, "base_link", "turning", pitched(0.0004 * i, 0.0));
+    addTf(0.1 * i, "base_link", "rising", pitched(0.0, 0.00025 * i));
+    addTf(0.1 * i, "odom", "base_link", at(0.0001 * trembles, 0, 0));
+  }
+  bag_->commit();
+  const BagSurvey survey = surveyBag(folder_ / GetParam());
+  const auto T = survey.transform("base_link", "optical");
+  ASSERT_TRUE(T);
+  EXPECT_TRUE(T->isApprox(at(0.1, 0, 1)));
+  EXPECT_FALSE(survey.transform("base_link", "other")) << "0.0040 rad from where it was at first";
+  EXPECT_FALSE(survey.transform("base_link", "third")) << "2.5 mm from where it was at first";
+  EXPECT_TRUE(survey.frames.at("base_link").moves) << "it tells that the robot stands";
+}
+
 TEST_P(BagMotions, ByTfAreThoseOfTheBaseFrame) {
   addCameraOnRobot();
   addStatic("map", "odom", at(5, 5, 0));
