@@ -3,6 +3,7 @@
 
 #include <heel/apps/experiment/closed_loop.hpp>
 #include <heel/apps/experiment/robot_config.hpp>
+#include <heel/apps/simulation/camera_model.hpp>
 #include <heel/apps/simulation/scene_parts.hpp>
 
 #include <algorithm>
@@ -167,7 +168,15 @@ void writePart(std::ostringstream& out, const char* part, bool is_of_camera,
 RobotConfig loadRobotConfig(const std::string& file) {
   RobotConfig config;
   YamlMap top = YamlMap::fromFile(file, "robot's file");
-  if (auto robot = top.map("robot", "robot")) config.robot = readRobotItself(*robot);
+  if (auto robot = top.map("robot", "robot")) {
+    const bool tells_camera = robot->has("camera");
+    config.robot = readRobotItself(*robot);
+    const CameraParams& camera = config.robot.camera;
+    // Else its place is a default, of which the floor that is seen knows more.
+    if (tells_camera) {
+      config.camera_setup.T_base_camera = mountedCamera(camera.at, camera.pitch_rad);
+    }
+  }
   const std::vector<Setting> settings = settingsOf(config);
   readPart(top, "camera_setup", true, settings);
   readPart(top, "follow", false, settings);

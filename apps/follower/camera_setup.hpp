@@ -21,6 +21,8 @@ namespace heel {
 /// How the camera is found over the floor, and what is warned of.
 struct CameraSetupParams {
   double look_at_s = 2.0;  ///< How much of the recording's beginning is looked at.
+  /// The camera's place where the recording does not tell it; absent: the floor tells.
+  std::optional<Eigen::Isometry3d> T_base_camera;
   StereoMatcherParams stereo;
   GroundPlaneParams ground;
   SetupCheckParams check;
@@ -32,7 +34,10 @@ struct CameraSetup {
   StereoCamera camera;  ///< Of an organized cloud: fitted to its points. Zeros if unknown.
   /// As configured; else from the floor that was found.
   Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
-  bool is_configured = false;         ///< Where T_base_camera comes from.
+  bool is_configured = false;  ///< Where T_base_camera comes from.
+  /// So high is the robot's base frame in tf over the floor: 0, or of base_link what is seen. Of
+  /// T_base_camera it is taken away: its base is on the floor.
+  double base_height_m = 0.0;
   std::optional<GroundPlane> ground;  ///< The floor, if one was found.
   SetupReport report;                 ///< Depth, exposure and stamps of what was looked at.
   std::vector<std::string> warnings;  ///< All that a user should know, in sentences.

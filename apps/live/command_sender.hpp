@@ -42,6 +42,9 @@ class CommandSender {
   /// @param stamp_s  Now, on the clock that stamps are of. Until the first one it is the system's.
   void set(const VelocityCommand& command, double stamp_s);
 
+  /// Whether somebody hears them, as this type of message.
+  bool isHeard() const { return writer_->isHeard(params_.topic); }
+
   /// How often a command was too old to be sent.
   std::size_t stopped() const;
 

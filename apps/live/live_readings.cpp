@@ -72,6 +72,12 @@ void LiveReadings::takeFrames(double clock_s) {
   while (recording_->next(next_frame_)) {
     if (has_next_) ++left_out_;
     has_next_ = true;
+    if (next_frame_.stamp_s < last_frame_s_) {
+      goes_back_ = true;
+      has_time_ = false;
+      now_s_ = std::numeric_limits<double>::lowest();
+    }
+    last_frame_s_ = next_frame_.stamp_s;
     next_came_s_ = clock_s;
     notice(next_frame_.stamp_s, clock_s);
   }
@@ -86,6 +92,7 @@ void LiveReadings::notice(double stamp_s, double clock_s) {
 
 const RobotReadings& LiveReadings::read(double clock_s) {
   readings_ = {};
+  has_begun_anew_ = std::exchange(goes_back_, false);
   if (has_next_) {
     std::swap(frame_, next_frame_);
     readings_.frame = &frame_;

@@ -22,8 +22,9 @@ namespace heel {
 /// Puts a robot's messages together: images to frames, scans, odometry. Which topics are the
 /// robot's camera, laser and wheels, and where they are on it, is found out as of a bag.
 ///
-/// Time is the sensors': the newest stamp, and what has passed since it came; it never goes back.
-/// So the robot's clock may be another than ours, and a simulated one may be slow.
+/// Time is the sensors': the newest stamp, and what has passed since it came. It goes back only if
+/// that of the camera's frames does for good (a simulation that is reset, a bag that is played
+/// again). So the robot's clock may be another than ours, and a simulated one may be slow.
 class LiveReadings {
  public:
   /// @param survey  Of what has come so far.
@@ -47,6 +48,9 @@ class LiveReadings {
 
   /// The newest of each that has come since the last time; valid until the next time.
   const RobotReadings& read(double clock_s);
+
+  /// Whether time had gone back before the last readings: what was before is of no use.
+  bool hasBegunAnew() const { return has_begun_anew_; }
 
   /// How long ago the frame of the last readings came [s].
   double frameAge_s(double clock_s) const { return clock_s - frame_came_s_; }
@@ -73,6 +77,8 @@ class LiveReadings {
   Frame frame_, next_frame_, floor_;
   bool has_floor_ = false;
   bool has_next_ = false;
+  bool goes_back_ = false, has_begun_anew_ = false;  // the next readings, and the last
+  double last_frame_s_ = std::numeric_limits<double>::lowest();
   LaserReading scan_;
   RobotReadings readings_;
   double now_s_ = std::numeric_limits<double>::lowest();

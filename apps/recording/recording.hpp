@@ -36,6 +36,7 @@ struct RecordingInfo {
   bool nominal_stamps = false;  ///< No times are stored: they are made from the assumed rate.
   /// Where the camera is mounted: maps its optical frame to the base frame. Absent if not known.
   std::optional<Eigen::Isometry3d> T_base_camera;
+  std::string base_frame;             ///< What tf calls that base frame; empty: tf does not tell.
   std::vector<std::string> warnings;  ///< What a user should know of how it is read, in sentences.
   std::string lost;  ///< What of a damaged bag can't be read, in a sentence; empty: nothing.
 };

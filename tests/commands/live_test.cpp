@@ -115,6 +115,7 @@ TEST_P(Live, ARobotOnTheNetworkLearnsAPersonFollowsThemAndDoesAsItIsTold) {
   ASSERT_TRUE(succeeds(world));
   EXPECT_THAT(follower.warnings(), testing::Contains(HasSubstr("'dance' is not known; it takes")));
   EXPECT_THAT(follower.err, HasSubstr("/camera/left/image_rect_color"));
+  EXPECT_THAT(follower.err, testing::Not(HasSubstr("nobody hears")));
   EXPECT_THAT(follower.err, HasSubstr("follow"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "live/report.html"));
   std::smatch drove;
@@ -142,6 +143,16 @@ TEST_P(Live, WithDryItSendsNothing) {
   const HeelRun follower = heel(live({"--limit", "3", "--wait", "60", "--dry"}));
   EXPECT_EQ(follower.exit_code, 0) << follower.err;
   EXPECT_THAT(robot.get().out, HasSubstr("drove 0.00 m by 0 commands"));
+}
+
+TEST_P(Live, WarnsOnceIfNobodyHearsItsVelocities) {
+  auto robot = this->robot("12");
+  const HeelRun follower =
+      heel(live({"--limit", "5", "--wait", "60", "--command-topic", "/wheels", "--stamped"}));
+  ASSERT_TRUE(succeeds(robot.get()));
+  EXPECT_EQ(follower.exit_code, 0) << follower.err;
+  EXPECT_THAT(follower.warnings(),
+              testing::Contains(HasSubstr("nobody hears /wheels as TwistStamped")).Times(1));
 }
 
 TEST_P(Live, RefusesANetworkThatCannotBe) {

@@ -100,7 +100,7 @@ OccupancyGrid waitForMap(LiveNetwork& network, const LiveCommands& commands,
 }
 
 RobotDescription describeFound(RobotDescription robot, const FoundRobot& found, const LogMap& map) {
-  const ScannerPlace scanner = placeScanner(found.readings->laser(), map);
+  const ScannerPlace scanner = placeScanner(found.readings->laser(), map, found.camera);
   robot.camera = found.camera;
   robot.T_base_scanner = scanner.T_base_scanner;
   robot.scanner_height_m = scanner.height_m;
@@ -204,6 +204,7 @@ void run(const LiveOptions& options) {
   const double began_s = steadyClock_s();
   StateTeller teller;
   SilenceTeller silence;
+  UnheardTeller unheard;
   StereoReading picture;
   double last_step_s = began_s;
   bool has_skipped = false;
@@ -214,9 +215,13 @@ void run(const LiveOptions& options) {
       log.outcome = kStoppedRun;
       break;
     }
-    const bool forgets = commands.mustForget();
-    if (forgets) follower = makeFollower(place);
     const RobotReadings& now = readings.read(steadyClock_s());
+    if (readings.hasBegunAnew()) {
+      warn("the sensors' time has gone back: all begins anew");
+      place = map.walls ? map.start : now.odometry ? now.odometry : place;
+    }
+    const bool forgets = commands.mustForget();
+    if (forgets || readings.hasBegunAnew()) follower = makeFollower(place);
     silence.tell(now, network->trouble(), steadyClock_s());
     if (!has_skipped) {
       const std::vector<SkippedFrame> skipped = readings.skipped();
@@ -232,7 +237,10 @@ void run(const LiveOptions& options) {
       break;
     }
     place = step->robot.lost ? std::nullopt : std::optional(step->robot.pose);
-    if (sender) sender->set(step->velocity, now.stamp_s);
+    if (sender) {
+      sender->set(step->velocity, now.stamp_s);
+      unheard.tell(*sender, options.sender, steadyClock_s() - began_s);
+    }
     if (forgets) commands.hasForgotten();
     const double now_s = steadyClock_s();
     if (now.frame != nullptr) log.latencies_s.push_back(readings.frameAge_s(now_s));

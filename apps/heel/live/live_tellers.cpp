@@ -38,6 +38,18 @@ void SilenceTeller::Sensor::tell(const char* what, bool has_come, double clock_s
   }
 }
 
+void UnheardTeller::tell(const CommandSender& sender, const CommandSenderParams& params,
+                         double since_s) {
+  constexpr double kFound_s = 2.0;
+  if (is_done_ || since_s < kFound_s) return;
+  is_done_ = true;
+  if (sender.isHeard()) return;
+  warn("nobody hears " + params.topic + " as " +
+       (params.stamped ? "TwistStamped: without --stamped it is Twist"
+                       : "Twist: with --stamped it is TwistStamped") +
+       ", and --command-topic names another topic");
+}
+
 void tellCommand(const std::string& words, bool is_unknown) {
   if (is_unknown) {
     warn("/heel/command: '" + words + "' is not known; it takes pause, go, forget, stop");

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <heel/apps/follower/follower.hpp>
+#include <heel/apps/live/command_sender.hpp>
 
 #include <string>
 
@@ -34,6 +35,16 @@ class SilenceTeller {
   };
   Sensor camera_, laser_, wheels_;
   std::string trouble_;
+};
+
+/// Once, when nobody hears the velocities though there was time to find each other.
+class UnheardTeller {
+ public:
+  /// @param since_s  So long velocities have been sent.
+  void tell(const CommandSender& sender, const CommandSenderParams& params, double since_s);
+
+ private:
+  bool is_done_ = false;
 };
 
 /// What others told the follower, as LiveCommands heard it.

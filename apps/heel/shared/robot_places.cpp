@@ -61,19 +61,21 @@ LogMap openLogMap(const LogMapOptions& options) {
   return map;
 }
 
-ScannerPlace placeScanner(const LaserLog& scans, const LogMap& map) {
+ScannerPlace placeScanner(const LaserLog& scans, const LogMap& map, const CameraSetup& setup) {
   for (const std::string& warning : scans.warnings()) warn(warning);
   std::optional<FloorPose> place = map.scanner ? map.scanner : scans.T_base_scanner();
   if (!place) place = map.default_scanner;
   if (!place && !scans.unplaced().empty()) warn(scans.unplaced());
-  return {place.value_or(FloorPose()), scans.scannerHeight_m().value_or(map.scanner_height_m)};
+  const auto over_base_m = scans.scannerHeight_m();
+  return {place.value_or(FloorPose()),
+          over_base_m ? *over_base_m + setup.base_height_m : map.scanner_height_m};
 }
 
-LogLaser openLogLaser(const std::filesystem::path& path, const BagTopics& topics,
-                      const LogMap& map) {
+LogLaser openLogLaser(const std::filesystem::path& path, const BagTopics& topics, const LogMap& map,
+                      const CameraSetup& setup) {
   LogLaser laser;
   laser.scans = openLaserLog(path, topics);
-  laser.place = placeScanner(*laser.scans, map);
+  laser.place = placeScanner(*laser.scans, map, setup);
   return laser;
 }
 
@@ -117,7 +119,7 @@ void RobotPlaces::putOnMap(const std::filesystem::path& path, const RecordingPar
   map_ = map;
   LogLaser laser;
   try {
-    laser = openLogLaser(path, opening.topics, map);
+    laser = openLogLaser(path, opening.topics, map, setup_);
   } catch (const std::runtime_error& error) {
     if (!in_map_) {
       throw std::runtime_error(std::string(error.what()) +

@@ -65,7 +65,7 @@ struct ScannerPlace {
 
 /// As the options say, else the log, else what `map` has by default; else, with a warning, at the
 /// base's origin. Tells the log's other warnings, too.
-ScannerPlace placeScanner(const LaserLog& scans, const LogMap& map);
+ScannerPlace placeScanner(const LaserLog& scans, const LogMap& map, const CameraSetup& setup);
 
 /// The laser of a log, and where it is on the robot.
 struct LogLaser {
@@ -74,8 +74,8 @@ struct LogLaser {
 };
 
 /// @throws std::runtime_error  as openLaserLog().
-LogLaser openLogLaser(const std::filesystem::path& path, const BagTopics& topics,
-                      const LogMap& map);
+LogLaser openLogLaser(const std::filesystem::path& path, const BagTopics& topics, const LogMap& map,
+                      const CameraSetup& setup);
 
 /// How the robot moved on its map, as the tf of its bag tells; absent if it does not.
 /// @throws std::runtime_error  as openRecording().

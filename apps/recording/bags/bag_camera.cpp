@@ -3,9 +3,11 @@
 
 #include <heel/apps/recording/bags/bag_camera.hpp>
 #include <heel/apps/recording/bags/bag_image_reader.hpp>
+#include <heel/cloud/ground_plane.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <regex>
 #include <set>
 #include <stdexcept>
@@ -311,7 +313,9 @@ const CameraInfoMsg* findCameraInfo(const BagSurvey& survey, const BagTopicSumma
 
 const CameraInfoMsg& cameraInfoOf(const BagSurvey& survey, const BagTopicSummary& images) {
   if (const CameraInfoMsg* info = findCameraInfo(survey, images)) return *info;
-  failWithTopics(survey, "has no camera_info of the images on '" + images.topic.name + "'");
+  failWithTopics(survey, "has no camera_info of the images on '" + images.topic.name +
+                             "' (record it with them, or read the images as a folder with a "
+                             "camera.yaml or a stereo calibration)");
 }
 
 std::optional<std::string> baseFrameOf(const BagSurvey& survey, const BagTopics& topics,
@@ -337,6 +341,19 @@ std::optional<Eigen::Isometry3d> placeOnRobot(const BagSurvey& survey, const Bag
                                               const std::string& frame) {
   const auto base = baseFrameOf(survey, topics, frame);
   return base ? survey.transform(*base, frame) : std::nullopt;
+}
+
+std::optional<ImagePlace> placeOfImages(const BagSurvey& survey, const BagTopics& topics,
+                                        const std::string& frame) {
+  const auto T = placeOnRobot(survey, topics, frame);
+  if (!T) return std::nullopt;
+  // No camera's optics are so: its Z would look at the ceiling.
+  constexpr double kMost_rad = M_PI / 6.0;
+  ImagePlace place;
+  place.is_body = (*T)(2, 2) > std::cos(kMost_rad) && std::abs((*T)(2, 0)) < std::sin(kMost_rad);
+  if (place.is_body) place.T_frame_camera = baseFromCamera(Mounting());
+  place.T_base_camera = place.is_body ? *T * place.T_frame_camera : *T;
+  return place;
 }
 
 }  // namespace heel

@@ -60,6 +60,17 @@ std::optional<std::string> baseFrameOf(const BagSurvey& survey, const BagTopics&
 std::optional<Eigen::Isometry3d> placeOnRobot(const BagSurvey& survey, const BagTopics& topics,
                                               const std::string& frame);
 
+/// Where the camera of images with this frame is on its base frame: as placeOnRobot(), but for a
+/// frame that is none of a camera's optics (Z ahead, X to the right) but of its body (X ahead, Z
+/// up), as Gazebo's cameras name it: then the camera looks along X (REP 103).
+struct ImagePlace {
+  Eigen::Isometry3d T_base_camera = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_frame_camera = Eigen::Isometry3d::Identity();
+  bool is_body = false;
+};
+std::optional<ImagePlace> placeOfImages(const BagSurvey& survey, const BagTopics& topics,
+                                        const std::string& frame);
+
 /// "X.bag: there are several ...; what is read is A, not B and 2 more (...)".
 /// @param topics  All of them; `read` may be among them.
 std::string severalNote(const BagSurvey& survey, const std::string& what, const std::string& read,

@@ -84,6 +84,24 @@ std::string severalCameras(const BagSurvey& survey, const BagCamera& camera) {
   return severalNote(survey, "cameras", read, camera.others, "name the topics to read another");
 }
 
+/// The camera's place, if tf tells it. Clouds are in the axes of their frame, whichever those are.
+void placeCamera(const BagSurvey& survey, const BagTopics& topics, const BagCamera& camera,
+                 RecordingInfo& info) {
+  const std::string& frame = camera.first->frame_id;
+  info.base_frame = baseFrameOf(survey, topics, frame).value_or("");
+  if (camera.sensor == SensorKind::kCloud) {
+    info.T_base_camera = placeOnRobot(survey, topics, frame);
+    return;
+  }
+  const auto place = placeOfImages(survey, topics, frame);
+  if (!place) return;
+  info.T_base_camera = place->T_base_camera;
+  if (!place->is_body) return;
+  info.warnings.push_back(survey.path.string() + ": the images' frame '" + frame +
+                          "' looks like a body's (X ahead, Z up); the camera is taken to look "
+                          "along its X");
+}
+
 std::string layoutOf(const BagSurvey& survey, const BagCamera& camera) {
   std::string text = survey.form == BagForm::kRos1 ? "ROS 1 bag, " : "ROS 2 bag, ";
   text += camera.first->topic.name;
@@ -119,10 +137,13 @@ std::unique_ptr<BagRecording> BagRecording::open(const BagSurvey& survey,
   info.frame_count = camera.first->count;
   info.lost = survey.lost;
   if (!camera.others.empty()) info.warnings.push_back(severalCameras(survey, camera));
-  info.T_base_camera = placeOnRobot(survey, params.topics, camera.first->frame_id);
+  placeCamera(survey, params.topics, camera, info);
   BagMotion motion(survey, params.topics, camera.first->frame_id);
-  return std::unique_ptr<BagRecording>(
+  std::unique_ptr<BagRecording> recording(
       new BagRecording(survey, std::move(reader), camera, std::move(motion), std::move(info)));
+  if (camera.sensor == SensorKind::kStereo) recording->setUpStereo(survey, camera);
+  if (camera.sensor == SensorKind::kRgbd) recording->setUpRgbd(survey, camera, params.topics);
+  return recording;
 }
 
 BagRecording::BagRecording(const BagSurvey& survey, std::unique_ptr<BagReader> reader,
@@ -145,8 +166,6 @@ BagRecording::BagRecording(const BagSurvey& survey, std::unique_ptr<BagReader> r
   info_.duration_s = camera.first->duration_s();
   const double rate_hz = camera.first->rate_hz();
   limit_s_ = rate_hz > 0.0 ? 0.5 / rate_hz : 0.02;
-  if (camera.sensor == SensorKind::kStereo) setUpStereo(survey, camera);
-  if (camera.sensor == SensorKind::kRgbd) setUpRgbd(survey, camera);
 }
 
 void BagRecording::setUpStereo(const BagSurvey& survey, const BagCamera& camera) {
@@ -163,7 +182,8 @@ void BagRecording::setUpStereo(const BagSurvey& survey, const BagCamera& camera)
   info_.camera = rig_->camera();
 }
 
-void BagRecording::setUpRgbd(const BagSurvey& survey, const BagCamera& camera) {
+void BagRecording::setUpRgbd(const BagSurvey& survey, const BagCamera& camera,
+                             const BagTopics& topics) {
   const CameraInfoMsg& info = cameraInfoOf(survey, *camera.first);
   const bool is_rectified = isRectified(*camera.first) && info.P[0] > 0.0;
   info_.camera.left = depth_camera_ = pinholeOf(info, is_rectified);
@@ -174,11 +194,12 @@ void BagRecording::setUpRgbd(const BagSurvey& survey, const BagCamera& camera) {
   if (!is_rectified) {
     makeMaps(path_ + ", camera_info of " + first_.topic, info, undistort_x_, undistort_y_);
   }
-  setUpDepth(survey, camera);
+  setUpDepth(survey, camera, topics);
 }
 
 /// Depth that was made to fit colour has its frame and its intrinsics; what has not is registered.
-void BagRecording::setUpDepth(const BagSurvey& survey, const BagCamera& camera) {
+void BagRecording::setUpDepth(const BagSurvey& survey, const BagCamera& camera,
+                              const BagTopics& topics) {
   const BagTopicSummary &color = *camera.first, &depth = *camera.second;
   const CameraInfoMsg* info = findCameraInfo(survey, depth);
   const bool is_rectified = info != nullptr && isRectified(depth) && info->P[0] > 0.0;
@@ -196,6 +217,12 @@ void BagRecording::setUpDepth(const BagSurvey& survey, const BagCamera& camera) 
   std::optional<Eigen::Isometry3d> T_color_depth;
   if (!color.frame_id.empty() && !depth.frame_id.empty()) {
     T_color_depth = survey.transformBetween(color.frame_id, depth.frame_id);
+  }
+  if (T_color_depth) {
+    const auto of_color = placeOfImages(survey, topics, color.frame_id);
+    const auto of_depth = placeOfImages(survey, topics, depth.frame_id);
+    if (of_color) T_color_depth = of_color->T_frame_camera.inverse() * *T_color_depth;
+    if (of_depth) T_color_depth = *T_color_depth * of_depth->T_frame_camera;
   }
   if (!T_color_depth) {
     throw std::runtime_error(origin + ": depth is not registered to the colour of " +
@@ -259,7 +286,28 @@ bool BagRecording::isDecided() const {
                      [&](const Waiting& other) { return other.stamp_s >= from_s; });
 }
 
+/// Whether so many live frames in a row were older than one before, each newer than the last of
+/// them, that it is the time that has gone back.
+bool BagRecording::beginsAnew(double stamp_s) {
+  constexpr std::size_t kFrames = 5;  // fewer may be late
+  if (!is_live_ || stamp_s > last_s_) {
+    older_ = 0;
+    return false;
+  }
+  older_ = older_ > 0 && stamp_s > older_s_ ? older_ + 1 : 1;
+  older_s_ = stamp_s;
+  return older_ >= kFrames;
+}
+
 void BagRecording::checkStamp(double stamp_s) {
+  if (beginsAnew(stamp_s)) {
+    older_ = 0;
+    last_s_ = -std::numeric_limits<double>::infinity();
+    // What waits of the time before has no partner any more, and would be taken for the newest.
+    const auto is_past = [&](const Waiting& other) { return other.stamp_s > stamp_s + limit_s_; };
+    std::deque<Waiting>& others = second_.waiting;
+    others.erase(std::remove_if(others.begin(), others.end(), is_past), others.end());
+  }
   std::vector<double> following_s;
   for (const Waiting& next : first_.waiting) following_s.push_back(next.stamp_s);
   checkGoesOn(stamp_s, last_s_);

@@ -37,7 +37,8 @@ class BagRecording final : public Recording {
                                          const RecordingParams& params);
 
   /// Of a robot that is on: next() gives a frame as soon as all of it has come, and false when
-  /// there is none for now. It does not tell motions.
+  /// there is none for now. It does not tell motions. Time that goes back for some frames goes on
+  /// from there.
   /// @param survey  Of what has come so far.
   /// @param reader  What comes from now on.
   static std::unique_ptr<Recording> openLive(const BagSurvey& survey,
@@ -71,12 +72,13 @@ class BagRecording final : public Recording {
                BagMotion motion, RecordingInfo info);
 
   void setUpStereo(const BagSurvey& survey, const BagCamera& camera);
-  void setUpRgbd(const BagSurvey& survey, const BagCamera& camera);
-  void setUpDepth(const BagSurvey& survey, const BagCamera& camera);
+  void setUpRgbd(const BagSurvey& survey, const BagCamera& camera, const BagTopics& topics);
+  void setUpDepth(const BagSurvey& survey, const BagCamera& camera, const BagTopics& topics);
   bool readMessage();
   void take(const BagMessage& raw, Queue& queue);
   bool isDecided() const;
   void checkStamp(double stamp_s);
+  bool beginsAnew(double stamp_s);
   std::optional<Waiting> takePartner(double stamp_s);
   void makeFrame(const Waiting& first, const Waiting* second, Frame& frame);
   void readColor(const Queue& queue, const Waiting& message, cv::Mat& image_bgr);
@@ -92,7 +94,9 @@ class BagRecording final : public Recording {
   bool at_end_ = false;
   Queue first_, second_;
   double last_s_ = -std::numeric_limits<double>::infinity();
-  double limit_s_ = 0.0;  // two images of a frame are not further apart
+  double older_s_ = 0.0;   // of live frames in a row that are older than that one: the last,
+  std::size_t older_ = 0;  // and how many
+  double limit_s_ = 0.0;   // two images of a frame are not further apart
   std::optional<StereoRig> rig_;
   cv::Mat undistort_x_, undistort_y_;  // of raw RGB-D images; empty: nothing to do
   PinholeCamera depth_camera_;         // the colour's, unless depth is registered here

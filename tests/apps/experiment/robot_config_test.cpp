@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
@@ -90,6 +91,17 @@ TEST_F(RobotConfigFile, AFootprintIsDrivenAsTheDiscAroundIt) {
 
 TEST_F(RobotConfigFile, WhatIsLeftOutHasItsDefault) {
   EXPECT_EQ(toYaml(read("follow: {near_m: 1.0}\n")), toYaml(RobotConfig{}));
+}
+
+TEST_F(RobotConfigFile, TellsWhereTheCameraIsIfItHasOne) {
+  EXPECT_FALSE(read("robot: {radius_m: 0.3}").camera_setup.T_base_camera);
+  const auto T =
+      read("robot: {camera: {at: [0.1, 0.2, 1.3], pitch_deg: 10}}").camera_setup.T_base_camera;
+  ASSERT_TRUE(T);
+  EXPECT_TRUE(T->translation().isApprox(Eigen::Vector3d(0.1, 0.2, 1.3)));
+  const double pitch_rad = M_PI / 18.0;
+  EXPECT_TRUE((T->linear() * Eigen::Vector3d::UnitZ())
+                  .isApprox(Eigen::Vector3d(std::cos(pitch_rad), 0.0, -std::sin(pitch_rad))));
 }
 
 TEST_F(RobotConfigFile, AnUnknownKeyIsNamedWithFileLineAndTheNearest) {

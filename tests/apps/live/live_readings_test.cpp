@@ -4,6 +4,7 @@
 #include "tests/support/temp_folder.hpp"
 #include <heel/apps/live/live_readings.hpp>
 #include <heel/apps/recording/bags/sensor_bag.hpp>
+#include <heel/cloud/ground_plane.hpp>
 
 #include <gmock/gmock.h>
 #include <opencv2/core.hpp>
@@ -37,7 +38,7 @@ RecordingInfo stereoCamera() {
   info.sensor = SensorKind::kStereo;
   info.camera.left = {8, 6, 10.0, 10.0, 3.5, 2.5};
   info.camera.baseline_m = 0.1;
-  info.T_base_camera = Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 1.2));
+  info.T_base_camera = baseFromCamera({1.2, 0.1, 0.0});
   return info;
 }
 
@@ -145,6 +146,43 @@ TEST(LiveReadings, TimeIsTheNewestStampAndWhatHasPassedSinceAndNeverGoesBack) {
   robot.measure(22);  // Late, or slower than our clock.
   EXPECT_NEAR(readings->read(clock_s).stamp_s, 1001.3, 1e-9);
   EXPECT_NEAR(readings->read(clock_s + 0.3).stamp_s, 1001.4, 1e-9);
+}
+
+TEST(LiveReadings, TimeThatGoesBackForGoodGoesOnFromThere) {
+  const auto readings = begin();
+  const auto take = [&](const BagTopic& t, std::int64_t ns, const auto& b) {
+    readings->take(t, ns, b, 50.0);
+  };
+  Robot before(take), reset(take, 0.0);
+  before.measure(20);
+  EXPECT_NE(readings->read(50.0).frame, nullptr);
+  EXPECT_FALSE(readings->hasBegunAnew());
+  for (int tick = 2; tick <= 8; tick += 2) reset.measure(tick);
+  EXPECT_EQ(readings->read(50.0).frame, nullptr) << "four may be late";
+  EXPECT_GT(readings->read(50.0).stamp_s, 1000.9);
+  reset.measure(10);
+  reset.measure(12);
+  const RobotReadings& now = readings->read(50.0);
+  EXPECT_TRUE(readings->hasBegunAnew());
+  ASSERT_NE(now.frame, nullptr);
+  EXPECT_NEAR(now.frame->stamp_s, 0.6, 1e-9);
+  EXPECT_EQ(now.frame->right_bgr.at<cv::Vec3b>(0, 0)[0], 112);
+  EXPECT_NEAR(now.stamp_s, 0.6, 1e-9);
+  EXPECT_NEAR(now.odometry->position.x(), 0.12, 1e-9);
+  reset.measure(14);
+  EXPECT_NEAR(readings->read(50.0).stamp_s, 0.7, 1e-9);
+  EXPECT_FALSE(readings->hasBegunAnew());
+}
+
+TEST(LiveReadings, FramesThatAreLateNowAndThenDoNotTurnTimeBack) {
+  const auto readings = begin();
+  Robot robot(
+      [&](const BagTopic& t, std::int64_t ns, const auto& b) { readings->take(t, ns, b, 50.0); });
+  for (const int tick : {40, 22, 24, 26, 28, 42, 30, 32, 34, 36, 44, 30, 28, 26, 24, 22, 20}) {
+    robot.measure(tick);
+  }
+  EXPECT_NEAR(readings->read(50.0).stamp_s, 1002.2, 1e-9);
+  EXPECT_FALSE(readings->hasBegunAnew());
 }
 
 TEST(LiveReadings, AnImageOfTheFloorThatCanNotBeReadIsSkippedAndCounted) {

@@ -569,12 +569,56 @@ TEST_P(BagRecordings, NameTheCameraThatIsReadOfTwo) {
                         "not /rear/color/image_raw and 1 more"));
 }
 
+/// Stereo images in a frame that tf turns so on base_link.
+void writeTurned(const std::filesystem::path& path, const Eigen::Quaterniond& turn) {
+  const auto bag = createBag(path);
+  TFMessageMsg message;
+  TransformStampedMsg camera;
+  camera.header = header(0.1, "base_link");
+  camera.child_frame_id = "optical";
+  camera.transform.translation.z = 1.5;
+  camera.transform.rotation = {turn.x(), turn.y(), turn.z(), turn.w()};
+  message.transforms = {camera};
+  bag->write("/tf_static", 100'000'000, message, true);
+  bag->write("/left/camera_info", 100'000'000, cameraInfo(0.0));
+  bag->write("/right/camera_info", 100'000'000, cameraInfo(-3.0));
+  bag->write("/left/image_raw", 100'000'000, image(0.1, "bgr8", 10, 3));
+  bag->write("/right/image_raw", 100'000'000, image(0.1, "bgr8", 10, 3));
+  bag->commit();
+}
+
+TEST_P(BagRecordings, AnImageFrameThatIsABodysIsTakenAsOptical) {
+  // A camera that looks to the left by 0.3 and down by 0.1, as the axes of its body have it.
+  const Eigen::Quaterniond body = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()) *
+                                  Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY());
+  writeTurned(path(), body);
+  const Read read = readAll(path());
+  const Eigen::Isometry3d& T = *read.info.T_base_camera;
+  EXPECT_TRUE(T.translation().isApprox(Eigen::Vector3d(0.0, 0.0, 1.5)));
+  EXPECT_TRUE((T.linear() * Eigen::Vector3d::UnitZ()).isApprox(body * Eigen::Vector3d::UnitX()));
+  EXPECT_TRUE((T.linear() * Eigen::Vector3d::UnitX()).isApprox(body * -Eigen::Vector3d::UnitY()));
+  EXPECT_EQ(read.info.base_frame, "base_link");
+  EXPECT_THAT(read.info.warnings, ElementsAre(HasSubstr("the images' frame 'optical' looks like a "
+                                                        "body's (X ahead, Z up)")));
+}
+
+TEST_P(BagRecordings, AnOpticalFrameIsTakenAsItIs) {
+  // Steeply down, which is what comes nearest to a body's frame of all that people mount.
+  const Eigen::Quaterniond optical = Eigen::AngleAxisd(1.2, Eigen::Vector3d::UnitY()) *
+                                     Eigen::AngleAxisd(-M_PI / 2.0, Eigen::Vector3d::UnitZ()) *
+                                     Eigen::AngleAxisd(-M_PI / 2.0, Eigen::Vector3d::UnitX());
+  writeTurned(path(), optical);
+  const Read read = readAll(path());
+  EXPECT_TRUE(read.info.T_base_camera->linear().isApprox(optical.toRotationMatrix()));
+  EXPECT_THAT(read.info.warnings, IsEmpty());
+}
+
 TEST_P(BagRecordings, GiveBackWhatASensorBagWasGiven) {
   RecordingInfo info;
   info.camera.left = {kWidth, kHeight, 30.1, 30.2, 15.3, 11.4};
   info.sensor = SensorKind::kRgbd;
   info.T_base_camera = asInBags(Eigen::Translation3d(0.1, 0.2, 1.3) *
-                                Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()));
+                                Eigen::AngleAxisd(2.0, Eigen::Vector3d(1, 2, 3).normalized()));
   Frame frame;
   frame.image_bgr = cv::Mat(kHeight, kWidth, CV_8UC3);
   cv::randu(frame.image_bgr, 0, 255);
