@@ -78,13 +78,13 @@ class RobotsOnAMap : public testing::Test {
     return heel(call);
   }
 
-  enum class Has { kAll, kNoOdometry, kNoScans };
+  enum class Has { kAll, kNoOdometry, kNoScans, kNoPlaceOfTheLaser };
 
   /// The drive as another bag.
   std::filesystem::path bagOf(const std::string& name, Has has = Has::kAll) {
     const auto recording = openRecording(made() / "roam");
     SensorBag bag(folder_ / name, recording->info());
-    if (has != Has::kNoScans) {
+    if (has != Has::kNoScans && has != Has::kNoPlaceOfTheLaser) {
       bag.setScanner(Eigen::Isometry3d(Eigen::Translation3d(0.12, 0.0, 0.3)), 20.0F);
     }
     const auto odometry = readRows(made() / "roam/odometry.csv", 4, "");
@@ -190,6 +190,15 @@ TEST_F(RobotsOnAMap, SayWhatIsWrongWithoutOdometry) {
   const HeelRun off_map = heel({"track", silent, "--model", made() / "rosa.yaml", "--out",
                                 folder_ / "off_map", "--no-film"});
   EXPECT_THAT(off_map.warnings(), Contains(HasSubstr("no odometry or tf tells how")));
+}
+
+TEST_F(RobotsOnAMap, WarnIfNobodyTellsWhereTheLaserIs) {
+  const auto bag = bagOf("unplaced.bag", Has::kNoPlaceOfTheLaser);
+  const auto untold = Contains(HasSubstr("tf does not join 'laser' to base_footprint"));
+  EXPECT_THAT(track(bag, "unplaced").warnings(), untold);
+  const auto map = made() / "map/walls.bt";
+  EXPECT_THAT(track(bag, "placed", map, {"--scanner", "0.12,0,0"}).warnings(),
+              testing::Not(untold));
 }
 
 TEST_F(RobotsOnAMap, SayIfTheyAreNotFoundOnIt) {

@@ -122,6 +122,7 @@ FollowLog runShadow(const ShadowParams& params, const PetriPlan& plan, const Loo
   std::optional<FloorPose> first_place;
   if (const auto place = odometry.at(recording->info().first_s)) first_place = place->pose;
   LogLaser laser = openLogLaser(params.recording, params.opening.topics, params.map, setup);
+  for (const std::string& warning : laser.place.warnings) warn(warning);
   LogReadings readings(std::move(recording), std::move(laser.scans), std::move(odometry));
   Follower follower = makeFollower(params, plan, setup, laser, readings.nextScan(), first_place);
   if (params.model) follower.skipLearning(*params.model);

@@ -101,6 +101,7 @@ OccupancyGrid waitForMap(LiveNetwork& network, const LiveCommands& commands,
 
 RobotDescription describeFound(RobotDescription robot, const FoundRobot& found, const LogMap& map) {
   const ScannerPlace scanner = placeScanner(found.readings->laser(), map, found.camera);
+  for (const std::string& warning : scanner.warnings) warn(warning);
   robot.camera = found.camera;
   robot.T_base_scanner = scanner.T_base_scanner;
   robot.scanner_height_m = scanner.height_m;

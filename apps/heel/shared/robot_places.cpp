@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/follower/follower_params.hpp>
-#include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/shared/arguments.hpp>
 #include <heel/apps/heel/shared/map_source.hpp>
 #include <heel/apps/heel/shared/robot_places.hpp>
@@ -62,13 +61,15 @@ LogMap openLogMap(const LogMapOptions& options) {
 }
 
 ScannerPlace placeScanner(const LaserLog& scans, const LogMap& map, const CameraSetup& setup) {
-  for (const std::string& warning : scans.warnings()) warn(warning);
+  ScannerPlace result;
+  result.warnings = scans.warnings();
   std::optional<FloorPose> place = map.scanner ? map.scanner : scans.T_base_scanner();
   if (!place) place = map.default_scanner;
-  if (!place && !scans.unplaced().empty()) warn(scans.unplaced());
+  if (!place && !scans.unplaced().empty()) result.warnings.push_back(scans.unplaced());
+  result.T_base_scanner = place.value_or(FloorPose());
   const auto over_base_m = scans.scannerHeight_m();
-  return {place.value_or(FloorPose()),
-          over_base_m ? *over_base_m + setup.base_height_m : map.scanner_height_m};
+  result.height_m = over_base_m ? *over_base_m + setup.base_height_m : map.scanner_height_m;
+  return result;
 }
 
 LogLaser openLogLaser(const std::filesystem::path& path, const BagTopics& topics, const LogMap& map,
@@ -112,8 +113,8 @@ RobotPlaces::RobotPlaces(const Recording& recording, const CameraSetup& setup) :
   }
 }
 
-void RobotPlaces::putOnMap(const std::filesystem::path& path, const RecordingParams& opening,
-                           const LogMap& map) {
+std::vector<std::string> RobotPlaces::putOnMap(const std::filesystem::path& path,
+                                               const RecordingParams& opening, const LogMap& map) {
   in_map_ = motionInMap(path, opening);
   on_map_ = true;
   map_ = map;
@@ -129,13 +130,14 @@ void RobotPlaces::putOnMap(const std::filesystem::path& path, const RecordingPar
     motion_ = *in_map_;
     are_known_ = true;
     T_world_motion_ = Eigen::Isometry3d::Identity();
-    return;
+    return {};
   }
   scans_ = std::move(laser.scans);
   localization_ =
       std::make_unique<Localization>(map.walls->floorGrid(HeightBand::around(laser.place.height_m)),
                                      laser.place.T_base_scanner, map.localization);
   has_scan_ = scans_->next(scan_);
+  return laser.place.warnings;
 }
 
 std::string RobotPlaces::frame() const {

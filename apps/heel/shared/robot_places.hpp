@@ -61,10 +61,11 @@ LogMap openLogMap(const LogMapOptions& options);
 struct ScannerPlace {
   FloorPose T_base_scanner;
   double height_m = 0.0;
+  std::vector<std::string> warnings;  ///< What a user should know of the laser, in sentences.
 };
 
 /// As the options say, else the log, else what `map` has by default; else, with a warning, at the
-/// base's origin. Tells the log's other warnings, too.
+/// base's origin.
 ScannerPlace placeScanner(const LaserLog& scans, const LogMap& map, const CameraSetup& setup);
 
 /// The laser of a log, and where it is on the robot.
@@ -102,9 +103,10 @@ class RobotPlaces {
   /// scans, by what tf says of the robot in the frame `map`. Without a start that is given, tf's
   /// place in `map` is the first, else the log's reference (a topic or table of the truth), else
   /// the robot is looked for everywhere.
+  /// @return  What a user should know of the laser, in sentences.
   /// @throws std::runtime_error  one sentence, if the recording has neither.
-  void putOnMap(const std::filesystem::path& path, const RecordingParams& opening,
-                const LogMap& map);
+  std::vector<std::string> putOnMap(const std::filesystem::path& path,
+                                    const RecordingParams& opening, const LogMap& map);
 
   /// Whether the recording tells how the robot moved, be it not at all.
   bool areKnown() const { return are_known_; }

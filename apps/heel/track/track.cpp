@@ -69,11 +69,14 @@ std::vector<std::string> motionWarnings(const RobotPlaces& robot, const MotionWa
   return warnings;
 }
 
-/// Puts the robot on its map, and lets the walls say where nobody is.
-void useMap(const TrackOptions& options, const CameraSetup& setup, RobotPlaces& robot,
+/// Puts the robot on its map, and lets the walls say where nobody is; adds what it warns of.
+void useMap(const TrackOptions& options, CameraSetup& setup, RobotPlaces& robot,
             std::vector<GeometricGate>& gates) {
   const LogMap map = openLogMap(options.map);
-  robot.putOnMap(options.recording, options.opening, map);
+  for (const std::string& warning : robot.putOnMap(options.recording, options.opening, map)) {
+    warn(warning);
+    setup.warnings.push_back(warning);
+  }
   WallGateParams gate;
   gate.eye_height_m = setup.T_base_camera.translation().z();
   gates.push_back(wallGate(map.walls, gate));
@@ -96,7 +99,7 @@ void run(TrackOptions options) {
   const AppearanceModel model = loadAppearance(options.model);
   auto recording = openRecording(options.recording, options.opening);
   // Of all pieces the same: by how the whole begins.
-  const CameraSetup setup = findCameraSetup(*openRecording(options.recording, options.opening));
+  CameraSetup setup = findCameraSetup(*openRecording(options.recording, options.opening));
   if (options.piece.count > 1) {
     options.opening.span = options.piece.spanOf(recording->info().duration_s);
     recording = openRecording(options.recording, options.opening);

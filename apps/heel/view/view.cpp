@@ -189,7 +189,9 @@ void run(const ViewOptions& options) {
   OccupancyGrid walls;
   if (!options.map.map.empty()) {
     const LogMap map = openLogMap(options.map);
-    robot.putOnMap(options.recording, options.opening, map);
+    for (const std::string& warning : robot.putOnMap(options.recording, options.opening, map)) {
+      warn(warning);
+    }
     walls = map.walls->floorGrid();
   }
   Scenes scenes(setup, std::move(robot), model);
