@@ -17,12 +17,13 @@ namespace {
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 
-/// As REP 117 has it: no echo is +inf; -inf, what is too near, and NaN could not be measured. Some
-/// scanners tell the greatest range where there is no echo, and some leave it at 0.
+/// As REP 117 has it: no echo is +inf; -inf, what is too near, and NaN could not be measured. Where
+/// there is no echo many small scanners tell 0 (TurtleBot3's, say), and others the greatest range,
+/// which some leave at 0.
 void markUnknown(const LaserScanMsg& message, std::vector<float>& ranges_m) {
   const float most_m = message.range_max > 0.0F ? message.range_max : kNothing;
   for (float& range_m : ranges_m) {
-    if (range_m >= most_m) {
+    if (range_m >= most_m || range_m == 0.0F) {
       range_m = kNothing;
     } else if (!(range_m >= message.range_min)) {
       range_m = kUnknown;

@@ -337,11 +337,11 @@ TEST(BagLaserLog, WhatCouldNotBeMeasuredIsNotFree) {
   const auto unknown = testing::IsNan();
   EXPECT_THAT(
       LaserBag(message).scan().ranges_m,
-      testing::ElementsAre(unknown, unknown, unknown, unknown, 0.1F, 9.9F, kInf, kInf, kInf));
+      testing::ElementsAre(unknown, unknown, kInf, unknown, 0.1F, 9.9F, kInf, kInf, kInf));
   message.range_max = 0.0F;  // not set
   EXPECT_THAT(
       LaserBag(message).scan().ranges_m,
-      testing::ElementsAre(unknown, unknown, unknown, unknown, 0.1F, 9.9F, 10.0F, 12.0F, kInf));
+      testing::ElementsAre(unknown, unknown, kInf, unknown, 0.1F, 9.9F, 10.0F, 12.0F, kInf));
 }
 
 TEST(BagLaserLog, SaysWhyItDoesNotKnowWhereTheLaserIs) {
