@@ -166,12 +166,10 @@ bool GridWave::reach(int cell) {
   return at(cell).cost < kFar;
 }
 
-void GridWave::reachAll() { run(-1); }
-
 void GridWave::run(int until) {
   for (; list_ <= last_list_; ++list_) {
     // Whatever way goes through what is open costs as much as the list at least.
-    if (until >= 0 && at(until).cost + toGo(until) <= static_cast<float>(list_)) return;
+    if (at(until).cost + toGo(until) <= static_cast<float>(list_)) return;
     for (int cell = lists_[index(list_)]; cell >= 0; cell = lists_[index(list_)]) {
       unlink(cell);
       at(cell).state = kDone;

@@ -68,8 +68,6 @@ class GridWave {
   /// Goes on until the least cost of a cell is known, or another's of as short a way to the goal.
   /// @return  false if it can't be reached.
   bool reach(int cell);
-  /// Goes on to all that can be reached.
-  void reachAll();
   /// Takes in that the clearance of these cells of the map has changed.
   /// @return  false if that concerns a seed, then it must begin anew.
   bool mend(const std::vector<int>& changed);
@@ -78,8 +76,6 @@ class GridWave {
   float cost(int cell) const { return at(cell).cost; }
   /// The cell before this one; -1 for a seed.
   int parent(int cell) const { return at(cell).parent; }
-  /// Cells that have a cost.
-  const std::vector<int>& touched() const { return touched_; }
 
  private:
   /// A point in halves of the map's cells, from its lower corner.
