@@ -21,6 +21,11 @@
 
 namespace heel {
 
+/// A person counts as detected when the target was followed (TargetStatus::kFollowed, which takes
+/// a track confirmed over several frames) at their place in this share of the frames that have
+/// them in view.
+constexpr double kDetectedShare = 0.25;
+
 /// What the runs are like. A person's model comes from a recording with the room empty for
 /// `empty_s` and then the person alone; it is tried on another recording, in another room, of each
 /// of them.
@@ -29,11 +34,7 @@ struct AppearanceExperimentParams {
   double person_s = 6.0;       ///< How long the person is learned.
   double trial_s = 4.0;        ///< Length of the other recordings.
   double place_error_m = 0.5;  ///< How far "at the person's place" reaches.
-  /// A person counts as detected when the target was followed (TargetStatus::kFollowed, which takes
-  /// a track confirmed over several frames) at their place in this share of the frames that have
-  /// them in view.
-  double min_share = 0.25;
-  bool drawn_light = false;  ///< Whether every recording's light is drawn; see CameraParams.
+  bool drawn_light = false;    ///< Whether every recording's light is drawn; see CameraParams.
   std::vector<OfferedModel> models = offeredModels();
   PerceptionParams perception;
   std::filesystem::path scenes;  ///< Folder of the scenes that come with Heel.
@@ -84,17 +85,5 @@ struct WardrobeRuns {
 WardrobeRuns runAppearanceExperiment(const Wardrobe& wardrobe,
                                      const AppearanceExperimentParams& params,
                                      const std::function<void(double)>& progress = {});
-
-/// The matrix of section 4.1 on a still camera's recording with truth.csv: points near a person's
-/// true place in the first half of their exact frames teach their model, the second half tests it.
-///
-/// Several are in view at once, so a run's `followed` counts the frames in which the confirmed
-/// track at the person's place is the model's person with enough probability
-/// (TargetParams::take_above): in which they would be taken for the target if they were alone.
-/// @throws std::runtime_error  as openRecording() and readTruth().
-std::vector<ModelRuns> runPeopleMatrixExperiment(const std::filesystem::path& recording,
-                                                 const std::vector<OfferedModel>& models,
-                                                 const ExperimentParams& params,
-                                                 const std::function<void(double)>& progress = {});
 
 }  // namespace heel

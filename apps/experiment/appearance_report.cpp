@@ -65,21 +65,21 @@ nlohmann::ordered_json toJson(const ConfusionCount& count) {
 
 /// What a cell of the picture shows, see writeAppearanceFiles().
 double cellShare(const std::vector<WardrobeRuns>& wardrobes, const AppearanceRow& row,
-                 std::size_t i, std::size_t j, double min_share) {
+                 std::size_t i, std::size_t j) {
   const auto matrixOf = [&](const WardrobeRuns& wardrobe) -> const ConfusionMatrix& {
     return wardrobe.models[row.model].matrix;
   };
   if (wardrobes.size() == 1) return matrixOf(wardrobes.front()).share(i, j, row.rule);
   Proportion detected;
   for (const WardrobeRuns& wardrobe : wardrobes) {
-    detected.add(matrixOf(wardrobe).detected(i, j, row.rule, min_share));
+    detected.add(matrixOf(wardrobe).detected(i, j, row.rule, kDetectedShare));
   }
   return detected.share();
 }
 
-cv::Mat drawMatrices(const std::vector<WardrobeRuns>& wardrobes, double min_share) {
+cv::Mat drawMatrices(const std::vector<WardrobeRuns>& wardrobes) {
   std::vector<ConfusionPanel> panels;
-  for (const AppearanceRow& row : appearanceTable(wardrobes, min_share)) {
+  for (const AppearanceRow& row : appearanceTable(wardrobes)) {
     ConfusionPanel& panel = panels.emplace_back();
     panel.title = row.name;
     panel.note = std::to_string(row.all.false_negatives.count) + " FN, " +
@@ -87,7 +87,7 @@ cv::Mat drawMatrices(const std::vector<WardrobeRuns>& wardrobes, double min_shar
     panel.people = wardrobes.front().models[row.model].matrix.people();
     for (std::size_t i = 0; i < panel.people.size(); ++i) {
       for (std::size_t j = 0; j < panel.people.size(); ++j) {
-        panel.shares.push_back(cellShare(wardrobes, row, i, j, min_share));
+        panel.shares.push_back(cellShare(wardrobes, row, i, j));
       }
     }
   }
@@ -113,14 +113,14 @@ std::vector<AppearanceRow> appearanceTable(const std::vector<WardrobeRuns>& ward
 }
 
 void writeAppearanceFiles(const Output& output, const std::string& folder,
-                          const std::vector<WardrobeRuns>& measured, double min_share) {
+                          const std::vector<WardrobeRuns>& measured) {
   if (measured.empty()) return;
-  writeAppearanceTables(output, folder, measured, min_share);
+  writeAppearanceTables(output, folder, measured);
   const auto wardrobes = readAppearanceTables((output / folder).written);
   nlohmann::ordered_json summary;
   summary["wardrobes"] = wardrobes.size();
-  summary["min_share"] = min_share;
-  for (const AppearanceRow& row : appearanceTable(wardrobes, min_share)) {
+  summary["min_share"] = kDetectedShare;
+  for (const AppearanceRow& row : appearanceTable(wardrobes)) {
     nlohmann::ordered_json entry;
     entry["model"] = row.name;
     entry["all"] = toJson(row.all);
@@ -143,7 +143,7 @@ void writeAppearanceFiles(const Output& output, const std::string& folder,
     }
   }
   writeJson(output / (folder + "/summary.json"), summary);
-  writePicture(output / (folder + "/confusion.png"), drawMatrices(wardrobes, min_share));
+  writePicture(output / (folder + "/confusion.png"), drawMatrices(wardrobes));
 }
 
 namespace {
@@ -189,8 +189,7 @@ void writePeople(const OutputPath& file, const std::vector<WardrobeRuns>& wardro
   csv.close();
 }
 
-void writeRuns(const OutputPath& file, const std::vector<WardrobeRuns>& wardrobes,
-               double min_share) {
+void writeRuns(const OutputPath& file, const std::vector<WardrobeRuns>& wardrobes) {
   CsvWriter csv(file, runsColumns());
   for (const WardrobeRuns& wardrobe : wardrobes) {
     for (const ModelRuns& runs : wardrobe.models) {
@@ -208,7 +207,7 @@ void writeRuns(const OutputPath& file, const std::vector<WardrobeRuns>& wardrobe
               .integer(run.blob)
               .integer(run.elsewhere)
               .number(run.appearance(), kDecimals)
-              .flag(runs.matrix.detected(i, j, DetectionRule::kFollowed, min_share))
+              .flag(runs.matrix.detected(i, j, DetectionRule::kFollowed, kDetectedShare))
               .endRow();
         }
       }
@@ -345,20 +344,16 @@ void readPeople(const std::filesystem::path& file, std::vector<WardrobeRuns>& wa
 }  // namespace
 
 void writeAppearanceTables(const Output& output, const std::string& folder,
-                           const std::vector<WardrobeRuns>& wardrobes, double min_share) {
-  if (!wardrobes.front().acquired.empty()) {
-    writePeople(output / (folder + "/people.csv"), wardrobes);
-  }
-  writeRuns(output / (folder + "/runs.csv"), wardrobes, min_share);
+                           const std::vector<WardrobeRuns>& wardrobes) {
+  writePeople(output / (folder + "/people.csv"), wardrobes);
+  writeRuns(output / (folder + "/runs.csv"), wardrobes);
   writePairs(output / (folder + "/pairs.csv"), wardrobes);
 }
 
 std::vector<WardrobeRuns> readAppearanceTables(const std::filesystem::path& folder) {
   std::vector<WardrobeRuns> wardrobes = readRuns(folder / "runs.csv");
   readPairs(folder / "pairs.csv", wardrobes);
-  if (std::filesystem::exists(folder / "people.csv")) {
-    readPeople(folder / "people.csv", wardrobes);
-  }
+  readPeople(folder / "people.csv", wardrobes);
   return wardrobes;
 }
 

@@ -33,7 +33,7 @@ struct AppearanceRow {
 /// A line for each model, after one for the paper's model by the paper's rule. All wardrobes must
 /// have been run with the same models.
 std::vector<AppearanceRow> appearanceTable(const std::vector<WardrobeRuns>& wardrobes,
-                                           double min_share);
+                                           double min_share = kDetectedShare);
 
 /// The tables (see writeAppearanceTables()), and what follows from them: summary.json and
 /// confusion.png: of one wardrobe the share of the time in which each was followed, of several the
@@ -41,14 +41,14 @@ std::vector<AppearanceRow> appearanceTable(const std::vector<WardrobeRuns>& ward
 /// @param folder  Of the output: they go there.
 /// @throws OutputError  as CsvWriter.
 void writeAppearanceFiles(const Output& output, const std::string& folder,
-                          const std::vector<WardrobeRuns>& measured, double min_share);
+                          const std::vector<WardrobeRuns>& measured);
 
-/// Writes people.csv (what each wears, and how they were learned; of simulated people), runs.csv
-/// (one line a run) and pairs.csv (one a two-people test).
+/// Writes people.csv (what each wears, and how they were learned), runs.csv (one line a run) and
+/// pairs.csv (one a two-people test).
 /// @param folder  Of the output: they go there.
 /// @throws OutputError  as CsvWriter.
 void writeAppearanceTables(const Output& output, const std::string& folder,
-                           const std::vector<WardrobeRuns>& wardrobes, double min_share);
+                           const std::vector<WardrobeRuns>& wardrobes);
 
 /// Reads them, in the order in which they were written.
 /// @throws std::runtime_error  that names the file and what is wrong with it.

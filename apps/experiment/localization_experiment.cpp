@@ -5,6 +5,7 @@
 #include <heel/apps/experiment/roaming_driver.hpp>
 #include <heel/apps/simulation/scene_map.hpp>
 #include <heel/apps/simulation/simulator.hpp>
+#include <heel/mapping/localization.hpp>
 
 #include <Eigen/LU>
 
@@ -14,6 +15,12 @@ namespace heel {
 namespace {
 
 constexpr double kStep_s = 0.1;
+constexpr double kCellSize_m = 0.05;      // Of the map, which shows what a laser's height has.
+constexpr double kTracking_s = 120.0;     // How long the robot is tracked from a known start.
+constexpr double kGlobal_s = 60.0;        // How long it may take to find out where it is.
+constexpr double kBeforeKidnap_s = 15.0;  // How long it is tracked before it is carried off.
+constexpr double kRight_m = 0.3;          // An estimate this near to the truth ...
+constexpr double kRight_rad = 0.175;      // ... is right.
 
 /// People who never come to an end, and wait for nobody for long.
 Scene restless(Scene scene, const FloorPose& start) {
@@ -35,42 +42,32 @@ class Roaming {
   }
 
   /// Goes on for a step and tells localization all that was measured.
-  void step(Localization& localization, bool mask_people) {
-    const WorldTruth& truth = step(driver_.drive(readings_->truth));
+  void step(Localization& localization) {
+    step(driver_.drive(readings_->truth));
     if (readings_->odometry) {
       localization.predict(odometry_.inverse() * *readings_->odometry);
       odometry_ = *readings_->odometry;
     }
-    people_.clear();
-    if (mask_people) {
-      for (const PersonTruth& person : truth.people) {
-        people_.push_back({truth.robot.inverse() * person.position, 0.5});
-      }
-    }
-    if (readings_->laser != nullptr) localization.update(*readings_->laser, people_);
+    if (readings_->laser != nullptr) localization.update(*readings_->laser);
   }
 
   const FloorPose& truth() const { return readings_->truth.robot; }
 
  private:
-  const WorldTruth& step(const VelocityCommand& command) {
+  void step(const VelocityCommand& command) {
     readings_ = &simulator_.step(readings_ == nullptr ? 0.0 : kStep_s, command);
     if (readings_->odometry && readings_->stamp_s <= 0.0) odometry_ = *readings_->odometry;
-    return readings_->truth;
   }
 
   Simulator simulator_;
   RoamingDriver& driver_;
   const Readings* readings_ = nullptr;
   FloorPose odometry_;
-  std::vector<FloorDisc> people_;
 };
 
 /// Adds up errors over a run.
 class Score {
  public:
-  explicit Score(const LocalizationExperimentParams& params) : params_(params) {}
-
   void add(double now_s, const FloorPose& truth, const Localization& localization) {
     const LocalizationEstimate& e = localization.estimate();
     ++all_;
@@ -81,7 +78,7 @@ class Score {
     has_last_ = true;
     const Eigen::Vector2d off = e.pose.position - truth.position;
     const Eigen::Vector3d error(off.x(), off.y(), wrapped(e.pose.yaw_rad - truth.yaw_rad));
-    const bool right = off.norm() <= params_.right_m && std::abs(error.z()) <= params_.right_rad;
+    const bool right = off.norm() <= kRight_m && std::abs(error.z()) <= kRight_rad;
     if (e.lost) {
       ++lost_;
     } else {
@@ -114,28 +111,26 @@ class Score {
   LocalizationRun run;
 
  private:
-  const LocalizationExperimentParams& params_;
   int all_ = 0, lost_ = 0, wrong_ = 0;
   double square_m_ = 0.0, square_rad_ = 0.0, consistency_ = 0.0, particles_ = 0.0;
   FloorPose last_;
   bool has_last_ = false;
 };
 
-Localization makeLocalization(const Scene& scene, std::uint64_t seed,
-                              const LocalizationExperimentParams& params) {
-  LocalizationParams own = params.localization;
+Localization makeLocalization(const Scene& scene, std::uint64_t seed) {
+  LocalizationParams own;
   own.seed = hashOf(seed, 72);
   const Eigen::Vector3d& at = scene.robot.laser.at;
-  return Localization(laserGrid(scene, params.cell_size_m), {at.head<2>(), 0.0}, own);
+  return Localization(laserGrid(scene, kCellSize_m), {at.head<2>(), 0.0}, own);
 }
 
 LocalizationRun finish(Roaming& roaming, Localization& localization, std::uint64_t seed,
-                       double duration_s, const LocalizationExperimentParams& params) {
-  Score score(params);
+                       double duration_s) {
+  Score score;
   score.run.seed = seed;
   const auto steps = std::lround(duration_s / kStep_s);
   for (long i = 1; i <= steps; ++i) {
-    roaming.step(localization, params.mask_people);
+    roaming.step(localization);
     score.add(static_cast<double>(i) * kStep_s, roaming.truth(), localization);
   }
   return score.result();
@@ -143,35 +138,32 @@ LocalizationRun finish(Roaming& roaming, Localization& localization, std::uint64
 
 }  // namespace
 
-LocalizationRun runTracking(const Scene& scene, std::uint64_t seed,
-                            const LocalizationExperimentParams& params) {
-  Localization localization = makeLocalization(scene, seed, params);
+LocalizationRun runTracking(const Scene& scene, std::uint64_t seed) {
+  Localization localization = makeLocalization(scene, seed);
   RoamingDriver driver(scene, seed);
   const FloorPose start = driver.randomPose();
   localization.startAt(start);
   Roaming roaming(scene, seed, start, driver);
-  return finish(roaming, localization, seed, params.tracking_s, params);
+  return finish(roaming, localization, seed, kTracking_s);
 }
 
-LocalizationRun runGlobalStart(const Scene& scene, std::uint64_t seed,
-                               const LocalizationExperimentParams& params) {
-  Localization localization = makeLocalization(scene, seed, params);
+LocalizationRun runGlobalStart(const Scene& scene, std::uint64_t seed) {
+  Localization localization = makeLocalization(scene, seed);
   RoamingDriver driver(scene, seed);
   Roaming roaming(scene, seed, driver.randomPose(), driver);
-  return finish(roaming, localization, seed, params.global_s, params);
+  return finish(roaming, localization, seed, kGlobal_s);
 }
 
-LocalizationRun runKidnapped(const Scene& scene, std::uint64_t seed,
-                             const LocalizationExperimentParams& params) {
-  Localization localization = makeLocalization(scene, seed, params);
+LocalizationRun runKidnapped(const Scene& scene, std::uint64_t seed) {
+  Localization localization = makeLocalization(scene, seed);
   RoamingDriver driver(scene, seed);
   const FloorPose start = driver.randomPose();
   localization.startAt(start);
   FloorPose left;
   {
     Roaming before(scene, seed, start, driver);
-    for (long i = std::lround(params.before_kidnap_s / kStep_s); i > 0; --i) {
-      before.step(localization, params.mask_people);
+    for (long i = std::lround(kBeforeKidnap_s / kStep_s); i > 0; --i) {
+      before.step(localization);
     }
     left = before.truth();
   }
@@ -179,7 +171,7 @@ LocalizationRun runKidnapped(const Scene& scene, std::uint64_t seed,
   while ((there.position - left.position).norm() < 2.0) there = driver.randomPose();
   RoamingDriver driver_there(scene, hashOf(seed, 73));
   Roaming after(scene, hashOf(seed, 74), there, driver_there);
-  return finish(after, localization, seed, params.global_s, params);
+  return finish(after, localization, seed, kGlobal_s);
 }
 
 }  // namespace heel

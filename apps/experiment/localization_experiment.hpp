@@ -6,25 +6,12 @@
 #pragma once
 
 #include <heel/apps/simulation/scene.hpp>
-#include <heel/mapping/localization.hpp>
 
 #include <cstdint>
 #include <optional>
 #include <string>
 
 namespace heel {
-
-/// What is tried, and what counts as right.
-struct LocalizationExperimentParams {
-  LocalizationParams localization;
-  double cell_size_m = 0.05;      ///< Of the map, which shows what a laser's height has.
-  double tracking_s = 120.0;      ///< How long the robot is tracked from a known start.
-  double global_s = 60.0;         ///< How long it may take to find out where it is.
-  double before_kidnap_s = 15.0;  ///< How long it is tracked before it is carried off.
-  double right_m = 0.3;           ///< An estimate this near to the truth ...
-  double right_rad = 0.175;       ///< ... is right.
-  bool mask_people = false;       ///< Tells localization where people are.
-};
 
 /// One robot's time in the flat.
 struct LocalizationRun {
@@ -43,16 +30,13 @@ struct LocalizationRun {
 };
 
 /// The robot starts at a pose that is known up to 0.2 m and 0.1 rad.
-LocalizationRun runTracking(const Scene& scene, std::uint64_t seed,
-                            const LocalizationExperimentParams& params);
+LocalizationRun runTracking(const Scene& scene, std::uint64_t seed);
 
 /// The robot starts anywhere and is not told where.
-LocalizationRun runGlobalStart(const Scene& scene, std::uint64_t seed,
-                               const LocalizationExperimentParams& params);
+LocalizationRun runGlobalStart(const Scene& scene, std::uint64_t seed);
 
 /// The robot is tracked and then carried elsewhere (2 m away or more) without its wheels noticing.
 /// Times and errors count from then.
-LocalizationRun runKidnapped(const Scene& scene, std::uint64_t seed,
-                             const LocalizationExperimentParams& params);
+LocalizationRun runKidnapped(const Scene& scene, std::uint64_t seed);
 
 }  // namespace heel

@@ -26,14 +26,11 @@ namespace {
 
 constexpr const char* kLaboratory = "laboratory";
 constexpr const char* kRandom = "random";
-constexpr const char* kPeople = "people";
 
 struct AppearanceOptions {
   int wardrobes = 20;
   std::uint64_t seed = 1;
   std::filesystem::path out;
-  std::filesystem::path people;
-  bool people_only = false;
   bool laboratory = true;
   std::vector<std::filesystem::path> join;
   std::string models;
@@ -45,12 +42,12 @@ std::string counted(const Proportion& p) {
   return std::to_string(p.count) + " of " + std::to_string(p.total);
 }
 
-void printLaboratory(const WardrobeRuns& runs, double min_share) {
+void printLaboratory(const WardrobeRuns& runs) {
   std::printf("section 4.1: 5 people, 5 models, 5 other recordings, 25 runs\n");
   std::printf("  %-32s %-9s %-9s %-22s %s\n", "", "own", "FN", "FP", "target scored higher");
   std::printf("  %-32s %-9s %-9s %-22s %s\n", "the paper", "5 of 5", "0 of 5", "7 of 20 (3 of 12)",
               "in all cases");
-  for (const AppearanceRow& row : appearanceTable({runs}, min_share)) {
+  for (const AppearanceRow& row : appearanceTable({runs})) {
     const Proportion& missed = row.all.false_negatives;
     const Proportion own{missed.total - missed.count, missed.total};
     const std::string fp =
@@ -62,11 +59,11 @@ void printLaboratory(const WardrobeRuns& runs, double min_share) {
   std::printf("  FP in brackets: without one of the pair in similar clothes\n");
 }
 
-void printRandom(const std::vector<WardrobeRuns>& runs, double min_share) {
+void printRandom(const std::vector<WardrobeRuns>& runs) {
   std::printf("%zu random wardrobes, each with one similar pair (95 %% intervals)\n", runs.size());
   std::printf("  %-32s %-21s %-23s %-23s %-9s %-9s %-14s %s\n", "", "FN", "FP",
               "FP without the pair", "no error", "w/o pair", "target higher", "identified");
-  for (const AppearanceRow& row : appearanceTable(runs, min_share)) {
+  for (const AppearanceRow& row : appearanceTable(runs)) {
     std::printf("  %-32s %-21s %-23s %-23s %-9s %-9s %-14s %s\n", row.name.c_str(),
                 withInterval(row.all.false_negatives).c_str(),
                 withInterval(row.all.false_positives).c_str(),
@@ -80,25 +77,6 @@ void printRandom(const std::vector<WardrobeRuns>& runs, double min_share) {
 /// The tables need all the runs: of some of them, nothing is written.
 void endIfStopped() {
   if (isStopRequested()) throw Stopped("stopped: nothing is written");
-}
-
-/// Each real person's model against all of them.
-void runPeople(const AppearanceOptions& options, const std::optional<Output>& output) {
-  ProgressBar progress("people", 100);
-  WardrobeRuns runs;
-  runs.models =
-      runPeopleMatrixExperiment(options.people, options.params.models, {}, [&](double share) {
-        endIfStopped();
-        progress.show(static_cast<std::size_t>(100.0 * share));
-      });
-  const double min_share = options.params.min_share;
-  std::printf("%s: %zu people, each model against everyone\n",
-              options.people.filename().string().c_str(), runs.models.front().matrix.size());
-  for (const AppearanceRow& row : appearanceTable({runs}, min_share)) {
-    std::printf("  %-32s FN %-10s FP %s\n", row.name.c_str(),
-                counted(row.all.false_negatives).c_str(), counted(row.all.false_positives).c_str());
-  }
-  if (output) writeAppearanceFiles(*output, kPeople, {runs}, min_share);
 }
 
 /// The laboratory's wardrobe and the random ones, or what is wanted of them.
@@ -147,9 +125,6 @@ SimulatedResults joinedWardrobes(const std::vector<std::filesystem::path>& parts
     }
   };
   for (const std::filesystem::path& part : parts) {
-    if (std::filesystem::exists(part / kPeople)) {
-      throw std::runtime_error((part / kPeople).string() + ": results of --people are not joined");
-    }
     add(part / kLaboratory, results.laboratory);
     add(part / kRandom, results.random);
   }
@@ -161,17 +136,17 @@ SimulatedResults joinedWardrobes(const std::vector<std::filesystem::path>& parts
   return results;
 }
 
-void show(const SimulatedResults& results, double min_share, const std::optional<Output>& output) {
-  if (!results.laboratory.empty()) printLaboratory(results.laboratory.front(), min_share);
-  if (!results.random.empty()) printRandom(results.random, min_share);
+void show(const SimulatedResults& results, const std::optional<Output>& output) {
+  if (!results.laboratory.empty()) printLaboratory(results.laboratory.front());
+  if (!results.random.empty()) printRandom(results.random);
   if (!output) return;
-  writeAppearanceFiles(*output, kLaboratory, results.laboratory, min_share);
-  writeAppearanceFiles(*output, kRandom, results.random, min_share);
+  writeAppearanceFiles(*output, kLaboratory, results.laboratory);
+  writeAppearanceFiles(*output, kRandom, results.random);
 }
 
 /// What all runs share, as options.
 std::string sharedBy(const AppearanceOptions& options) {
-  std::string shared = " --min-share " + CLI::detail::to_string(options.params.min_share);
+  std::string shared;
   if (!options.models.empty()) shared += " --models " + options.models;
   if (!options.light.empty()) shared += " --light " + options.light;
   return shared;
@@ -190,22 +165,18 @@ void run(AppearanceOptions& options) {
   keepModels(options.params.models, options.models);
   options.params.drawn_light = options.light == "drawn";
   const bool is_joined = !options.join.empty();
-  if (options.people.empty() && !is_joined && !options.laboratory && options.wardrobes == 0) {
+  if (!is_joined && !options.laboratory && options.wardrobes == 0) {
     throw std::invalid_argument("--no-laboratory, and --wardrobes 0: nothing is left to do");
   }
-  std::vector<std::filesystem::path> inputs = options.join;
-  inputs.push_back(options.people);
-  std::optional<Output> output = experimentOutput("appearance", options.out, inputs);
+  std::optional<Output> output = experimentOutput("appearance", options.out, options.join);
   const std::string shared = sharedBy(options);
   if (is_joined && sharedOptions(options.join) != shared) {
-    throw std::invalid_argument("the parts were made with" + sharedOptions(options.join) +
-                                ": say so here, too");
+    throw std::invalid_argument("the parts were made with other options (" +
+                                sharedOptions(options.join) + ") than these (" + shared + ")");
   }
-  SimulatedResults results;
-  if (!options.people_only)
-    results = is_joined ? joinedWardrobes(options.join) : runSimulated(options);
-  show(results, options.params.min_share, output);
-  if (!options.people.empty()) runPeople(options, output);
+  const SimulatedResults results =
+      is_joined ? joinedWardrobes(options.join) : runSimulated(options);
+  show(results, output);
   if (output) writePartSummary(*output, shared, results.laboratory.size() + results.random.size());
   endExperiment(output);
 }
@@ -226,24 +197,13 @@ void addAppearanceExperiment(CLI::App& verb) {
       "leave out the paper's wardrobe: the random ones only");
   experiment->add_option("--seed", options->seed, "of the first random wardrobe")
       ->capture_default_str();
-  experiment
-      ->add_option("--min-share", options->params.min_share,
-                   "followed in so much of the time in view is detected")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  CLI::Option* people = experiment->add_option(
-      "--people", options->people,
-      "then the same on a recording of real people, empty at first, with truth.csv");
-  experiment->add_flag("--people-only", options->people_only, "leave the simulation out")
-      ->needs(people);
   experiment->add_option("--models", options->models,
                          "only models whose names, as the tables have them, hold this text");
   addLight(*experiment, options->light);
   experiment
       ->add_option("--join", options->join,
                    "make no runs: join the results of other calls, with other seeds, to one")
-      ->option_text("FOLDER...")
-      ->excludes(people);
+      ->option_text("FOLDER...");
   experiment->add_option("--out", options->out, "folder for tables and pictures");
   experiment->callback([options] { run(*options); });
 }

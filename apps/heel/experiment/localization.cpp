@@ -26,23 +26,20 @@ namespace heel {
 namespace {
 
 struct LocalizationOptions {
-  std::string scene = sceneFolder() / "home.yaml";
   std::size_t tracking = 10, global = 100, kidnapped = 50;
   std::uint64_t seed = 1;
   std::filesystem::path out;
-  LocalizationExperimentParams params;
 };
 
 using Runs = std::vector<LocalizationRun>;
-using RunOne = LocalizationRun (*)(const Scene&, std::uint64_t,
-                                   const LocalizationExperimentParams&);
+using RunOne = LocalizationRun (*)(const Scene&, std::uint64_t);
 
 Runs runAll(const char* title, std::size_t count, RunOne one, const Scene& scene,
             const LocalizationOptions& options) {
   ProgressBar progress(title, count);
   Runs runs;
   for (std::size_t i = 0; i < count && !isStopRequested(); ++i) {
-    runs.push_back(one(scene, options.seed + i, options.params));
+    runs.push_back(one(scene, options.seed + i));
     progress.show(i + 1);
   }
   return runs;
@@ -117,7 +114,7 @@ void addRows(CsvWriter& csv, const char* kind, const Runs& runs) {
 
 void run(const LocalizationOptions& options) {
   std::optional<Output> output = experimentOutput("localization", options.out);
-  const Scene scene = loadScene(options.scene);
+  const Scene scene = loadScene(sceneFolder() / "home.yaml");
   const Runs tracking = runAll("tracking", options.tracking, runTracking, scene, options);
   const Runs global = runAll("global start", options.global, runGlobalStart, scene, options);
   const Runs kidnapped = runAll("kidnapped", options.kidnapped, runKidnapped, scene, options);
@@ -150,16 +147,12 @@ void addLocalizationExperiment(CLI::App& verb) {
   CLI::App* experiment = verb.add_subcommand(
       "localization", "Localization against exact truth, in a simulated flat with people in it");
   experiment->footer("Example:\n  heel experiment localization --out out/localization");
-  experiment->add_option("--scene", options->scene,
-                         "a scene's YAML file (default: the flat, home)");
   experiment->add_option("--tracking", options->tracking, "runs from a known start")
       ->capture_default_str();
   experiment->add_option("--global", options->global, "runs from anywhere")->capture_default_str();
   experiment->add_option("--kidnapped", options->kidnapped, "runs with a robot that is carried off")
       ->capture_default_str();
   experiment->add_option("--seed", options->seed, "of the first run")->capture_default_str();
-  experiment->add_flag("--mask-people", options->params.mask_people,
-                       "leave out beams that end on people");
   experiment->add_option("--out", options->out, "folder for tables");
   experiment->callback([options] { run(*options); });
 }

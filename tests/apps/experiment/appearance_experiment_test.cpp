@@ -81,7 +81,7 @@ TEST(AppearanceExperiment, TellsCrimsonFromNavyAndWritesItDown) {
 
   const test::TempFolder folder;
   Output output({"experiment appearance", OutputKind::kFolder, folder.path(), {}});
-  writeAppearanceFiles(output, "a", {runs}, 0.25);
+  writeAppearanceFiles(output, "a", {runs});
   output.commit();
   for (const char* name :
        {"people.csv", "runs.csv", "pairs.csv", "summary.json", "confusion.png"}) {
@@ -111,12 +111,12 @@ WardrobeRuns drawnRuns(std::uint64_t seed) {
 TEST(AppearanceTables, AreReadAsTheyWereWritten) {
   const test::TempFolder folder;
   Output output({"experiment appearance", OutputKind::kFolder, folder.path(), {}});
-  writeAppearanceTables(output, "once", {drawnRuns(4), drawnRuns(5)}, 0.25);
+  writeAppearanceTables(output, "once", {drawnRuns(4), drawnRuns(5)});
   const auto read = readAppearanceTables((output / "once").written);
   ASSERT_EQ(read.size(), 2U);
   EXPECT_EQ(read[1].models[1].matrix.at(1, 2).followed,
             drawnRuns(5).models[1].matrix.at(1, 2).followed);
-  writeAppearanceTables(output, "twice", read, 0.25);
+  writeAppearanceTables(output, "twice", read);
   output.commit();
   for (const char* name : {"people.csv", "runs.csv", "pairs.csv"}) {
     EXPECT_EQ(test::readText(folder / "once" / name), test::readText(folder / "twice" / name))
@@ -127,7 +127,7 @@ TEST(AppearanceTables, AreReadAsTheyWereWritten) {
 TEST(AppearanceTables, TellWhichRunsAreMissing) {
   const test::TempFolder folder;
   Output output({"experiment appearance", OutputKind::kFolder, folder.path(), {}});
-  writeAppearanceTables(output, "a", {drawnRuns(4)}, 0.25);
+  writeAppearanceTables(output, "a", {drawnRuns(4)});
   output.commit();
   std::string table = test::readText(folder / "a/runs.csv");
   table.erase(table.rfind('\n', table.size() - 2) + 1);
