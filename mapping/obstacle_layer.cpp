@@ -3,9 +3,6 @@
 
 #include <heel/mapping/obstacle_layer.hpp>
 
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -280,16 +277,6 @@ void ObstacleLayer::addPoints(const Eigen::Vector3f* points, std::size_t count) 
 
 void ObstacleLayer::addPoints(const std::vector<Eigen::Vector3f>& points) {
   addPoints(points.data(), points.size());
-}
-
-void ObstacleLayer::addPoints(const pcl::PointCloud<pcl::PointXYZRGB>& cloud,
-                              const pcl::Indices& indices) {
-  requireFrame();
-  for (const auto i : indices) {
-    require(i >= 0 && static_cast<std::size_t>(i) < cloud.size(),
-            "points must be indices of the cloud");
-    addPoint(cloud[static_cast<std::size_t>(i)].getVector3fMap());
-  }
 }
 
 void ObstacleLayer::touch(const Eigen::Vector2d& in_base) {

@@ -11,19 +11,12 @@
 #include <heel/mapping/occupancy_grid.hpp>
 
 #include <Eigen/Core>
-#include <pcl/types.h>
 
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
-
-namespace pcl {
-template <typename PointT>
-class PointCloud;
-struct PointXYZRGB;
-}  // namespace pcl
 
 namespace heel {
 
@@ -105,9 +98,6 @@ class ObstacleLayer {
   /// in their cells, over all calls.
   void addPoints(const std::vector<Eigen::Vector3f>& points);
   void addPoints(const Eigen::Vector3f* points, std::size_t count);
-  /// The same for points of a cloud in the base frame.
-  /// @throws std::invalid_argument  if an index is outside of the cloud.
-  void addPoints(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, const pcl::Indices& indices);
 
   /// Something is there that no sensor sees; remembered for `max_memory_s`, whatever is seen.
   void touch(const Eigen::Vector2d& in_base);

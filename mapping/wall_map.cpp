@@ -69,17 +69,6 @@ bool WallMap::isWall(const Vector3d& point) const {
   return point.allFinite() && isWallAt(*tree_, point);
 }
 
-bool WallMap::insideWall(const Vector2d& place, const HeightBand& band) const {
-  if (!place.allFinite()) return false;
-  const double cell_m = cell_size_m();
-  const auto first = static_cast<int>(std::floor(band.low_m / cell_m + kTouch));
-  const auto last = static_cast<int>(std::ceil(band.high_m / cell_m - kTouch));
-  for (int z = first; z < last; ++z) {
-    if (isWallAt(*tree_, {place.x(), place.y(), (z + 0.5) * cell_m})) return true;
-  }
-  return false;
-}
-
 double WallMap::firstWall(const Vector3d& from, const Vector3d& to) const {
   if (!from.allFinite() || !to.allFinite()) return 0.0;
   const Vector3d way = to - from;

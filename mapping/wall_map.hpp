@@ -48,9 +48,6 @@ class WallMap {
   /// Whether a wall's cell holds the point of the world.
   bool isWall(const Eigen::Vector3d& point) const;
 
-  /// Whether a place on the floor has a wall somewhere within a height band.
-  bool insideWall(const Eigen::Vector2d& place, const HeightBand& band = kBodyBand) const;
-
   /// How far it is from `from` towards `to` to the first face of a wall [m]: 0 if `from` is in
   /// one, infinite if there is none up to `to`. A point that is not finite sees nothing: 0.
   double firstWall(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;

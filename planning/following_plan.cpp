@@ -20,10 +20,6 @@ const char* nameOf(FollowingAction action) {
   return kActionNames[static_cast<std::size_t>(action)];
 }
 
-const char* nameOf(FollowingCondition condition) {
-  return kConditionNames[static_cast<std::size_t>(condition)];
-}
-
 const PlanVocabulary& followingVocabulary() {
   static const PlanVocabulary vocabulary{{kActionNames.begin(), kActionNames.end()},
                                          {kConditionNames.begin(), kConditionNames.end()}};

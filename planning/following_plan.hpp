@@ -42,8 +42,6 @@ constexpr std::size_t kFollowingConditions = 10;
 
 /// The word for it in a plan: `goToLastSeen`.
 const char* nameOf(FollowingAction action);
-/// The word for it in a plan: `targetLost`.
-const char* nameOf(FollowingCondition condition);
 
 /// All of the above, in their order.
 const PlanVocabulary& followingVocabulary();

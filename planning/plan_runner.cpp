@@ -21,8 +21,6 @@ PlanRunner::PlanRunner(PetriPlan plan)
   step_.active.reserve(actions);
   step_.started.reserve(calls);
   step_.ended.reserve(calls + actions);
-  step_.interrupted.reserve(calls);
-  step_.fired.reserve(plan_.transitions.size());
   reset();
 }
 
@@ -31,8 +29,6 @@ void PlanRunner::reset() {
   left_ = marking_;
   step_.started.clear();
   step_.ended.clear();
-  step_.interrupted.clear();
-  step_.fired.clear();
   step_.outcome = outcomeAt(plan_, marking_);
   findActive();
 }
@@ -44,8 +40,6 @@ bool PlanRunner::isActive(int action) const {
 const PlanStep& PlanRunner::advance() {
   step_.started.clear();
   step_.ended.clear();
-  step_.interrupted.clear();
-  step_.fired.clear();
   if (step_.outcome != PlanOutcome::kRunning) return step_;
   left_ = marking_;
   for (std::size_t t = 0; t < plan_.transitions.size() && step_.outcome == PlanOutcome::kRunning;
@@ -69,7 +63,6 @@ void PlanRunner::fireTransition(std::size_t transition) {
   const PetriTransition& fires = plan_.net.transitions[transition];
   fire(fires, marking_);
   for (const PetriArc& arc : fires.takes) left_[static_cast<std::size_t>(arc.place)] -= arc.weight;
-  step_.fired.push_back(static_cast<int>(transition));
   for (const ActionCall& call : plan_.transitions[transition].calls) {
     switch (call.event) {
       case ActionEvent::kStart:
@@ -81,7 +74,6 @@ void PlanRunner::fireTransition(std::size_t transition) {
         step_.ended.push_back(call.action);
         break;
       case ActionEvent::kInterrupt:
-        step_.interrupted.push_back(call.action);
         break;
     }
   }

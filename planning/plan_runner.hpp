@@ -14,11 +14,9 @@ namespace heel {
 /// What one step changed. Actions are indices into the plan's vocabulary.
 struct PlanStep {
   PlanOutcome outcome = PlanOutcome::kRunning;
-  std::vector<int> active;       ///< Actions that run after the step.
-  std::vector<int> started;      ///< Started or resumed.
-  std::vector<int> ended;        ///< Came to their end, or failed.
-  std::vector<int> interrupted;  ///< Stopped before their end.
-  std::vector<int> fired;        ///< Transitions, in the order in which they fired.
+  std::vector<int> active;   ///< Actions that run after the step.
+  std::vector<int> started;  ///< Started or resumed.
+  std::vector<int> ended;    ///< Came to their end, or failed.
 };
 
 /// A plan and where it stands.

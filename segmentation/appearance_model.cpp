@@ -164,29 +164,4 @@ Separability AppearanceModel::separability() const {
   return result;
 }
 
-AppearanceModel mergeAppearances(const AppearanceModel& a, const AppearanceModel& b) {
-  const auto same = [](const AppearanceBand& x, const AppearanceBand& y) {
-    return x.body.min_height_m == y.body.min_height_m && x.body.max_height_m == y.body.max_height_m;
-  };
-  if (!std::equal(a.bands().begin(), a.bands().end(), b.bands().begin(), b.bands().end(), same)) {
-    throw std::invalid_argument("only models with the same bands of height can be merged");
-  }
-  std::vector<ColorHistogram> person;
-  for (std::size_t i = 0; i < a.bands().size(); ++i) {
-    person.push_back(a.bands()[i].person);
-    person.back().merge(b.bands()[i].person);
-  }
-  ColorHistogram room = a.room();
-  room.merge(b.room());
-  BodyPortrait portrait;
-  portrait.add(a.portrait());
-  portrait.add(b.portrait());
-  // Of two measures of one height, the one that rests on more.
-  const auto frames = [](const AppearanceModel& m) {
-    return m.stature() ? m.stature()->frames : 0;
-  };
-  return AppearanceModel(a.params(), std::move(person), std::move(room),
-                         frames(a) >= frames(b) ? a.stature() : b.stature(), portrait.mean());
-}
-
 }  // namespace heel

@@ -130,8 +130,4 @@ class AppearanceModel {
   BodyDescription portrait_;
 };
 
-/// The model of all that either was learned from, with thresholds chosen anew.
-/// @throws std::invalid_argument  if they do not have the same bands; `a`'s parameters are used.
-AppearanceModel mergeAppearances(const AppearanceModel& a, const AppearanceModel& b);
-
 }  // namespace heel

@@ -39,13 +39,12 @@ ConfusionCount ConfusionMatrix::count(DetectionRule rule, double min_share,
   return result;
 }
 
-Proportion ConfusionMatrix::identified(std::optional<std::size_t> without) const {
+Proportion ConfusionMatrix::identified() const {
   Proportion result;
   for (std::size_t person = 0; person < size(); ++person) {
-    if (person == without) continue;
     bool own_is_best = at(person, person).appearance() > 0.0;
     for (std::size_t model_of = 0; model_of < size(); ++model_of) {
-      if (model_of == person || model_of == without) continue;
+      if (model_of == person) continue;
       own_is_best =
           own_is_best && at(person, person).appearance() > at(model_of, person).appearance();
     }

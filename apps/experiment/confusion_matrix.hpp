@@ -76,7 +76,7 @@ class ConfusionMatrix {
 
   /// The recordings that look more like their own person's model than like anybody else's: what
   /// appearance alone can tell, whatever the threshold.
-  Proportion identified(std::optional<std::size_t> without = {}) const;
+  Proportion identified() const;
 
  private:
   std::vector<std::string> people_;

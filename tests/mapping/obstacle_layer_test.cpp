@@ -6,8 +6,6 @@
 #include <heel/mapping/obstacle_layer.hpp>
 
 #include <gtest/gtest.h>
-#include <pcl/point_cloud.h>
-#include <pcl/point_types.h>
 
 #include <cmath>
 #include <limits>
@@ -115,23 +113,6 @@ TEST(ObstacleLayer, CountsNothingOfAFrameThatWasNotFinished) {
   layer.addPoints({{1.01F, 0.01F, 0.7F}});
   layer.finish();
   EXPECT_TRUE(layer.obstacles().empty());
-}
-
-TEST(ObstacleLayer, TakesACloudsPointsByTheirIndices) {
-  pcl::PointCloud<pcl::PointXYZRGB> cloud;
-  for (const float x : {1.0F, 2.0F, 3.0F}) {
-    pcl::PointXYZRGB p;
-    p.getVector3fMap() = Eigen::Vector3f(x + 0.01F, 0.01F, 0.7F);
-    for (int i = 0; i < 3; ++i) cloud.push_back(p);
-  }
-  ObstacleLayer layer;
-  layer.begin(0.0, {});
-  layer.addPoints(cloud, {3, 4, 5, 0, 1});
-  EXPECT_THROW(layer.addPoints(cloud, {9}), std::invalid_argument);
-  EXPECT_THROW(layer.addPoints(cloud, {-1}), std::invalid_argument);
-  layer.finish();
-  ASSERT_EQ(layer.obstacles().size(), 1U);
-  EXPECT_NEAR(layer.obstacles()[0].x(), 2.025, 1e-9);
 }
 
 TEST(ObstacleLayer, LeavesOutWhatIsNoNumber) {

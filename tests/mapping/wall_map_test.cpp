@@ -50,15 +50,6 @@ TEST(WallMap, KnowsWhereWallsAre) {
   EXPECT_FALSE(map.isWall({std::nan(""), 0.0, 1.0}));
 }
 
-TEST(WallMap, APlaceIsInsideAWallInSomeBandOfHeights) {
-  const WallMap map = wallWithDoorway();
-  EXPECT_TRUE(map.insideWall({2.1, -0.5}));
-  EXPECT_FALSE(map.insideWall({2.1, 0.5}));
-  EXPECT_TRUE(map.insideWall({2.1, 0.5}, {0.0, 2.3}));
-  EXPECT_FALSE(map.insideWall({2.1, 0.5}, {0.0, 2.0})) << "touching is not inside";
-  EXPECT_FALSE(map.insideWall({1.0, 0.0}));
-}
-
 TEST(WallMap, MeasuresToTheFaceOfTheFirstWall) {
   const WallMap map = wallWithDoorway();
   EXPECT_NEAR(map.firstWall({0, -0.5, 1}, {4, -0.5, 1}), 2.0, 1e-6);

@@ -152,28 +152,6 @@ TEST(AppearanceModel, DoubtsAHandfulOfPoints) {
   EXPECT_THAT(answer.advice, testing::HasSubstr("longer"));
 }
 
-TEST(AppearanceModel, MergedIsTheModelOfAllThatWasSeen) {
-  const AppearanceModel a({}, {paint(kRed, 2000), paint(kSkin, 500)}, paint(kFloor, 4000));
-  const AppearanceModel b({}, {paint(kWhite, 1000), paint(kSkin, 300)}, paint(kBlack, 4000));
-  const AppearanceModel merged = mergeAppearances(a, b);
-
-  ColorHistogram torso = paint(kRed, 2000);
-  torso.merge(paint(kWhite, 1000));
-  EXPECT_TRUE(test::sameColors(merged.bands()[0].person, torso));
-  EXPECT_EQ(merged.room().total(), 8000U);
-  EXPECT_TRUE(passes(merged.bands()[0].table, kRed));
-  EXPECT_TRUE(passes(merged.bands()[0].table, kWhite));
-  EXPECT_FALSE(passes(a.bands()[0].table, kWhite));
-}
-
-TEST(AppearanceModel, MergesOnlyTheSameBands) {
-  AppearanceParams paper;
-  paper.bands = upperBody();
-  const AppearanceModel a(paper, {paint(kRed, 2000)}, paintRoom());
-  const AppearanceModel b({}, paintPerson(), paintRoom());
-  EXPECT_THROW(mergeAppearances(a, b), std::invalid_argument);
-}
-
 TEST(AppearanceModel, RefusesWhatItCannotBeMadeOf) {
   const ColorHistogram none;
   EXPECT_THROW(AppearanceModel({}, {none, none}, paintRoom()), std::invalid_argument);
