@@ -40,16 +40,15 @@ DetectionRun look(const SimulatedFrames& recording, const AppearanceModel& model
     const PerceptionStep& step = perception.step(now.frame);
     const auto& person = now.people_m.front();
     const bool followed = step.target.status == TargetStatus::kFollowed;
-    const bool there =
-        followed && isNear(step.target.motion.position_m(), person, params.place_error_m);
+    const bool there = followed && isNear(step.target.motion.position_m(), person, kPlaceError_m);
     run.elsewhere += followed && !there ? 1 : 0;
     if (!person) continue;
     ++run.frames_in_view;
-    run.appearance_sum += targetProbabilityAt(*person, perception, params.place_error_m);
+    run.appearance_sum += targetProbabilityAt(*person, perception, kPlaceError_m);
     run.followed += there ? 1 : 0;
     run.blob += std::any_of(step.observations.begin(), step.observations.end(),
                             [&](const Observation& seen) {
-                              return isNear(seen.position_m, person, params.place_error_m);
+                              return isNear(seen.position_m, person, kPlaceError_m);
                             })
                     ? 1
                     : 0;
@@ -65,7 +64,7 @@ PairTest comparePair(const SimulatedFrames& recording, std::size_t target, std::
   test.target = target;
   test.other = other;
   const std::size_t target_at = target < other ? 0 : 1;
-  const double reach_m = params.place_error_m;
+  const double reach_m = kPlaceError_m;
   for (const SimulatedFrame& now : recording.frames) {
     const PerceptionStep& step = perception.step(now.frame);
     const auto& target_m = now.people_m[target_at];

@@ -31,10 +31,9 @@ constexpr double kDetectedShare = 0.25;
 /// of them.
 struct AppearanceExperimentParams {
   double empty_s = 5.0;
-  double person_s = 6.0;       ///< How long the person is learned.
-  double trial_s = 4.0;        ///< Length of the other recordings.
-  double place_error_m = 0.5;  ///< How far "at the person's place" reaches.
-  bool drawn_light = false;    ///< Whether every recording's light is drawn; see CameraParams.
+  double person_s = 6.0;     ///< How long the person is learned.
+  double trial_s = 4.0;      ///< Length of the other recordings.
+  bool drawn_light = false;  ///< Whether every recording's light is drawn; see CameraParams.
   std::vector<OfferedModel> models = offeredModels();
   PerceptionParams perception;
   std::filesystem::path scenes;  ///< Folder of the scenes that come with Heel.

@@ -17,9 +17,10 @@ namespace heel {
 namespace {
 
 constexpr double kHour_s = 3600.0;
+constexpr double kReached_s = 1.0;
 constexpr int kPerson = 0;  // The scene's first person is the one to follow.
 
-void addTruth(const Readings& readings, const ClosedLoopParams& params, FollowSample& sample) {
+void addTruth(const Readings& readings, FollowSample& sample) {
   sample.stamp_s = readings.stamp_s;
   sample.robot_true = readings.truth.robot;
   sample.speed_true = readings.truth.robot_speed;
@@ -33,8 +34,8 @@ void addTruth(const Readings& readings, const ClosedLoopParams& params, FollowSa
   sample.contact = readings.truth.contact;
   sample.contact_by_robot = readings.truth.contact_by_robot;
   if (!sample.target_estimate) return;
-  sample.wrong_person = isWrongPerson(*sample.target_estimate, sample.person_true,
-                                      sample.others_true, params.wrong_apart_m);
+  sample.wrong_person =
+      isWrongPerson(*sample.target_estimate, sample.person_true, sample.others_true);
 }
 
 }  // namespace
@@ -148,13 +149,13 @@ FollowLog runClosedLoop(const Scene& scene, const PetriPlan& plan, const ClosedL
     }
     command = step->velocity;
     FollowSample& sample = log.samples.emplace_back(sampleOf(*step, follower));
-    addTruth(readings, params, sample);
+    addTruth(readings, sample);
     if (observer) observer(readings, *step, follower, sample);
 
     const bool with_person = readings.truth.people[kPerson].is_done && sample.target_estimate &&
-                             !sample.wrong_person && sample.person_distance_m < params.reached_m;
+                             !sample.wrong_person && sample.person_distance_m < kReached_m;
     with_person_s = with_person ? with_person_s + params.period_s : 0.0;
-    if (with_person_s > params.reached_s) {
+    if (with_person_s > kReached_s) {
       log.outcome = "reached";
       break;
     }

@@ -18,14 +18,14 @@
 
 namespace heel {
 
+/// So near to the person at the end of their way for a second, and they are reached.
+inline constexpr double kReached_m = 1.5;
+
 struct ClosedLoopParams {
   std::uint64_t seed = 1;
-  int threads = 0;             ///< Of the simulator; 0 = as many as the machine has.
-  double limit_s = 600.0;      ///< The run ends here, whatever comes.
-  double period_s = 0.1;       ///< From one command to the next.
-  double reached_m = 1.5;      ///< So near to the person at the end of their way, ...
-  double reached_s = 1.0;      ///< ... for so long, and they are reached.
-  double wrong_apart_m = 0.5;  ///< See isWrongPerson().
+  int threads = 0;         ///< Of the simulator; 0 = as many as the machine has.
+  double limit_s = 600.0;  ///< The run ends here, whatever comes.
+  double period_s = 0.1;   ///< From one command to the next.
   std::vector<Fault> faults;
   RoughWorld rough;
   bool has_map = true;  ///< Else the robot follows without one.

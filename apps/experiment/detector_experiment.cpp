@@ -43,7 +43,7 @@ ClearMot runDetectorExperiment(const std::filesystem::path& path, const Experime
     }
   }
   ClearMotParams metrics;
-  metrics.match_distance_m = params.detector_distance_m;
+  metrics.match_distance_m = kDetectorDistance_m;
   metrics.has_identity = false;
   return clearMot(frames, metrics);
 }

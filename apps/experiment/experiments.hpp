@@ -17,12 +17,12 @@
 
 namespace heel {
 
+inline constexpr double kDetectorDistance_m = 0.75;  ///< A detection may be so far from a person.
+inline constexpr double kTrackerDistance_m = 0.5;    ///< So far may the target's estimate be.
+
 /// A still camera's recording with truth.csv, whose first seconds are empty.
 struct ExperimentParams {
-  double background_s = 5.0;          ///< How long it is empty.
-  double detector_distance_m = 0.75;  ///< How far a detection may be from a person.
-  double tracker_distance_m = 0.5;    ///< How far the target's estimate may be from them.
-  double learn_radius_m = 0.35;       ///< Points this near to a person's true place are theirs.
+  double background_s = 5.0;                    ///< How long it is empty.
   AppearanceParams appearance = ofWholeBody();  ///< The model that is learned.
 };
 
@@ -50,8 +50,7 @@ ProtocolResult runProtocolExperiment(const std::filesystem::path& recording,
 
 /// A model followed by appearance alone through all of another recording.
 TargetMetrics runFollowingExperiment(const std::filesystem::path& recording,
-                                     const AppearanceModel& model, const std::string& person,
-                                     const ExperimentParams& params);
+                                     const AppearanceModel& model, const std::string& person);
 
 /// One person as the target: learned from the first half of the frames where their place is exact,
 /// and looked for in all frames from somewhere on; by looks also in those that they are not in.

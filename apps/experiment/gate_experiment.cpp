@@ -42,13 +42,13 @@ GateOutcome follow(const SimulatedFrames& recording, const AppearanceModel& mode
     const TargetFrame& frame = frames.emplace_back(targetFrame(now, step.target));
     const double step_s = frames.size() > 1 ? frame.stamp_s - last_s : 0.0;
     last_s = frame.stamp_s;
-    const EstimateOf of = judge(frame, params.place_error_m);
+    const EstimateOf of = judge(frame, kPlaceError_m);
     if (of == EstimateOf::kTarget) outcome.right_target_s += step_s;
     // Out of view, a track that coasts where the target went is no mistake: only one that is seen.
     const bool is_seen = step.target.status == TargetStatus::kFollowed;
     if (of == EstimateOf::kNobody && (frame.target_m || is_seen)) outcome.wrong_target_s += step_s;
   }
-  outcome.target = targetMetrics(frames, params.place_error_m);
+  outcome.target = targetMetrics(frames, kPlaceError_m);
   return outcome;
 }
 

@@ -21,7 +21,6 @@ struct GateExperimentParams {
   double empty_s = 5.0;   ///< Of the lesson, as in the perception experiment.
   double person_s = 6.0;  ///< The same.
   double follow_s = 20.0;
-  double place_error_m = 0.5;  ///< An estimate further from the target is not of them.
   AppearanceParams appearance = ofWholeBody();
   PerceptionParams perception;
   std::filesystem::path scenes;  ///< Folder of the scenes that come with Heel.

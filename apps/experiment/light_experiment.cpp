@@ -86,7 +86,7 @@ LightRun runLightExperiment(std::uint64_t seed, const PerceptionTruthParams& par
       changeLight(seen, levels);
       frames.push_back(targetFrame(now, perception.step(seen).target));
     }
-    run.push_back(targetMetrics(frames, params.place_error_m));
+    run.push_back(targetMetrics(frames, kPlaceError_m));
   }
   return run;
 }
@@ -103,7 +103,7 @@ LightRun runLightExperiment(const std::filesystem::path& path, const ExperimentP
     const auto model = lessons[i].learn(0);
     if (!model) throw std::runtime_error(person + ": nothing of them could be learned");
     for (std::size_t k = 0; k < run.size(); ++k) {
-      run[k].add(lookFor(person, *model, path, setup, truth, levels[k], params.tracker_distance_m));
+      run[k].add(lookFor(person, *model, path, setup, truth, levels[k], kTrackerDistance_m));
     }
   }
   return run;

@@ -110,9 +110,9 @@ PerceptionTruthRun runPerceptionTruthExperiment(std::uint64_t seed,
     if (frame.target_m) mot.truth.push_back({0, *frame.target_m});
     if (frame.estimate_m) mot.estimates.push_back({step.target.track_id, *frame.estimate_m});
   }
-  run.target = targetMetrics(target_frames, params.place_error_m);
+  run.target = targetMetrics(target_frames, kPlaceError_m);
   ClearMotParams mot_params;
-  mot_params.match_distance_m = params.place_error_m;
+  mot_params.match_distance_m = kPlaceError_m;
   run.mot = clearMot(mot_frames, mot_params);
   return run;
 }

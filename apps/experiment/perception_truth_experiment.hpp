@@ -24,7 +24,6 @@ struct PerceptionTruthParams {
   double empty_s = 5.0;
   double person_s = 6.0;
   double follow_s = 10.0;
-  double place_error_m = 0.5;  ///< An estimate further from the target is not of them.
   AppearanceParams appearance = ofWholeBody();
   PerceptionParams perception;
   std::filesystem::path scenes;  ///< Folder of the scenes that come with Heel.

@@ -12,7 +12,7 @@ namespace {
 /// Follows a model through a recording from its first frame on, but judges only frames from `from`
 /// to the person's last true place.
 TargetMetrics follow(const std::filesystem::path& path, const AppearanceModel& model,
-                     const std::string& person, std::size_t from, const ExperimentParams& params) {
+                     const std::string& person, std::size_t from) {
   const TruthFrames truth(path);
   const CameraSetup setup = findCameraSetup(*openRecording(path));
   const auto recording = openRecording(path);
@@ -28,7 +28,7 @@ TargetMetrics follow(const std::filesystem::path& path, const AppearanceModel& m
     if (frames.back().target_m) last = frames.size();
   }
   frames.resize(last);
-  return targetMetrics(frames, params.tracker_distance_m);
+  return targetMetrics(frames, kTrackerDistance_m);
 }
 
 }  // namespace
@@ -44,14 +44,13 @@ ProtocolResult runProtocolExperiment(const std::filesystem::path& path,
   LearnedPerson learned = learnPerson(*openRecording(path), setup, learning);
   const std::string person = truth.people().front();
   const TargetMetrics following =
-      follow(path, learned.model, person, truth.firstFrameOfOthers(person), params);
+      follow(path, learned.model, person, truth.firstFrameOfOthers(person));
   return {std::move(learned), person, following};
 }
 
 TargetMetrics runFollowingExperiment(const std::filesystem::path& path,
-                                     const AppearanceModel& model, const std::string& person,
-                                     const ExperimentParams& params) {
-  return follow(path, model, person, 1, params);
+                                     const AppearanceModel& model, const std::string& person) {
+  return follow(path, model, person, 1);
 }
 
 }  // namespace heel

@@ -21,7 +21,8 @@ namespace heel {
 namespace {
 
 /// Who is in view, and where in the robot's frame.
-std::vector<std::optional<Eigen::Vector2d>> placesInView(const Readings& readings, int min_pixels) {
+std::vector<std::optional<Eigen::Vector2d>> placesInView(const Readings& readings) {
+  constexpr int kMinPixels = 500;  // Somebody of whom less is seen is not in view.
   std::array<int, 256> pixels{};
   const cv::Mat& people = readings.stereo->people;
   for (int v = 0; v < people.rows; ++v) {
@@ -31,7 +32,7 @@ std::vector<std::optional<Eigen::Vector2d>> placesInView(const Readings& reading
   const FloorPose& robot = readings.truth.robot;
   std::vector<std::optional<Eigen::Vector2d>> places(readings.truth.people.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
-    if (pixels[i + 1] < min_pixels) continue;
+    if (pixels[i + 1] < kMinPixels) continue;
     places[i] =
         Eigen::Rotation2Dd(-robot.yaw_rad) * (readings.truth.people[i].position - robot.position);
   }
@@ -81,7 +82,7 @@ SimulatedFrames renderFrames(const Scene& scene, const SimulatedFramesParams& pa
     now.frame.right_bgr = readings->stereo->right_bgr.clone();
     now.true_depth_m = readings->stereo->depth_m.clone();
     now.people = readings->stereo->people.clone();
-    now.people_m = placesInView(*readings, params.min_pixels);
+    now.people_m = placesInView(*readings);
   }
   return result;
 }

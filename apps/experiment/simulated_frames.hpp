@@ -37,12 +37,14 @@ struct SimulatedFrame {
 /// What is true of the scene's first person as the target, and where they are said to be.
 TargetFrame targetFrame(const SimulatedFrame& now, const TargetEstimate& estimate);
 
+/// An estimate further from the true place of a person is not of them.
+inline constexpr double kPlaceError_m = 0.5;
+
 /// What is rendered.
 struct SimulatedFramesParams {
   double from_s = 0.0;  ///< The world lives before, but is not rendered.
   double to_s = 6.0;    ///< The last frame comes before.
   std::uint64_t seed = 1;
-  int min_pixels = 500;  ///< Somebody of whom less is seen is not in view.
 };
 
 /// A robot that stands still and looks.

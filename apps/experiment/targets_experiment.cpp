@@ -16,7 +16,7 @@ namespace {
 /// @param judged  The frames that count where somebody need not be silent.
 TargetResult lookFor(const std::string& person, const AppearanceModel& model,
                      const std::filesystem::path& path, const TruthFrames& truth,
-                     const std::set<std::size_t>& judged, const ExperimentParams& params) {
+                     const std::set<std::size_t>& judged) {
   const auto recording = openRecording(path);
   const CameraSetup setup = findCameraSetup(*openRecording(path));
   Perception started(setup, model), cold(setup, model);
@@ -55,9 +55,9 @@ TargetResult lookFor(const std::string& person, const AppearanceModel& model,
   TargetResult result;
   result.person = person;
   result.sought_in = path;
-  result.best_blob = targetMetrics(best_frames, params.tracker_distance_m);
-  result.started = targetMetrics(started_frames, params.tracker_distance_m);
-  result.cold = targetMetrics(cold_frames, params.tracker_distance_m);
+  result.best_blob = targetMetrics(best_frames, kTrackerDistance_m);
+  result.started = targetMetrics(started_frames, kTrackerDistance_m);
+  result.cold = targetMetrics(cold_frames, kTrackerDistance_m);
   return result;
 }
 
@@ -91,7 +91,7 @@ std::vector<TargetResult> runTargetsExperiment(const std::vector<std::filesystem
         if (frames.empty()) continue;
         is_elsewhere[i] = true;
         results.push_back(lookFor(people[i], models[i], recordings[where], truths[where],
-                                  {frames.begin(), frames.end()}, params));
+                                  {frames.begin(), frames.end()}));
         results.back().learned_in = recordings[home];
       }
     }

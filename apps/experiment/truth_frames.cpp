@@ -110,7 +110,7 @@ std::vector<ModelLessons> learnEveryone(const std::filesystem::path& path, const
   ColorCloud cloud;
   pcl::Indices near;
   Frame frame;
-  const double radius_m2 = params.learn_radius_m * params.learn_radius_m;
+  constexpr double kRadius_m = 0.35;  // Points this near to a person's true place are theirs.
   while (recording->next(frame)) {
     if (frame.stamp_s <= params.background_s) {
       for (ModelLessons& lesson : lessons) lesson.addRoom(frame.image_bgr);
@@ -124,7 +124,7 @@ std::vector<ModelLessons> learnEveryone(const std::filesystem::path& path, const
       near.clear();
       for (std::size_t p = 0; p < cloud.size(); ++p) {
         const auto offset = cloud[p].getVector3fMap().head<2>() - place;
-        if (offset.squaredNorm() < static_cast<float>(radius_m2)) {
+        if (offset.squaredNorm() < static_cast<float>(kRadius_m * kRadius_m)) {
           near.push_back(static_cast<pcl::index_t>(p));
         }
       }

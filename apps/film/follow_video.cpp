@@ -15,6 +15,11 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr int kPanelHeight_px = 540;  // Of the image and of the map beside it.
+constexpr int kImageWidth_px = 720;   // 4 : 3.
+constexpr int kLeastMapWidth_px = 380;
+constexpr int kMostMapWidth_px = 760;
+constexpr double kViewRange_m = 6.0;  // How far the camera's field of view is drawn.
 constexpr int kMargin = 12;
 constexpr int kHeader = 44;
 constexpr int kFooter = 30;
@@ -49,13 +54,9 @@ void drawTrail(const Outline& trail, const cv::Scalar& color, cv::Mat& panel) {
 
 }  // namespace
 
-FollowVideo::FollowVideo(const OccupancyGrid& map, const DriveLimits& robot,
-                         const FollowVideoParams& params)
-    : params_(params), grid_(map), robot_(robot), bounds_m_(occupiedBounds(map)) {
-  if (map.empty() || params.panel_height_px <= 0 || params.least_map_width_px <= 0 ||
-      params.most_map_width_px < params.least_map_width_px || !(params.image_aspect > 0.0)) {
-    throw std::invalid_argument("FollowVideo: the map is empty, or a size is not above 0");
-  }
+FollowVideo::FollowVideo(const OccupancyGrid& map, const DriveLimits& robot)
+    : grid_(map), robot_(robot), bounds_m_(occupiedBounds(map)) {
+  if (map.empty()) throw std::invalid_argument("FollowVideo: the map is empty");
   if (bounds_m_.isEmpty()) {
     goes_along_ = true;
     bounds_m_ = {Vector2d::Constant(-kAround_m), Vector2d::Constant(kAround_m)};
@@ -66,16 +67,15 @@ FollowVideo::FollowVideo(const OccupancyGrid& map, const DriveLimits& robot,
 }
 
 cv::Rect FollowVideo::imageArea() const {
-  const auto width = static_cast<int>(std::lround(params_.panel_height_px * params_.image_aspect));
-  return {kMargin, kHeader, width, params_.panel_height_px};
+  return {kMargin, kHeader, kImageWidth_px, kPanelHeight_px};
 }
 
 cv::Rect FollowVideo::mapArea() const {
-  return {imageArea().br().x + kMargin, kHeader, map_.cols, params_.panel_height_px};
+  return {imageArea().br().x + kMargin, kHeader, map_.cols, kPanelHeight_px};
 }
 
 cv::Size FollowVideo::size() const {
-  return {even(mapArea().br().x + kMargin), even(kHeader + params_.panel_height_px + kFooter)};
+  return {even(mapArea().br().x + kMargin), even(kHeader + kPanelHeight_px + kFooter)};
 }
 
 cv::Point2d FollowVideo::onMap(const Vector2d& place_m) const {
@@ -98,12 +98,11 @@ cv::Point2d FollowVideo::pixelOf(const Vector2d& place_m) const {
 
 void FollowVideo::drawMap() {
   const Vector2d size_m = bounds_m_.sizes();
-  const auto fitting =
-      static_cast<int>(std::lround(params_.panel_height_px * size_m.x() / size_m.y()));
-  const int width = std::clamp(fitting, params_.least_map_width_px, params_.most_map_width_px);
-  map_.create(params_.panel_height_px, width, CV_8UC3);
+  const auto fitting = static_cast<int>(std::lround(kPanelHeight_px * size_m.x() / size_m.y()));
+  const int width = std::clamp(fitting, kLeastMapWidth_px, kMostMapWidth_px);
+  map_.create(kPanelHeight_px, width, CV_8UC3);
   map_.setTo(palette::kPanel);
-  scale_ = std::min(width / size_m.x(), params_.panel_height_px / size_m.y());
+  scale_ = std::min(width / size_m.x(), kPanelHeight_px / size_m.y());
   if (goes_along_) return;
   for (int row = 0; row < map_.rows; ++row) {
     for (int column = 0; column < map_.cols; ++column) {
@@ -132,11 +131,11 @@ std::vector<Vector2d> FollowVideo::seenArea(const DrawnFrame& view) const {
         view.T_floor_camera.linear() * rayOf(view.camera, column, view.camera.cy);
     const Vector2d along = ray.head<2>().normalized();
     double reach_m = 0.0;
-    while (reach_m < params_.view_range_m &&
+    while (reach_m < kViewRange_m &&
            grid_.at(Vector2d(eye + reach_m * along)) != Occupancy::kOccupied) {
       reach_m += grid_.cell_size_m();
     }
-    area.emplace_back(eye + std::min(reach_m, params_.view_range_m) * along);
+    area.emplace_back(eye + std::min(reach_m, kViewRange_m) * along);
   }
   return area;
 }

@@ -19,15 +19,6 @@
 
 namespace heel {
 
-/// Size of the pictures of one film, and how far they reach.
-struct FollowVideoParams {
-  int panel_height_px = 540;  ///< Of the image and of the map beside it.
-  double image_aspect = 4.0 / 3.0;
-  int least_map_width_px = 380;
-  int most_map_width_px = 760;
-  double view_range_m = 6.0;  ///< How far the camera's field of view is drawn.
-};
-
 /// What one picture shows. All places are in the map's frame.
 struct FollowVideoFrame {
   /// The left image with its mask, blobs and tracks; its places in the map's frame, so that
@@ -50,9 +41,8 @@ class FollowVideo {
  public:
   /// @param map  Its walls are drawn once, and bound what the camera is shown to see. Without any
   ///             the robot's surroundings are shown.
-  /// @throws std::invalid_argument  if the map is empty or a size is not above 0.
-  FollowVideo(const OccupancyGrid& map, const DriveLimits& robot,
-              const FollowVideoParams& params = {});
+  /// @throws std::invalid_argument  if the map is empty.
+  FollowVideo(const OccupancyGrid& map, const DriveLimits& robot);
 
   /// Size of the pictures; both numbers are even, as films need it.
   cv::Size size() const;
@@ -75,7 +65,6 @@ class FollowVideo {
   void drawPeople(const FollowVideoFrame& frame, cv::Mat& panel) const;
   void drawObstacles(const FollowVideoFrame& frame, cv::Mat& panel) const;
 
-  FollowVideoParams params_;
   OccupancyGrid grid_;
   DriveLimits robot_;
   Eigen::AlignedBox2d bounds_m_;

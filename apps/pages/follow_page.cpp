@@ -113,15 +113,15 @@ std::vector<Chart> charts(const FollowLog& log) {
   return {distance, speed, commanded, clearance};
 }
 
-RunMoments moments(const FollowLog& log, const MapFrame& frame, std::size_t most,
-                   StateTones& tones) {
+RunMoments moments(const FollowLog& log, const MapFrame& frame, StateTones& tones) {
+  constexpr std::size_t kMost = 1500;  // That can be pointed at; the others are passed over.
   std::vector<double> stamps_s;
   double start_s = 0.0;
   for (const FollowSample& sample : log.samples) {
     stamps_s.push_back(sample.stamp_s);
     if (sample.state == "learn") start_s = sample.stamp_s;
   }
-  RunMoments moments(stamps_s, most);
+  RunMoments moments(stamps_s, kMost);
   const auto of = [&](auto&& value) {
     return [&log, value](std::size_t i) { return value(log.samples[i]); };
   };
@@ -192,8 +192,7 @@ Tone toneOf(const std::string& outcome) {
   return is_open ? Tone::kWarning : Tone::kBad;
 }
 
-std::string followPage(const FollowLog& log, const FollowSummary& sum,
-                       const FollowPageParams& params) {
+std::string followPage(const FollowLog& log, const FollowSummary& sum, const PageFilm& film) {
   const MapFrame frame = followFrame(log);
   StateTones tones;
   RunPage page;
@@ -215,16 +214,16 @@ std::string followPage(const FollowLog& log, const FollowSummary& sum,
                 momentValue("off in the map", "error", 2, "m");
   page.bands = {stateBands(log, tones)};
   page.charts = charts(log);
-  page.film = params.film;
+  page.film = film;
   if (!log.snapshots.empty()) page.film.poster_bgr = log.snapshots.front().picture_bgr;
   page.sections = stills(log) + besideThePaper(log, sum);
   page.footer = howToRepeat(log.command);
-  return filledRunPage(page, moments(log, frame, params.most_moments, tones));
+  return filledRunPage(page, moments(log, frame, tones));
 }
 
 void writeFollowPage(const OutputPath& file, const FollowLog& log, const FollowSummary& summary,
-                     const FollowPageParams& params) {
-  writeFile(file, followPage(log, summary, params));
+                     const PageFilm& film) {
+  writeFile(file, followPage(log, summary, film));
 }
 
 }  // namespace heel

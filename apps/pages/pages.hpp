@@ -22,23 +22,18 @@
 
 namespace heel {
 
-struct FollowPageParams {
-  PageFilm film;
-  std::size_t most_moments = 1500;  ///< That can be pointed at; the run's others are passed over.
-};
-
 /// Whether an outcome ("reached", "failed", ...) is good, bad or neither.
 Tone toneOf(const std::string& outcome);
 
 /// The whole page, well-formed as XML too. It has no address of anything outside of it but the
 /// film's, and is complete without.
 std::string followPage(const FollowLog& log, const FollowSummary& summary,
-                       const FollowPageParams& params = {});
+                       const PageFilm& film = {});
 
 /// Writes followPage() to a file.
 /// @throws OutputError  as OutputFile.
 void writeFollowPage(const OutputPath& file, const FollowLog& log, const FollowSummary& summary,
-                     const FollowPageParams& params = {});
+                     const PageFilm& film = {});
 
 /// The whole page, well-formed as XML too, without an address of anything outside of it.
 std::string followExperimentPage(const FollowExperiment& experiment);

@@ -12,6 +12,8 @@ namespace heel {
 
 namespace {
 
+constexpr int kPlanWidth = 440;
+constexpr double kImageAspect = 4.0 / 3.0;  // Width by height of the image's panel.
 constexpr int kMargin = 12;
 constexpr int kHeader = 44;
 constexpr int kFooter = 30;
@@ -19,7 +21,7 @@ constexpr int kFooter = 30;
 int even(int pixels) { return pixels + pixels % 2; }
 
 cv::Size imagePanelSize(const AnnotateParams& params) {
-  return {static_cast<int>(std::lround(params.panel_height_px * params.image_aspect)),
+  return {static_cast<int>(std::lround(params.panel_height_px * kImageAspect)),
           params.panel_height_px};
 }
 
@@ -40,8 +42,7 @@ std::string timeOf(const DrawnFrame& scene) {
 
 cv::Size pictureSize(const AnnotateParams& params) {
   const cv::Size image = imagePanelSize(params);
-  return {even(3 * kMargin + image.width + params.plan_width_px),
-          even(kHeader + image.height + kFooter)};
+  return {even(3 * kMargin + image.width + kPlanWidth), even(kHeader + image.height + kFooter)};
 }
 
 void annotate(const DrawnFrame& scene, const AnnotateParams& params, cv::Mat& picture) {
@@ -53,8 +54,7 @@ void annotate(const DrawnFrame& scene, const AnnotateParams& params, cv::Mat& pi
   picture.create(size, CV_8UC3);
   picture.setTo(palette::kPaper);
   const cv::Rect image_area(kMargin, kHeader, image.width, image.height);
-  const cv::Rect plan_area(image_area.br().x + kMargin, kHeader, params.plan_width_px,
-                           image.height);
+  const cv::Rect plan_area(image_area.br().x + kMargin, kHeader, kPlanWidth, image.height);
   const int width = plan_area.br().x - kMargin;
   cv::Mat header = picture(cv::Rect(kMargin, 0, width, kHeader));
   cv::Mat image_panel = picture(image_area);
@@ -62,7 +62,7 @@ void annotate(const DrawnFrame& scene, const AnnotateParams& params, cv::Mat& pi
   cv::Mat footer = picture(cv::Rect(kMargin, image_area.br().y, width, kFooter));
   drawHeader(scene.state, scene.tone, scene.reason, timeOf(scene), header);
   drawImage(scene, image_panel);
-  drawPlan(scene, params.plan_ahead_m, plan_panel);
+  drawPlan(scene, kPlanAhead_m, plan_panel);
   drawLegend(kLegend, footer);
 }
 

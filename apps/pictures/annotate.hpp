@@ -58,12 +58,12 @@ struct DrawnFrame {
   Tone tone = Tone::kNeutral;
 };
 
-/// Size and reach of the pictures of one film. All of its pictures are of one size.
+/// How far the plan view reaches in front of the camera.
+inline constexpr double kPlanAhead_m = 8.5;
+
+/// Size of the pictures of one film. All of its pictures are of one size.
 struct AnnotateParams {
   int panel_height_px = 600;  ///< Of the image and of the plan view beside it.
-  int plan_width_px = 440;
-  double image_aspect = 4.0 / 3.0;  ///< Width by height of the image's panel.
-  double plan_ahead_m = 8.5;        ///< How far the plan view reaches in front of the camera.
 };
 
 /// Size of the pictures; both numbers are even, as films need it.

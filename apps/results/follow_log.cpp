@@ -13,10 +13,11 @@
 namespace heel {
 
 bool isWrongPerson(const Eigen::Vector2d& estimate, const std::optional<Eigen::Vector2d>& person,
-                   const std::vector<Eigen::Vector2d>& others, double apart_m) {
+                   const std::vector<Eigen::Vector2d>& others) {
+  constexpr double kApart_m = 0.5;
   const double to_person =
       person ? (estimate - *person).norm() : std::numeric_limits<double>::infinity();
-  return to_person > apart_m && std::any_of(others.begin(), others.end(), [&](const auto& other) {
+  return to_person > kApart_m && std::any_of(others.begin(), others.end(), [&](const auto& other) {
            return (estimate - other).norm() < to_person;
          });
 }

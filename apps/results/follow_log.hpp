@@ -49,10 +49,10 @@ struct FollowSample {
   bool wrong_person = false;      ///< See isWrongPerson().
 };
 
-/// Whether the estimate is somebody else's place: further than `apart_m` from the person (or the
+/// Whether the estimate is somebody else's place: further than 0.5 m from the person (or the
 /// person is not there), and nearer to one of the others.
 bool isWrongPerson(const Eigen::Vector2d& estimate, const std::optional<Eigen::Vector2d>& person,
-                   const std::vector<Eigen::Vector2d>& others, double apart_m = 0.5);
+                   const std::vector<Eigen::Vector2d>& others);
 
 /// A picture taken on the way.
 struct FollowSnapshot {

@@ -49,10 +49,8 @@ cv::Mat packedDepth(const cv::Mat& depth_m) {
 
 }  // namespace
 
-RecordingWriter::RecordingWriter(const fs::path& folder, const Simulator& simulator,
-                                 bool pixel_truth)
+RecordingWriter::RecordingWriter(const fs::path& folder, const Simulator& simulator)
     : output_({"simulate", OutputKind::kFolder, folder, {}, {}, true}),
-      pixel_truth_(pixel_truth),
       camera_(simulator.camera()),
       T_base_camera_(asInBags(simulator.T_base_camera())) {
   writeCameraFiles(simulator);
@@ -134,10 +132,8 @@ void RecordingWriter::addFrame(const Readings& readings) {
   writeLine("times.txt", "", format("%.3f", readings.stamp_s));
   writeImage("left", stereo.left_bgr.clone());
   writeImage("right", stereo.right_bgr.clone());
-  if (pixel_truth_) {
-    writeImage("truth/depth", packedDepth(stereo.depth_m));
-    writeImage("truth/people", stereo.people.clone());
-  }
+  writeImage("truth/depth", packedDepth(stereo.depth_m));
+  writeImage("truth/people", stereo.people.clone());
   std::array<int, 256> seen{};
   for (auto it = stereo.people.begin<std::uint8_t>(); it != stereo.people.end<std::uint8_t>(); ++it)
     ++seen[*it];

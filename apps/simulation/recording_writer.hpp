@@ -21,8 +21,7 @@ class RecordingWriter {
  public:
   /// @throws std::invalid_argument  if the folder holds something.
   /// @throws OutputError  if nothing can be written there; so do the others.
-  RecordingWriter(const std::filesystem::path& folder, const Simulator& simulator,
-                  bool pixel_truth);
+  RecordingWriter(const std::filesystem::path& folder, const Simulator& simulator);
   ~RecordingWriter();
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
@@ -44,7 +43,6 @@ class RecordingWriter {
   void writeImage(const std::string& folder, const cv::Mat& image);
 
   Output output_;
-  bool pixel_truth_;
   StereoCamera camera_;
   Eigen::Isometry3d T_base_camera_;
   Eigen::Isometry3d T_ground_world_ = Eigen::Isometry3d::Identity();

@@ -85,7 +85,7 @@ SimulateResult simulate(const Scene& scene, const SimulateOptions& options) {
                                 std::to_string(static_cast<long>(kLongest_s)) + " s at most");
   }
   Simulator simulator(scene, {options.seed, options.threads, true});
-  RecordingWriter writer(options.out, simulator, options.write_pixel_truth);
+  RecordingWriter writer(options.out, simulator);
   std::optional<SensorBag> bag;
   if (!options.bag.empty()) {
     bag.emplace(sensorBag(createBag(BagPlan{options.bag, {}, "simulate"}), simulator));

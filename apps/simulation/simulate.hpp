@@ -21,8 +21,7 @@ struct SimulateOptions {
   std::filesystem::path bag;  ///< Also a bag with the same images and readings; may be empty.
   std::optional<double> duration_s;  ///< Else the scene's own.
   std::uint64_t seed = 1;
-  int threads = 0;                ///< 0 = as many as the machine has.
-  bool write_pixel_truth = true;  ///< Depth and people's masks of every frame.
+  int threads = 0;  ///< 0 = as many as the machine has.
   /// Told before each step how things are, it drives the robot; empty: the robot stands still.
   std::function<VelocityCommand(const WorldTruth&)> drive;
   std::function<void(double)> progress;  ///< Called with the share that is done; may be empty.

@@ -37,8 +37,8 @@ void runDetector(const ExperimentOptions& options) {
     total_ms += std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
   };
   const ClearMot result = runDetectorExperiment(options.recording, options.params, timer);
-  std::printf("phase 1 as a people detector, match within %.2f m, %d frames\n",
-              options.params.detector_distance_m, result.frames);
+  std::printf("phase 1 as a people detector, match within %.2f m, %d frames\n", kDetectorDistance_m,
+              result.frames);
   std::printf("  MODA %.3f  recall %.3f  precision %.3f  (%d of %d found, %d false)\n",
               result.moda(), result.recall(), result.precision(), result.matches, result.truths,
               result.false_positives);
@@ -62,7 +62,7 @@ void runProtocol(const ExperimentOptions& options) {
     printRow(options.recording.filename().string(), result.following);
     for (const std::filesystem::path& other : options.others) {
       printRow(other.filename().string(),
-               runFollowingExperiment(other, result.learned.model, result.person, params));
+               runFollowingExperiment(other, result.learned.model, result.person));
     }
   }
 }

@@ -171,15 +171,15 @@ void FollowOutput::commit(FollowLog& log, const FollowSummary& summary) {
     log.snapshots.push_back(
         {snapshot.stamp_s, snapshot.caption, cv::imdecode(snapshot.jpeg, cv::IMREAD_COLOR)});
   }
-  FollowPageParams page;
+  PageFilm film;
   if (film_) {
     film_->close();
-    page.film.name = film_->path().filename().string();
-    page.film.rate_hz = kFilmRate_hz;
-    page.film.stamps_s = std::move(film_stamps_s_);
+    film.name = film_->path().filename().string();
+    film.rate_hz = kFilmRate_hz;
+    film.stamps_s = std::move(film_stamps_s_);
   }
   writeFollowFiles(output_, log, summary);
-  writeFollowPage(output_ / "report.html", log, summary, page);
+  writeFollowPage(output_ / "report.html", log, summary, film);
   const bool complete = summary.outcome != kStoppedRun;
   output_.commit(complete);
   if (bag_) bag_->commit(complete);

@@ -43,7 +43,8 @@ std::vector<StampedPose> readPoses(const std::filesystem::path& path, const BagT
 }
 
 /// The pose nearest in time; null if that is too far away.
-const FloorPose* poseAt(const std::vector<StampedPose>& poses, double stamp_s, double within_s) {
+const FloorPose* poseAt(const std::vector<StampedPose>& poses, double stamp_s) {
+  constexpr double kWithin_s = 0.1;
   const StampedPose* nearest = nullptr;
   const auto after =
       std::lower_bound(poses.begin(), poses.end(), stamp_s,
@@ -53,42 +54,46 @@ const FloorPose* poseAt(const std::vector<StampedPose>& poses, double stamp_s, d
       (nearest == nullptr || stamp_s - (after - 1)->stamp_s < nearest->stamp_s - stamp_s)) {
     nearest = &*(after - 1);
   }
-  if (nearest == nullptr || std::abs(nearest->stamp_s - stamp_s) > within_s) return nullptr;
+  if (nearest == nullptr || std::abs(nearest->stamp_s - stamp_s) > kWithin_s) return nullptr;
   return &nearest->pose;
 }
 
 /// Points of the camera's frame.
-void pointsOf(const cv::Mat& depth_m, const PinholeCamera& camera, int step,
+void pointsOf(const cv::Mat& depth_m, const PinholeCamera& camera,
               std::vector<Eigen::Vector3f>& points) {
+  constexpr int kStep = 3;  // Every so many pixels each way.
   points.clear();
-  for (int v = 0; v < depth_m.rows; v += step) {
+  for (int v = 0; v < depth_m.rows; v += kStep) {
     const auto* row = depth_m.ptr<float>(v);
-    for (int u = 0; u < depth_m.cols; u += step) {
+    for (int u = 0; u < depth_m.cols; u += kStep) {
       if (!(row[u] > 0.0F)) continue;
       points.push_back(rayOf(camera, u, v).cast<float>() * row[u]);
     }
   }
 }
 
-}  // namespace
-
-WallMap mapOfRecording(const std::filesystem::path& path, const RecordedMapParams& params) {
+/// Adds the clouds of all frames from where the robot was: robot.csv of the recording
+/// (`stamp_s,x_m,y_m,yaw_rad`, as 'heel simulate' writes it) tells the base's pose in the world; of
+/// a bag, see readBagPoses().
+WallMap mapOfRecording(const std::filesystem::path& path, double cell_m,
+                       const MapSourceParams& params) {
   const std::vector<StampedPose> poses = readPoses(path, params.topics);
   RecordingParams opening;
   opening.topics = params.topics;
   const CameraSetup setup = findCameraSetup(*openRecording(path, opening));
   const auto recording = openRecording(path, opening);
   DepthImages depths(setup.sensor, setup.camera);
-  WallMapBuilder builder(params.cell_size_m);
+  constexpr double kMaxRange_m = 4.0;  // Stereo depth is too coarse for a map further away.
+  WallMapBuilder builder(cell_m);
   std::vector<Eigen::Vector3f> points;
   Frame frame;
   std::size_t used = 0;
   while (recording->next(frame)) {
-    const FloorPose* robot = poseAt(poses, frame.stamp_s, params.max_pose_distance_s);
+    const FloorPose* robot = poseAt(poses, frame.stamp_s);
     if (robot == nullptr) continue;
     ++used;
-    pointsOf(depths.of(frame), setup.camera.left, std::max(params.pixel_step, 1), points);
-    builder.add(points, basePose(*robot) * setup.T_base_camera, params.max_range_m);
+    pointsOf(depths.of(frame), setup.camera.left, points);
+    builder.add(points, basePose(*robot) * setup.T_base_camera, kMaxRange_m);
     if (params.progress) {
       params.progress(static_cast<double>(frame.number) /
                       static_cast<double>(std::max<std::size_t>(recording->info().frame_count, 1)));
@@ -100,8 +105,6 @@ WallMap mapOfRecording(const std::filesystem::path& path, const RecordedMapParam
   }
   return builder.build();
 }
-
-namespace {
 
 namespace fs = std::filesystem;
 
@@ -153,11 +156,7 @@ SourcedMap openMap(const fs::path& path, const MapSourceParams& params) {
     throw std::runtime_error(path.string() + ": there is no such file or folder");
   }
   if (fs::is_directory(path) || isBag(path)) {
-    RecordedMapParams recorded;
-    recorded.cell_size_m = cell_m;
-    recorded.topics = params.topics;
-    recorded.progress = params.progress;
-    return {mapOfRecording(path, recorded), "recording"};
+    return {mapOfRecording(path, cell_m, params), "recording"};
   }
   if (path.extension() == ".bt") return {loadWallMap(path), "wall map"};
   if (const auto plan = floorPlanIn(path, params)) {

@@ -77,8 +77,7 @@ TrackOutput::TrackOutput(const std::filesystem::path& folder, const RecordingInf
   log_.frame = moves() ? params.frame : "base";
   log_.moves = moves();
   log_.bounds_m = params.bounds_m;
-  log_.seen_floor_m =
-      visibleFloor(setup.camera.left, setup.T_base_camera, AnnotateParams{}.plan_ahead_m);
+  log_.seen_floor_m = visibleFloor(setup.camera.left, setup.T_base_camera, kPlanAhead_m);
   if (params.bag.empty()) return;
   bag_.emplace(BagPlan{params.bag, params.inputs, "track"}, moves() ? params.frame : "map");
 }

@@ -20,6 +20,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+constexpr int kWidth_px = 960;
+constexpr int kHeight_px = 720;
+constexpr double kFocal_px = 780.0;  // Of the eye.
 constexpr int kHeader_px = 40;
 constexpr double kNear_m = 0.1;
 constexpr double kUnknownSpacing_m = 0.01;  // of points whose camera is not known
@@ -27,8 +30,7 @@ constexpr double kUnknownSpacing_m = 0.01;  // of points whose camera is not kno
 /// The eye: Z forward, X right, Y down, as the cameras.
 class Eye {
  public:
-  Eye(const ViewPoint& from, const ScenePictureParams& params)
-      : focal_(params.focal_length_px), center_(params.width_px / 2.0, params.height_px / 2.0) {
+  explicit Eye(const ViewPoint& from) {
     const Vector3d forward = (from.target_m - from.eye_m).normalized();
     const Vector3d right = forward.cross(Vector3d::UnitZ()).normalized();
     Eigen::Matrix3d axes;
@@ -39,8 +41,8 @@ class Eye {
 
   Vector3d seen(const Vector3d& floor_m) const { return T_eye_floor_ * floor_m; }
   cv::Point2d pixel(const Vector3d& eye_m) const {
-    return {center_.x() + focal_ * eye_m.x() / eye_m.z(),
-            center_.y() + focal_ * eye_m.y() / eye_m.z()};
+    return {kWidth_px / 2.0 + kFocal_px * eye_m.x() / eye_m.z(),
+            kHeight_px / 2.0 + kFocal_px * eye_m.y() / eye_m.z()};
   }
   /// Nothing, if the place is behind the eye.
   std::optional<cv::Point2d> operator()(const Vector3d& floor_m) const {
@@ -48,12 +50,10 @@ class Eye {
     if (!(at.z() > kNear_m)) return std::nullopt;
     return pixel(at);
   }
-  double pixels(double m, double depth_m) const { return focal_ * m / depth_m; }
+  double pixels(double m, double depth_m) const { return kFocal_px * m / depth_m; }
 
  private:
   Eigen::Isometry3d T_eye_floor_ = Eigen::Isometry3d::Identity();
-  double focal_;
-  Vector2d center_;
 };
 
 void drawSegment(const Eye& eye, const Vector3d& from, const Vector3d& to, const cv::Scalar& color,
@@ -181,11 +181,10 @@ void drawHeader(const DrawnFrame& drawn, cv::Mat& picture) {
 
 }  // namespace
 
-void drawScene(const ViewScene& scene, const ViewPoint& from, const ScenePictureParams& params,
-               cv::Mat& picture) {
-  picture.create(params.height_px, params.width_px, CV_8UC3);
+void drawScene(const ViewScene& scene, const ViewPoint& from, cv::Mat& picture) {
+  picture.create(kHeight_px, kWidth_px, CV_8UC3);
   picture.setTo(palette::kPanel);
-  const Eye eye(from, params);
+  const Eye eye(from);
   drawFloor(eye, from, picture);
   drawPoints(eye, scene, picture);
   for (const DrawnBlob& blob : scene.drawn.blobs) {

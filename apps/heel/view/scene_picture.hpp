@@ -9,17 +9,10 @@
 
 namespace heel {
 
-struct ScenePictureParams {
-  int width_px = 960;
-  int height_px = 720;
-  double focal_length_px = 780.0;  ///< Of the eye that looks.
-};
-
 /// Draws the cloud point by point, the nearest in front, each as large as the surface that it
 /// stands for; over it the blobs on the floor, and the tracks as poles of their height.
 ///
-/// @param picture  Out: CV_8UC3; its memory is reused.
-void drawScene(const ViewScene& scene, const ViewPoint& from, const ScenePictureParams& params,
-               cv::Mat& picture);
+/// @param picture  Out: CV_8UC3 of 960 x 720; its memory is reused.
+void drawScene(const ViewScene& scene, const ViewPoint& from, cv::Mat& picture);
 
 }  // namespace heel

@@ -166,7 +166,7 @@ void writePictures(const ViewOptions& options, Scenes& scenes, std::size_t frame
   cv::Mat picture;
   std::size_t written = 0;
   const std::size_t seen = eachScene(options, scenes, step, [&](const ViewScene& scene, double) {
-    drawScene(scene, behindCamera(scene.drawn.T_floor_camera), {}, picture);
+    drawScene(scene, behindCamera(scene.drawn.T_floor_camera), picture);
     char name[32];
     std::snprintf(name, sizeof name, "view_%06zu.png", scene.drawn.frame);
     writePicture(output / name, picture);

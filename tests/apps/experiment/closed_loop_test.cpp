@@ -157,7 +157,7 @@ TEST(ClosedLoop, LearnsAPersonAndReachesThem) {
   EXPECT_THAT(log.samples, Each(Field(&FollowSample::is_localized, true)));
   const FollowSample& last = log.samples.back();
   EXPECT_GT(last.person_true->x(), 4.6) << "she went where she was going";
-  EXPECT_LT(last.person_distance_m, ClosedLoopParams().reached_m);
+  EXPECT_LT(last.person_distance_m, kReached_m);
   int seen = 0;
   double error_m = 0.0;
   for (const FollowSample& sample : log.samples) {

@@ -37,7 +37,7 @@ TEST(ExperimentsOnRealPeople, TheFirstPersonIsFollowedByTheirLooks) {
   EXPECT_EQ(result.following.wrongPersonShare(), 0.0);
 
   const TargetMetrics again = runFollowingExperiment(test::dataFolder() / "one_person",
-                                                     result.learned.model, result.person, {});
+                                                     result.learned.model, result.person);
   EXPECT_EQ(again.frames_in_view, 38);
   EXPECT_GE(again.recall(), 0.75) << "it takes a few looks to be sure of him";
   EXPECT_EQ(again.wrongPersonShare(), 0.0);

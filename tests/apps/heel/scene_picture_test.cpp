@@ -37,7 +37,7 @@ const ViewPoint kFrom{{0.0, 0.0, 0.3}, {3.0, 0.0, 0.3}};
 
 TEST(ScenePicture, ShowsWhatIsInFront) {
   cv::Mat picture;
-  drawScene(twoWalls(), kFrom, {}, picture);
+  drawScene(twoWalls(), kFrom, picture);
   ASSERT_EQ(picture.size(), cv::Size(960, 720));
   EXPECT_EQ(at(picture, 480, 360), cv::Vec3b(0, 255, 0));
   EXPECT_EQ(at(picture, 480 + 780 * 0.6 / 4.0, 360), cv::Vec3b(0, 0, 255)) << "beside it";
@@ -47,7 +47,7 @@ TEST(ScenePicture, LeavesNoHolesInAWall) {
   ViewScene scene = twoWalls();
   scene.drawn.camera.fx = 300.0;  // its pixels are 1 cm apart at 3 m
   cv::Mat picture, green;
-  drawScene(scene, kFrom, {}, picture);
+  drawScene(scene, kFrom, picture);
   cv::inRange(picture(cv::Rect(420, 300, 120, 120)), cv::Scalar(0, 255, 0), cv::Scalar(0, 255, 0),
               green);
   EXPECT_EQ(cv::countNonZero(green), 120 * 120);
@@ -59,7 +59,7 @@ TEST(ScenePicture, TintsTheMarkedPoints) {
     scene.marked.push_back(static_cast<pcl::index_t>(i));
   }
   cv::Mat picture;
-  drawScene(scene, kFrom, {}, picture);
+  drawScene(scene, kFrom, picture);
   EXPECT_NE(at(picture, 480, 360), cv::Vec3b(0, 255, 0));
 }
 
@@ -71,7 +71,7 @@ TEST(ScenePicture, DrawsTheTargetInItsColour) {
   target.is_target = true;
   scene.drawn.tracks = {target};
   cv::Mat picture, orange;
-  drawScene(scene, kFrom, {}, picture);
+  drawScene(scene, kFrom, picture);
   cv::inRange(picture, palette::kTarget, palette::kTarget, orange);
   EXPECT_GT(cv::countNonZero(orange), 200);
 }
@@ -80,7 +80,7 @@ TEST(ScenePicture, OfNothingIsTheEmptyFloor) {
   ViewScene scene;
   scene.cloud = pcl::make_shared<ColorCloud>();
   cv::Mat picture;
-  drawScene(scene, kFrom, {}, picture);
+  drawScene(scene, kFrom, picture);
   EXPECT_FALSE(picture.empty());
 }
 

@@ -85,9 +85,9 @@ TEST(FollowPage, HostileNamesStayText) {
   log.samples[50].state = log.samples[60].reason = kHostile;
   log.snapshots[0].caption = kHostile;
   log.stages[0].name = kHostile;
-  heel::FollowPageParams params;
-  params.film.name = kHostile;
-  const std::string page = followPage(log, summarize(log), params);
+  heel::PageFilm film;
+  film.name = kHostile;
+  const std::string page = followPage(log, summarize(log), film);
   EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
   pugi::xml_document document;
   ASSERT_TRUE(document.load_string(page.c_str(), pugi::parse_default | pugi::parse_doctype));
@@ -141,10 +141,10 @@ TEST(FollowPage, SaysWhetherTheLoopKeepsUpWithTheCamera) {
 }
 
 TEST(FollowPage, FilmIsTheOnlyFileBesideIt) {
-  heel::FollowPageParams params;
-  params.film.name = "follow.mp4";
+  heel::PageFilm film;
+  film.name = "follow.mp4";
   pugi::xml_document document;
-  const std::string page = followPage(flatRun(), summarize(flatRun()), params);
+  const std::string page = followPage(flatRun(), summarize(flatRun()), film);
   ASSERT_TRUE(document.load_string(page.c_str(), pugi::parse_default | pugi::parse_doctype));
   EXPECT_STREQ(document.select_node("//video/@src").attribute().value(), "follow.mp4");
   EXPECT_EQ(countOf(document, "//video[starts-with(@poster, 'data:image/jpeg')]"), 1U);

@@ -115,10 +115,10 @@ class PagesInBrowser : public testing::Test {
   TempFolder folder_;
 };
 
-std::string followPageOf(const FollowLog& log, const std::string& film = {}) {
-  heel::FollowPageParams params;
-  params.film.name = film;
-  return followPage(log, summarize(log), params);
+std::string followPageOf(const FollowLog& log, const std::string& name = {}) {
+  heel::PageFilm film;
+  film.name = name;
+  return followPage(log, summarize(log), film);
 }
 
 /// Of three runs, one of which failed.
