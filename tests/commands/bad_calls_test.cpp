@@ -32,17 +32,13 @@ TEST_P(Help, PrintsAnExample) {
 }
 
 TEST_P(Help, NamesNoNumberThatMayBeInfinite) {
-  const auto with = [](std::vector<std::string> call, const std::vector<std::string>& more) {
-    call.insert(call.end(), more.begin(), more.end());
-    return heel(call);
-  };
   // "--cell FLOAT", "--start X,Y", but not "--out TEXT".
   const std::regex number("\n  (--[a-z-]+) (FLOAT|INT|UINT|K:INT|X|X0|LOW|SIZE)\\b");
-  const std::string help = with(GetParam(), {"--help"}).out;
+  const std::string help = heel(GetParam(), {"--help"}).out;
   for (std::sregex_iterator option(help.begin(), help.end(), number), end; option != end;
        ++option) {
     for (const std::string bad : {"nan", "1e999"}) {
-      const HeelRun run = with(GetParam(), {(*option)[1], bad, bad, bad, bad});
+      const HeelRun run = heel(GetParam(), {(*option)[1], bad, bad, bad, bad});
       EXPECT_TRUE(failsWith(run, {(*option)[1]}));
       EXPECT_EQ(run.exit_code, 2);
     }

@@ -10,7 +10,6 @@
 #include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 namespace heel::test {
@@ -38,7 +37,7 @@ class BadRecording : public testing::Test {
     ASSERT_TRUE(succeeds(run));
     EXPECT_THAT(run.out, HasSubstr("1 frame was left out"));
     ASSERT_EQ(run.warnings().size(), 1U) << run.err;
-    const auto summary = nlohmann::json::parse(readText(folder_ / "out/summary.json"));
+    const auto summary = summaryIn(folder_ / "out");
     EXPECT_EQ(summary["frames"], recording_.frames() - 1);
     ASSERT_EQ(summary["frames_skipped"].size(), 1U);
     EXPECT_EQ(summary["frames_skipped"][0]["frame"], number);

@@ -11,12 +11,12 @@
 #include "tests/support/temp_folder.hpp"
 #include <heel/apps/bag/bag.hpp>
 #include <heel/apps/recording/bags/sensor_bag.hpp>
+#include <heel/apps/results/result_files.hpp>
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <map>
-#include <sstream>
 
 namespace heel::test {
 namespace {
@@ -53,10 +53,9 @@ class Bags : public testing::Test {
 
   HeelRun track(const std::string& recording, const std::string& out,
                 const std::vector<std::string>& more = {"--no-film"}) {
-    std::vector<std::string> call = {
-        "track", folder_ / recording, "--model", folder_ / "person.yaml", "--out", folder_ / out};
-    call.insert(call.end(), more.begin(), more.end());
-    return heel(call);
+    return heel(
+        {"track", folder_ / recording, "--model", folder_ / "person.yaml", "--out", folder_ / out},
+        more);
   }
 
   TempFolder folder_;
@@ -86,21 +85,10 @@ TEST_F(Bags, AreReadFromAndToWhatIsAskedFor) {
     simulate("for_" + bag, bag);
     const HeelRun run = track(bag, "out", {"--no-film", "--from", "0.75", "--to", "1.25"});
     ASSERT_TRUE(endsWell(run));
-    std::istringstream frames(readText(folder_ / "out/frames.csv"));
-    std::vector<double> stamps_s;
-    std::string line;
-    std::getline(frames, line);
-    const auto column = std::count(
-        line.begin(), line.begin() + static_cast<std::ptrdiff_t>(line.find("stamp_s")), ',');
-    while (std::getline(frames, line)) {
-      std::istringstream row(line);
-      std::string value;
-      for (std::ptrdiff_t i = 0; i <= column; ++i) std::getline(row, value, ',');
-      stamps_s.push_back(std::stod(value));
-    }
-    ASSERT_GT(stamps_s.size(), 2U) << bag;
-    EXPECT_GE(stamps_s.front(), 0.75);
-    EXPECT_LE(stamps_s.back(), 1.4);  // the bag may begin a frame after 0
+    const auto frames = readFrames(folder_ / "out/frames.csv");
+    ASSERT_GT(frames.size(), 2U) << bag;
+    EXPECT_GE(frames.front().stamp_s, 0.75);
+    EXPECT_LE(frames.back().stamp_s, 1.4);  // the bag may begin a frame after 0
   }
   EXPECT_TRUE(failsWith(track("hall.bag", "out", {"--from", "1000"}), {"hall.bag", "that part"}));
 }

@@ -31,9 +31,7 @@ class Capture : public testing::Test {
   }
 
   HeelRun capture(const std::string& from, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> call = {"capture", from, "--out", folder_ / "out"};
-    call.insert(call.end(), more.begin(), more.end());
-    return heel(call);
+    return heel({"capture", from, "--out", folder_ / "out"}, more);
   }
   HeelRun captureCalibrated(const std::string& from) {
     return capture(from, {"--calibration", folder_ / "rig.yaml"});

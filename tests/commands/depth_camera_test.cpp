@@ -133,9 +133,7 @@ class CaptureDepth : public testing::Test {
 
   HeelRun capture(const std::string& bytes, const std::vector<std::string>& more = {}) {
     writeText(folder_ / "room.oni", bytes);
-    std::vector<std::string> call = {"capture", folder_ / "room.oni", "--out", folder_ / "out"};
-    call.insert(call.end(), more.begin(), more.end());
-    return heel(call);
+    return heel({"capture", folder_ / "room.oni", "--out", folder_ / "out"}, more);
   }
   HeelRun capture(const Oni& oni, const std::vector<std::string>& more = {}) {
     return capture(OniBytes(oni).bytes(), more);

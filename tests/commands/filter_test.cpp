@@ -45,9 +45,7 @@ class Filter : public testing::Test {
   }
 
   HeelRun filter(const std::vector<std::string>& options = {}) {
-    std::vector<std::string> call = {"filter", "--model", model_, in_, out_};
-    call.insert(call.end(), options.begin(), options.end());
-    return heel(call);
+    return heel({"filter", "--model", model_, in_, out_}, options);
   }
 
   std::vector<std::uint32_t> labels(const PcdFile& pcd) const {

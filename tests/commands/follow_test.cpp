@@ -8,7 +8,6 @@
 #include "tests/support/temp_folder.hpp"
 
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <string>
@@ -44,9 +43,7 @@ class Follow : public testing::Test {
  protected:
   Follow() { writeText(folder_ / "room.yaml", kFollowScene); }
   HeelRun follow(const std::string& scene, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> call = {"follow", scene, "--out", folder_ / "out"};
-    call.insert(call.end(), more.begin(), more.end());
-    return heel(call);
+    return heel({"follow", scene, "--out", folder_ / "out"}, more);
   }
   TempFolder folder_;
 };
@@ -59,7 +56,7 @@ TEST_F(Follow, WritesAReportOfAsLongAsItMay) {
   EXPECT_THAT(run.out, HasSubstr("report.html"));
   EXPECT_THAT(filesBelow(folder_ / "out"),
               ElementsAre("follow.csv", "report.html", "summary.json", "timing.csv"));
-  const auto summary = nlohmann::json::parse(readText(folder_ / "out/summary.json"));
+  const auto summary = summaryIn(folder_ / "out");
   EXPECT_EQ(summary.at("outcome"), "timeout");
   for (const char* key : {"distance_m", "elapsed_s", "seek_s", "moving_speed_mps", "contacts",
                           "wrong_person_s", "near_others_s", "min_clearance_m"}) {

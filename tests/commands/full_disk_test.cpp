@@ -25,10 +25,9 @@ class FullDisk : public testing::Test {
   }
 
   std::vector<std::string> track(const std::vector<std::string>& options = {}) {
-    std::vector<std::string> call = {"track", folder_ / "room", "--model", folder_ / "person.yaml",
-                                     "--out", folder_ / "out"};
-    call.insert(call.end(), options.begin(), options.end());
-    return call;
+    return joined(
+        {"track", folder_ / "room", "--model", folder_ / "person.yaml", "--out", folder_ / "out"},
+        options);
   }
 
   std::vector<std::string> learn() {

@@ -3,6 +3,8 @@
 
 #include "tests/commands/heel.hpp"
 
+#include "tests/support/temp_folder.hpp"
+
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -124,6 +126,16 @@ HeelRun heel(const std::vector<std::string>& arguments, std::optional<std::size_
   return run(arguments, largest_file, [](pid_t, const Capture&) {});
 }
 
+std::vector<std::string> joined(std::vector<std::string> call,
+                                const std::vector<std::string>& more) {
+  call.insert(call.end(), more.begin(), more.end());
+  return call;
+}
+
+HeelRun heel(const std::vector<std::string>& arguments, const std::vector<std::string>& more) {
+  return heel(joined(arguments, more));
+}
+
 HeelRun heelUntil(const std::vector<std::string>& arguments, const std::string& text,
                   const std::function<void(pid_t)>& then) {
   return run(arguments, std::nullopt, [&](pid_t child, const Capture& err) {
@@ -171,6 +183,10 @@ testing::AssertionResult failsWith(const HeelRun& run, const std::vector<std::st
   return testing::AssertionFailure()
          << "expected one error with " << testing::PrintToString(parts) << "\n"
          << described(run);
+}
+
+nlohmann::json summaryIn(const std::filesystem::path& folder) {
+  return nlohmann::json::parse(readText(folder / "summary.json"));
 }
 
 std::vector<std::string> filesBelow(const std::filesystem::path& folder) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <sys/types.h>
 
 #include <filesystem>
@@ -37,6 +38,13 @@ struct HeelRun {
 HeelRun heel(const std::vector<std::string>& arguments,
              std::optional<std::size_t> largest_file = std::nullopt);
 
+/// The arguments of a call, and more.
+std::vector<std::string> joined(std::vector<std::string> call,
+                                const std::vector<std::string>& more);
+
+/// Runs `heel ARGUMENTS MORE`.
+HeelRun heel(const std::vector<std::string>& arguments, const std::vector<std::string>& more);
+
 /// Runs `heel ARGUMENTS`, and does something once it has said `text` on stderr.
 /// @param then  Called with the process, if that has not ended too early.
 HeelRun heelUntil(const std::vector<std::string>& arguments, const std::string& text,
@@ -58,6 +66,9 @@ testing::AssertionResult endsWell(const HeelRun& run);
 /// That it failed as it should: no signal, no result on stdout, and one error line, which starts
 /// with "heel: " and has all of `parts` in it.
 testing::AssertionResult failsWith(const HeelRun& run, const std::vector<std::string>& parts);
+
+/// What the summary.json of results says.
+nlohmann::json summaryIn(const std::filesystem::path& folder);
 
 /// Names of all files below a folder but manifests, hidden ones too, sorted; empty if there is no
 /// folder.

@@ -23,9 +23,7 @@ using testing::IsSupersetOf;
 class LearnAndTrack : public testing::Test {
  protected:
   void learn(const std::string& out, const std::vector<std::string>& options = {}) {
-    std::vector<std::string> call = {"learn", folder_ / "room", "--out", folder_ / out};
-    call.insert(call.end(), options.begin(), options.end());
-    const HeelRun run = heel(call);
+    const HeelRun run = heel({"learn", folder_ / "room", "--out", folder_ / out}, options);
     ASSERT_TRUE(succeeds(run));
     EXPECT_THAT(run.out, HasSubstr("wrote "));
   }
@@ -91,7 +89,7 @@ TEST_F(LearnAndTrack, FindsThePlaceOfTheCameraByTheFloor) {
   recording.write(folder_ / "room");
   learn("rosa.yaml");
   ASSERT_TRUE(succeeds(track("rosa.yaml", "out")));
-  const auto summary = nlohmann::json::parse(readText(folder_ / "out/summary.json"));
+  const auto summary = summaryIn(folder_ / "out");
   EXPECT_EQ(summary["camera"]["from"], "floor");
   EXPECT_NEAR(summary["camera"]["height_m"], 1.0, 0.02);
   EXPECT_GE(evaluate("out")["target"]["recall"], 0.9);
@@ -172,7 +170,7 @@ TEST_F(LearnAndTrack, TracksNobodyInAnEmptyRoom) {
   const HeelRun run = track("rosa.yaml", "out");
   ASSERT_TRUE(findsNothing(run));
   EXPECT_THAT(run.err, HasSubstr("mostly, no pixel has the target's colours; a person in other"));
-  const auto summary = nlohmann::json::parse(readText(folder_ / "out/summary.json"));
+  const auto summary = summaryIn(folder_ / "out");
   EXPECT_EQ(summary["frames"], 12);
   EXPECT_EQ(summary["frames_with_target"], 0);
   EXPECT_EQ(summary["frames_by_reason"]["no pixel has the target's colours"], 12);

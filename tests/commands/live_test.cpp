@@ -74,19 +74,10 @@ class Live : public testing::TestWithParam<std::string> {
            << "after '" << word << "' it is not so that it is '" << state << "' and " << wheels;
   }
   std::vector<std::string> live(std::vector<std::string> more, bool map_is_sent = false) const {
-    std::vector<std::string> call = {"live",
-                                     map_is_sent ? "--map-topic" : "--map",
-                                     map_is_sent ? "/map" : folder_ / "hall.yaml",
-                                     "--robot-start",
-                                     "0.5,0,0",
-                                     "--domain",
-                                     domain_,
-                                     "--out",
-                                     folder_ / "live",
-                                     "--ros",
-                                     isRos1() ? "1" : "2"};
-    call.insert(call.end(), more.begin(), more.end());
-    return call;
+    return joined({"live", map_is_sent ? "--map-topic" : "--map",
+                   map_is_sent ? "/map" : folder_ / "hall.yaml", "--robot-start", "0.5,0,0",
+                   "--domain", domain_, "--out", folder_ / "live", "--ros", isRos1() ? "1" : "2"},
+                  more);
   }
 
   TempFolder folder_;

@@ -15,9 +15,7 @@ namespace {
 class Localize : public testing::Test {
  protected:
   HeelRun localize(const std::string& log, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> call = {"localize", folder_ / log, "--out", folder_ / "out"};
-    call.insert(call.end(), more.begin(), more.end());
-    return heel(call);
+    return heel({"localize", folder_ / log, "--out", folder_ / "out"}, more);
   }
   TempFolder folder_;
 };

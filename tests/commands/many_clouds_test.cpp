@@ -12,7 +12,6 @@
 #include <heel/apps/recording/clouds/cloud_file.hpp>
 
 #include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 
 #include <sstream>
 
@@ -58,9 +57,7 @@ class ManyClouds : public testing::Test {
   }
 
   HeelRun filter(const fs::path& out, const std::vector<std::string>& options = {}) {
-    std::vector<std::string> call = {"filter", "--model", model_, in_, "--out", out};
-    call.insert(call.end(), options.begin(), options.end());
-    return heel(call);
+    return heel({"filter", "--model", model_, in_, "--out", out}, options);
   }
 
   TempFolder folder_;
@@ -84,7 +81,7 @@ TEST_F(ManyClouds, AreFilteredAndTheFateOfEachIsTold) {
   EXPECT_THAT(rowOf(csv, "10.ply"), HasSubstr(",written,PLY,ascii,0,2,1,x y z rgb,rgb,2,2,1,"));
   EXPECT_THAT(rowOf(csv, "11.pcd"), HasSubstr("none of its points passes"));
   EXPECT_THAT(rowOf(csv, "12.pcd"), HasSubstr(",failed,PCD,ascii,0,1,1,x y z,none,1,1,0,,"));
-  const auto json = nlohmann::json::parse(readText(out_ / "summary.json"));
+  const auto json = summaryIn(out_);
   EXPECT_EQ(json["files"], 6);
   EXPECT_EQ(json["outcomes"]["failed"], 3);
   EXPECT_EQ(json["reasons"].size(), 4U);

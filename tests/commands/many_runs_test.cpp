@@ -31,10 +31,9 @@ class ManyRuns : public testing::Test {
   }
 
   HeelRun track(const std::string& out, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> call = {"track", folder_ / "room", "--model",  folder_ / "person.yaml",
-                                     "--out", folder_ / out,    "--no-film"};
-    call.insert(call.end(), more.begin(), more.end());
-    return heel(call);
+    return heel({"track", folder_ / "room", "--model", folder_ / "person.yaml", "--out",
+                 folder_ / out, "--no-film"},
+                more);
   }
   std::string textOf(const std::string& name) const { return readText(folder_ / name); }
 
@@ -152,8 +151,8 @@ TEST_F(ManyRuns, OfPiecesAreJoinedToTheSameTracks) {
       heel({"join", folder_ / "3", folder_ / "1", folder_ / "2", "--out", folder_ / "joined"});
   EXPECT_TRUE(succeeds(run));
   EXPECT_EQ(placesIn(textOf("joined/tracks.csv")), placesIn(textOf("whole/tracks.csv")));
-  const auto whole = nlohmann::json::parse(textOf("whole/summary.json"));
-  const auto joined = nlohmann::json::parse(textOf("joined/summary.json"));
+  const auto whole = summaryIn(folder_ / "whole");
+  const auto joined = summaryIn(folder_ / "joined");
   for (const char* key :
        {"recording", "frames", "frames_skipped", "frames_with_target", "camera"}) {
     EXPECT_EQ(joined[key], whole[key]) << key;
@@ -242,19 +241,9 @@ class JoinedHomes : public testing::Test {
   /// Results of so many homes, of which nobody has the time to be found.
   HeelRun make(const std::string& out, int seed, int episodes,
                const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> call = {"experiment",
-                                     "follow",
-                                     "--no-table1",
-                                     "--seed",
-                                     std::to_string(seed),
-                                     "--episodes",
-                                     std::to_string(episodes),
-                                     "--limit",
-                                     "0.3",
-                                     "--out",
-                                     folder_ / out};
-    call.insert(call.end(), more.begin(), more.end());
-    return heel(call);
+    return heel({"experiment", "follow", "--no-table1", "--seed", std::to_string(seed),
+                 "--episodes", std::to_string(episodes), "--limit", "0.3", "--out", folder_ / out},
+                more);
   }
   HeelRun join(const std::vector<std::string>& parts, const std::string& out) const {
     std::vector<std::string> call = {"experiment", "follow", "--join"};

@@ -40,9 +40,7 @@ class Map : public testing::Test {
  protected:
   Map() { writeText(folder_ / "room.yaml", kMapScene); }
   HeelRun map(const std::string& source, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> call = {"map", folder_ / source, "--out", folder_ / "out"};
-    call.insert(call.end(), more.begin(), more.end());
-    return heel(call);
+    return heel({"map", folder_ / source, "--out", folder_ / "out"}, more);
   }
   TempFolder folder_;
 };

@@ -20,10 +20,9 @@ TEST(Memory, DoesNotGrowWithTheRecording) {
   writeSmallModel(folder / "person.yaml");
   const auto peakOf_kB = [&](int frames, const std::vector<std::string>& more) {
     SmallRecording{2, frames - 2}.write(folder / "room");
-    std::vector<std::string> call = {"track", folder / "room", "--model", folder / "person.yaml",
-                                     "--out", folder / "out"};
-    call.insert(call.end(), more.begin(), more.end());
-    const HeelRun run = heel(call);
+    const HeelRun run =
+        heel({"track", folder / "room", "--model", folder / "person.yaml", "--out", folder / "out"},
+             more);
     EXPECT_TRUE(succeeds(run));
     return run.peak_kB;
   };

@@ -12,6 +12,7 @@
 #include <heel/apps/recording/bags/sensor_bag.hpp>
 #include <heel/apps/recording/recording.hpp>
 #include <heel/apps/recording/stamps.hpp>
+#include <heel/apps/results/result_files.hpp>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -34,30 +35,15 @@ using testing::SizeIs;
 /// Where rosa stands in the frame of the robot's start, which is at (0.5, 0) of the hall.
 const Eigen::Vector2d kRosa(3.7, 0.6);
 
-/// A row of tracks.csv.
-struct Row {
-  double stamp_s;
-  Eigen::Vector2d place;
-};
-
-std::map<int, std::vector<Row>> tracksOf(const std::filesystem::path& folder) {
-  std::map<int, std::vector<Row>> tracks;
-  std::istringstream in(readText(folder / "tracks.csv"));
-  std::string line;
-  std::getline(in, line);
-  while (std::getline(in, line)) {
-    double stamp_s = 0, x = 0, y = 0;
-    int id = 0, is_target = 0;
-    if (std::sscanf(line.c_str(), "%lf,%d,%d,%lf,%lf", &stamp_s, &id, &is_target, &x, &y) == 5) {
-      tracks[id].push_back({stamp_s, {x, y}});
-    }
-  }
+std::map<int, std::vector<TrackRow>> tracksOf(const std::filesystem::path& folder) {
+  std::map<int, std::vector<TrackRow>> tracks;
+  for (const TrackRow& row : readTracks(folder / "tracks.csv")) tracks[row.track_id].push_back(row);
   return tracks;
 }
 
 /// The longest track.
-std::vector<Row> longestOf(const std::filesystem::path& folder) {
-  std::vector<Row> longest;
+std::vector<TrackRow> longestOf(const std::filesystem::path& folder) {
+  std::vector<TrackRow> longest;
   for (const auto& [id, rows] : tracksOf(folder)) {
     if (rows.size() > longest.size()) longest = rows;
   }
@@ -91,10 +77,8 @@ class MovingRobots : public testing::Test {
 
   HeelRun track(const std::filesystem::path& recording, const std::string& out,
                 const std::vector<std::string>& more = {"--no-film"}) {
-    std::vector<std::string> call = {"track", recording,    "--model", made() / "person.yaml",
-                                     "--out", folder_ / out};
-    call.insert(call.end(), more.begin(), more.end());
-    return heel(call);
+    return heel({"track", recording, "--model", made() / "person.yaml", "--out", folder_ / out},
+                more);
   }
 
   /// The drive with other odometry: what `poses` makes of its poses, or none.
@@ -115,9 +99,7 @@ class MovingRobots : public testing::Test {
     return folder_ / name;
   }
 
-  nlohmann::json summary(const std::string& out) {
-    return nlohmann::json::parse(readText(folder_ / out / "summary.json"));
-  }
+  nlohmann::json summary(const std::string& out) { return summaryIn(folder_ / out); }
 
   TempFolder folder_;
 
@@ -149,8 +131,9 @@ TEST_F(MovingRobots, KeepATrackOfWhoStandsWhereTheyStand) {
   EXPECT_THAT(run.warnings(), ElementsAre());
   const auto rows = longestOf(folder_ / "out");
   EXPECT_GT(rows.size(), 40U) << "of 70 frames; she leaves the picture as the robot passes";
-  for (const Row& row : rows) {
-    EXPECT_LT((row.place - kRosa).norm(), kNear_m) << row.stamp_s << ": " << row.place.transpose();
+  for (const TrackRow& row : rows) {
+    EXPECT_LT((row.position_m - kRosa).norm(), kNear_m)
+        << row.stamp_s << ": " << row.position_m.transpose();
   }
   EXPECT_EQ(summary("out")["frame"], "odom");
 }
@@ -181,7 +164,8 @@ TEST_F(MovingRobots, GiveOtherTracksThanIfTheyStood) {
   EXPECT_EQ(summary("standing")["frame"], "base");
   double greatest_m = 0.0;
   for (const auto& [id, rows] : tracksOf(folder_ / "silent")) {
-    for (const Row& row : rows) greatest_m = std::max(greatest_m, (row.place - kRosa).norm());
+    for (const TrackRow& row : rows)
+      greatest_m = std::max(greatest_m, (row.position_m - kRosa).norm());
   }
   EXPECT_GT(greatest_m, 1.0) << "without odometry who stands seems to come";
 }
@@ -216,9 +200,9 @@ TEST_F(MovingRobots, MayHaveOdometryThatIsRarerThanPicturesAndComesAfterThem) {
   EXPECT_THAT(run.warnings(), ElementsAre());
   const auto often = longestOf(folder_ / "out"), rarely = longestOf(folder_ / "rare");
   ASSERT_GT(rarely.size(), 40U);
-  for (const Row& row : rarely) EXPECT_LT((row.place - kRosa).norm(), kNear_m);
+  for (const TrackRow& row : rarely) EXPECT_LT((row.position_m - kRosa).norm(), kNear_m);
   for (std::size_t i = 0; i < std::min(often.size(), rarely.size()); ++i) {
-    EXPECT_LT((often[i].place - rarely[i].place).norm(), 0.02) << often[i].stamp_s;
+    EXPECT_LT((often[i].position_m - rarely[i].position_m).norm(), 0.02) << often[i].stamp_s;
   }
 }
 
@@ -244,7 +228,7 @@ TEST_F(MovingRobots, MayTellTheWayOfTheirCameraInsteadInAnyFrame) {
   const auto by_wheels = longestOf(folder_ / "out"), by_camera = longestOf(folder_ / "tum_out");
   ASSERT_EQ(by_wheels.size(), by_camera.size());
   for (std::size_t i = 0; i < by_wheels.size(); ++i) {
-    EXPECT_LT((by_wheels[i].place - by_camera[i].place).norm(), 0.001);
+    EXPECT_LT((by_wheels[i].position_m - by_camera[i].position_m).norm(), 0.001);
   }
 }
 

@@ -52,18 +52,15 @@ class Outputs : public testing::Test {
 
   std::vector<std::string> trackCall(const std::string& out,
                                      const std::vector<std::string>& more = {"--no-film"}) const {
-    std::vector<std::string> call = {"track", folder_ / "room", "--model", folder_ / "person.yaml",
-                                     "--out", folder_ / out};
-    call.insert(call.end(), more.begin(), more.end());
-    return call;
+    return joined(
+        {"track", folder_ / "room", "--model", folder_ / "person.yaml", "--out", folder_ / out},
+        more);
   }
   HeelRun track(const std::string& out,
                 const std::vector<std::string>& more = {"--no-film"}) const {
     return heel(trackCall(out, more));
   }
-  nlohmann::json summaryOf(const std::string& out) const {
-    return nlohmann::json::parse(readText(folder_ / out / "summary.json"));
-  }
+  nlohmann::json summaryOf(const std::string& out) const { return summaryIn(folder_ / out); }
 
   TempFolder folder_;
 };

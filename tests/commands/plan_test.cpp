@@ -36,14 +36,9 @@ class Plan : public testing::Test {
   Plan() { writeText(folder_ / "rooms.yaml", kPlanScene); }
   HeelRun plan(const std::string& map, const std::string& to = "5,0.6",
                const std::vector<std::string>& more = {}) {
-    std::vector<std::string> call = {"plan", map, "--from", "1,0.6",
-                                     "--to", to,  "--out",  folder_ / "out"};
-    call.insert(call.end(), more.begin(), more.end());
-    return heel(call);
+    return heel({"plan", map, "--from", "1,0.6", "--to", to, "--out", folder_ / "out"}, more);
   }
-  nlohmann::json summary() const {
-    return nlohmann::json::parse(readText(folder_ / "out/summary.json"));
-  }
+  nlohmann::json summary() const { return summaryIn(folder_ / "out"); }
   TempFolder folder_;
 };
 

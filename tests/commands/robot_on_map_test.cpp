@@ -7,17 +7,18 @@
 #include "tests/commands/hall_scene.hpp"
 #include "tests/commands/heel.hpp"
 #include "tests/support/temp_folder.hpp"
+#include <heel/apps/output/csv_file.hpp>
 #include <heel/apps/recording/bags/sensor_bag.hpp>
 #include <heel/apps/recording/laser_log.hpp>
 #include <heel/apps/recording/recording.hpp>
 #include <heel/apps/recording/stamps.hpp>
+#include <heel/apps/results/result_files.hpp>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <map>
-#include <sstream>
 
 namespace heel::test {
 namespace {
@@ -71,11 +72,9 @@ class RobotsOnAMap : public testing::Test {
   HeelRun track(const std::filesystem::path& recording, const std::string& out,
                 const std::filesystem::path& map = made() / "map/walls.bt",
                 const std::vector<std::string>& more = {}) {
-    std::vector<std::string> call = {"track",    recording,     "--model", made() / "rosa.yaml",
-                                     "--out",    folder_ / out, "--map",   map,
-                                     "--no-film"};
-    call.insert(call.end(), more.begin(), more.end());
-    return heel(call);
+    return heel({"track", recording, "--model", made() / "rosa.yaml", "--out", folder_ / out,
+                 "--map", map, "--no-film"},
+                more);
   }
 
   enum class Has { kAll, kNoOdometry, kNoScans, kNoPlaceOfTheLaser };
@@ -117,32 +116,22 @@ class RobotsOnAMap : public testing::Test {
   /// rosa is in the map.
   Nearness nearnessOf(const std::string& out) {
     std::map<double, Eigen::Vector2d> truth;
-    double stamp_s = 0, x = 0, y = 0;
-    std::string line;
-    std::istringstream people(readText(made() / "roam/people.csv"));
-    while (std::getline(people, line)) {
-      if (std::sscanf(line.c_str(), "%lf,rosa,%lf,%lf", &stamp_s, &x, &y) == 3) {
-        truth[std::round(100.0 * stamp_s)] = {x, y};
-      }
+    CsvReader people(made() / "roam/people.csv", {"stamp_s", "person", "x_m", "y_m"});
+    while (people.next()) {
+      if (people.text(1) != "rosa") continue;
+      truth[std::round(100.0 * people.number(0))] = {people.number(2), people.number(3)};
     }
     Nearness nearness;
-    std::istringstream tracks(readText(folder_ / out / "tracks.csv"));
-    while (std::getline(tracks, line)) {
-      int id = 0, is_target = 0;
-      if (std::sscanf(line.c_str(), "%lf,%d,%d,%lf,%lf", &stamp_s, &id, &is_target, &x, &y) != 5 ||
-          is_target == 0 || line.find("confirmed") == std::string::npos) {
-        continue;
-      }
+    for (const TrackRow& track : readTracks(folder_ / out / "tracks.csv")) {
+      if (!track.is_target || track.status != "confirmed") continue;
       ++nearness.followed;
-      const Eigen::Vector2d place(x, y);
-      if ((truth.at(std::round(100.0 * stamp_s)) - place).norm() < 0.25) ++nearness.near;
+      const Eigen::Vector2d& rosa = truth.at(std::round(100.0 * track.stamp_s));
+      if ((rosa - track.position_m).norm() < 0.25) ++nearness.near;
     }
     return nearness;
   }
 
-  nlohmann::json summary(const std::string& out) {
-    return nlohmann::json::parse(readText(folder_ / out / "summary.json"));
-  }
+  nlohmann::json summary(const std::string& out) { return summaryIn(folder_ / out); }
 
   TempFolder folder_;
 

@@ -7,6 +7,7 @@
 #include "tests/support/data.hpp"
 #include <heel/apps/follower/acquisition.hpp>
 #include <heel/apps/recording/recording.hpp>
+#include <heel/apps/results/result_files.hpp>
 #include <heel/cloud/ground_plane.hpp>
 #include <heel/tracking/clear_mot.hpp>
 
@@ -15,31 +16,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <iostream>
 #include <map>
-#include <sstream>
 #include <vector>
 
 namespace heel {
 namespace {
 
 /// Everyone's place in each frame of a recording's truth.
-std::map<std::size_t, std::vector<LabelledPlace>> readTruth(const std::filesystem::path& file) {
+std::map<std::size_t, std::vector<LabelledPlace>> truthOf(const std::filesystem::path& file) {
   std::map<std::size_t, std::vector<LabelledPlace>> truth;
-  std::ifstream in(file);
-  std::string line;
-  std::getline(in, line);  // stamp_s,frame,person,x_m,y_m,exact
-  while (std::getline(in, line)) {
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream fields(line);
-    double stamp = 0.0;
-    std::size_t frame = 0;
-    std::string person;
-    LabelledPlace place;
-    fields >> stamp >> frame >> person >> place.position_m.x() >> place.position_m.y();
-    place.id = static_cast<int>(truth[frame].size());  // a detector has no identities
-    truth[frame].push_back(place);
+  for (const TruthRow& row : readTruth(file)) {
+    auto& places = truth[row.frame];  // A detector has no identities.
+    places.push_back({static_cast<int>(places.size()), row.position_m});
   }
   return truth;
 }
@@ -47,7 +36,7 @@ std::map<std::size_t, std::vector<LabelledPlace>> readTruth(const std::filesyste
 TEST(Phase1OnSixPeople, DetectsThemAll) {
   HEEL_NEED_DATA("six_people");
   const auto folder = test::dataFolder() / "six_people";
-  const auto truth = readTruth(folder / "truth.csv");
+  const auto truth = truthOf(folder / "truth.csv");
   const auto recording = openRecording(folder);
   PeopleDetector detector(recording->info().camera.left, *recording->info().T_base_camera);
   BackgroundLearner learner;

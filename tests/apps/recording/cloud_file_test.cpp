@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "tests/support/cloud_files.hpp"
+#include "tests/support/pcl_clouds.hpp"
 #include <heel/apps/recording/clouds/cloud_file.hpp>
 
 #include <gmock/gmock.h>
@@ -17,38 +18,6 @@ namespace heel::test {
 namespace {
 
 using testing::HasSubstr;
-
-/// Eight by six points that all differ; the first is NaN. (Colours, where there are any, too.)
-template <typename PointT>
-pcl::PointCloud<PointT> someCloud(std::uint32_t width = 8, std::uint32_t height = 6) {
-  pcl::PointCloud<PointT> cloud(width, height);
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const auto k = static_cast<float>(i);
-    cloud[i].getVector3fMap() = Eigen::Vector3f(0.1F * k, -0.2F * k, 1.0F + k);
-    if constexpr (pcl::traits::has_color<PointT>::value) {
-      cloud[i].r = static_cast<std::uint8_t>(i);
-      cloud[i].g = static_cast<std::uint8_t>(100 + i);
-      cloud[i].b = static_cast<std::uint8_t>(200 + i);
-    }
-  }
-  cloud[0].getVector3fMap().setConstant(std::numeric_limits<float>::quiet_NaN());
-  cloud.is_dense = false;
-  return cloud;
-}
-
-template <typename PointT>
-void save(const std::filesystem::path& file, const pcl::PointCloud<PointT>& cloud,
-          CloudEncoding encoding) {
-  if (file.extension() == ".ply") {
-    pcl::PLYWriter().write(file.string(), cloud, encoding == CloudEncoding::kBinary);
-  } else if (encoding == CloudEncoding::kAscii) {
-    pcl::PCDWriter().writeASCII(file.string(), cloud, 9);
-  } else if (encoding == CloudEncoding::kBinary) {
-    pcl::PCDWriter().writeBinary(file.string(), cloud);
-  } else {
-    pcl::PCDWriter().writeBinaryCompressed(file.string(), cloud);
-  }
-}
 
 class CloudFormat
     : public testing::TestWithParam<std::tuple<std::string, CloudEncoding, bool, bool>> {};

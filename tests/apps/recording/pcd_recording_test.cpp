@@ -2,21 +2,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "tests/support/data.hpp"
+#include "tests/support/pcl_clouds.hpp"
 #include "tests/support/temp_folder.hpp"
 #include <heel/apps/recording/clouds/pcd_file.hpp>
 #include <heel/apps/recording/folders/pcd_recording.hpp>
 
 #include <gmock/gmock.h>
 #include <pcl/common/point_tests.h>
-#include <pcl/io/pcd_io.h>
 
 #include <algorithm>
 #include <limits>
 
 namespace {
 
+using heel::CloudEncoding;
 using heel::openRecording;
 using heel::test::messageOf;
+using heel::test::save;
+using heel::test::someCloud;
 using heel::test::TempFolder;
 using heel::test::writeText;
 using testing::ElementsAre;
@@ -24,46 +27,12 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-/// A small cloud whose colours and places all differ; the first point is NaN.
-template <typename PointT>
-pcl::PointCloud<PointT> someCloud(std::uint32_t width = 8, std::uint32_t height = 6) {
-  pcl::PointCloud<PointT> cloud(width, height);
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const auto k = static_cast<float>(i);
-    cloud[i].getVector3fMap() = Eigen::Vector3f(0.1F * k, -0.2F * k, 1.0F + k);
-    cloud[i].r = static_cast<std::uint8_t>(i);
-    cloud[i].g = static_cast<std::uint8_t>(100 + i);
-    cloud[i].b = static_cast<std::uint8_t>(200 + i);
-  }
-  cloud[0].x = cloud[0].y = cloud[0].z = std::numeric_limits<float>::quiet_NaN();
-  cloud.is_dense = false;
-  return cloud;
-}
-
-enum class Form { kAscii, kBinary, kCompressed };
-
-template <typename PointT>
-void save(const std::filesystem::path& file, const pcl::PointCloud<PointT>& cloud, Form form) {
-  pcl::PCDWriter writer;
-  switch (form) {
-    case Form::kAscii:
-      writer.writeASCII(file.string(), cloud, 9);
-      break;
-    case Form::kBinary:
-      writer.writeBinary(file.string(), cloud);
-      break;
-    case Form::kCompressed:
-      writer.writeBinaryCompressed(file.string(), cloud);
-      break;
-  }
-}
-
 std::string readMessage(const std::filesystem::path& file) {
   heel::ColorCloud cloud;
   return messageOf([&] { heel::readPcd(file); });
 }
 
-class PcdForms : public testing::TestWithParam<Form> {
+class PcdForms : public testing::TestWithParam<CloudEncoding> {
  protected:
   TempFolder folder;
 };
@@ -104,7 +73,8 @@ TEST_P(PcdForms, TruncatedIsAnErrorAtEveryLength) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Forms, PcdForms,
-                         testing::Values(Form::kAscii, Form::kBinary, Form::kCompressed));
+                         testing::Values(CloudEncoding::kAscii, CloudEncoding::kBinary,
+                                         CloudEncoding::kCompressed));
 
 TEST(PcdFile, SaysWhyItIsOfNoUse) {
   const TempFolder folder;
@@ -115,7 +85,7 @@ TEST(PcdFile, SaysWhyItIsOfNoUse) {
   EXPECT_EQ(readMessage(file), name + ": this is not a PCD file");
 
   const pcl::PointCloud<pcl::PointXYZ> grey(4, 3);
-  save(file, grey, Form::kBinary);
+  save(file, grey, CloudEncoding::kBinary);
   EXPECT_EQ(readMessage(file), name + ": the cloud has no colour (no field rgb or rgba)");
   EXPECT_EQ(messageOf([&] { openRecording(file); }), readMessage(file));
 
@@ -126,10 +96,10 @@ TEST(PcdFile, SaysWhyItIsOfNoUse) {
 
   auto cloud = someCloud<pcl::PointXYZRGB>(4, 3);
   for (auto& p : cloud) p.z = std::numeric_limits<float>::quiet_NaN();
-  save(file, cloud, Form::kCompressed);
+  save(file, cloud, CloudEncoding::kCompressed);
   EXPECT_EQ(readMessage(file), name + ": all 12 points of the cloud are NaN");
 
-  save(file, someCloud<pcl::PointXYZRGB>(4, 3), Form::kBinary);
+  save(file, someCloud<pcl::PointXYZRGB>(4, 3), CloudEncoding::kBinary);
   heel::test::truncateBy(file, 100);
   EXPECT_THAT(readMessage(file), HasSubstr("the cloud is truncated ("));
 
@@ -143,9 +113,9 @@ TEST(PcdFile, SaysWhyItIsOfNoUse) {
 
 TEST(PcdFolder, IsReadInTheOrderOfItsNamesAndLeavesOutTheUseless) {
   const TempFolder folder;
-  save(folder / "c.pcd", someCloud<pcl::PointXYZRGB>(8, 6), Form::kBinary);
-  save(folder / "a.pcd", someCloud<pcl::PointXYZRGBA>(20, 1), Form::kAscii);
-  save(folder / "b.pcd", pcl::PointCloud<pcl::PointXYZ>(4, 3), Form::kBinary);
+  save(folder / "c.pcd", someCloud<pcl::PointXYZRGB>(8, 6), CloudEncoding::kBinary);
+  save(folder / "a.pcd", someCloud<pcl::PointXYZRGBA>(20, 1), CloudEncoding::kAscii);
+  save(folder / "b.pcd", pcl::PointCloud<pcl::PointXYZ>(4, 3), CloudEncoding::kBinary);
   writeText(folder / "readme.txt", "not a cloud");
   const auto recording = openRecording(folder.path());
   EXPECT_EQ(recording->info().sensor, heel::SensorKind::kCloud);
@@ -170,7 +140,7 @@ TEST(PcdFolder, IsReadInTheOrderOfItsNamesAndLeavesOutTheUseless) {
 TEST(PcdFolder, TakesTimesFromItsList) {
   const TempFolder folder;
   for (const char* name : {"1.pcd", "2.pcd", "3.pcd"}) {
-    save(folder / name, someCloud<pcl::PointXYZRGB>(), Form::kBinary);
+    save(folder / name, someCloud<pcl::PointXYZRGB>(), CloudEncoding::kBinary);
   }
   writeText(folder / "times.txt", "5.0\n4.0\n6.5\n");
   const auto recording = openRecording(folder.path());
@@ -184,8 +154,8 @@ TEST(PcdFolder, TakesTimesFromItsList) {
 
 TEST(PcdFolder, ACloudThatTheCallerKeepsIsNotOverwritten) {
   const TempFolder folder;
-  save(folder / "1.pcd", someCloud<pcl::PointXYZRGB>(8, 6), Form::kBinary);
-  save(folder / "2.pcd", someCloud<pcl::PointXYZRGB>(4, 3), Form::kBinary);
+  save(folder / "1.pcd", someCloud<pcl::PointXYZRGB>(8, 6), CloudEncoding::kBinary);
+  save(folder / "2.pcd", someCloud<pcl::PointXYZRGB>(4, 3), CloudEncoding::kBinary);
   const auto recording = openRecording(folder.path());
   heel::Frame frame;
   ASSERT_TRUE(recording->next(frame));
