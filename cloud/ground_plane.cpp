@@ -50,7 +50,14 @@ using Points = pcl::PointCloud<pcl::PointXYZ>;
 using PlaneModel = pcl::SampleConsensusModelPerpendicularPlane<pcl::PointXYZ>;
 
 constexpr std::size_t kFewestPoints = 100;
-constexpr int kMaxPlanes = 6;  // floor, table tops, seats
+
+// Most points below a floor, per point of it. Below a floor there is only noise; below a table
+// there is the floor.
+constexpr double kMaxBelowShare = 0.15;
+constexpr double kBelow_m = 0.1;  // What is lower than this is below the floor; further down ...
+constexpr double kBelowPerSquare_m = 0.02;  // ... by this per squared metre of depth, as the noise.
+constexpr std::size_t kPointsPerFrame = 4000;  // So many points are drawn evenly from each cloud.
+constexpr int kMaxPlanes = 6;                  // floor, table tops, seats
 
 /// (n, d) with n towards the camera, so that the camera is above.
 Eigen::Vector4d upwards(const Eigen::VectorXf& coefficients) {
@@ -62,12 +69,11 @@ double heightOver(const Eigen::Vector4d& plane, const pcl::PointXYZ& p) {
   return plane.head<3>().dot(p.getVector3fMap().cast<double>()) + plane.w();
 }
 
-std::size_t countBelow(const Points& points, const Eigen::Vector4d& plane,
-                       const GroundPlaneParams& params) {
+std::size_t countBelow(const Points& points, const Eigen::Vector4d& plane) {
   return static_cast<std::size_t>(
       std::count_if(points.begin(), points.end(), [&](const pcl::PointXYZ& p) {
         const double depth = p.z;
-        return heightOver(plane, p) < -(params.below_m + params.below_per_square_m * depth * depth);
+        return heightOver(plane, p) < -(kBelow_m + kBelowPerSquare_m * depth * depth);
       }));
 }
 
@@ -102,7 +108,7 @@ GroundPlaneEstimator::GroundPlaneEstimator(const GroundPlaneParams& params,
     : params_(params), up_(up_in_camera.normalized()), points_(pcl::make_shared<Points>()) {
   const bool positive = params.max_range_m > 0.0 && params.inlier_distance_m > 0.0 &&
                         params.max_tilt_rad > 0.0 && params.min_inlier_share > 0.0 &&
-                        params.points_per_frame > 0 && params.max_points > 0;
+                        params.max_points > 0;
   if (!positive) throw std::invalid_argument("GroundPlaneEstimator: a parameter is not positive");
   if (!(up_in_camera.norm() > 0.0)) {
     throw std::invalid_argument("GroundPlaneEstimator: up has no direction");
@@ -116,7 +122,7 @@ void GroundPlaneEstimator::add(const ColorCloud& cloud) {
   };
   const auto count = static_cast<std::size_t>(std::count_if(cloud.begin(), cloud.end(), usable));
   if (count == 0) return;
-  const std::size_t step = (count + params_.points_per_frame - 1) / params_.points_per_frame;
+  const std::size_t step = (count + kPointsPerFrame - 1) / kPointsPerFrame;
   std::size_t seen = 0;
   for (const auto& p : cloud) {
     if (isFull()) return;
@@ -139,10 +145,10 @@ std::optional<GroundPlane> GroundPlaneEstimator::estimate(
     return model;
   };
   const auto isFloor = [&](const FittedPlane& fitted) {
-    const auto below = static_cast<double>(countBelow(*points_, fitted.plane, params_));
+    const auto below = static_cast<double>(countBelow(*points_, fitted.plane));
     return fitted.inliers.size() >= needed &&
            fitted.plane.head<3>().dot(up_) > std::cos(params_.max_tilt_rad) &&
-           below <= params_.max_below_share * static_cast<double>(fitted.inliers.size());
+           below <= kMaxBelowShare * static_cast<double>(fitted.inliers.size());
   };
   FittedPlane floor;
   if (expected) {

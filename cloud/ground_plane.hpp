@@ -41,14 +41,6 @@ struct GroundPlaneParams {
   double inlier_distance_m = 0.03;
   double max_tilt_rad = 0.7;  ///< Greatest angle between the floor's normal and the guessed "up".
   double min_inlier_share = 0.05;  ///< A floor has at least this share of the points.
-  /// Most points below a floor, per point of it. Below a floor there is only noise; below a table
-  /// there is the floor.
-  double max_below_share = 0.15;
-  /// A point is below the floor if it is lower by more than this (and below_per_square_m).
-  double below_m = 0.1;
-  /// Added to below_m per squared metre of depth, for stereo's noise grows so.
-  double below_per_square_m = 0.02;
-  std::size_t points_per_frame = 4000;  ///< So many points are drawn evenly from each cloud.
   std::size_t max_points = 40000;  ///< Once there are so many points, later clouds are not used.
 };
 

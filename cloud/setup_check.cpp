@@ -11,6 +11,9 @@
 namespace heel {
 namespace {
 
+constexpr double kMinFoundShare = 0.3;    // Warn if fewer of the pixels have a depth or disparity.
+constexpr double kMaxClippedShare = 0.2;  // Warn if more of them are quite black, or quite white.
+
 constexpr double kMoreConsistent = 1.5;  // swapped pairs match by this much better the other way
 constexpr double kLeastConsistentShare = 0.1;  // of the pixels; fewer prove nothing
 
@@ -86,7 +89,7 @@ SetupReport SetupCheck::report() const {
   if (r.swapped) {
     warn("Left and right images are exchanged (all disparities are negative): swap the cameras.");
   }
-  if (ranges_ > 0 && r.found_share < params_.min_found_share) {
+  if (ranges_ > 0 && r.found_share < kMinFoundShare) {
     warn("Only " + percent(r.found_share) +
          " of the pixels have a depth: check calibration, focus and light.");
   }
@@ -109,10 +112,10 @@ SetupReport SetupCheck::report() const {
         "The pictures are grey: whom to follow is told by brightness alone, and who is as bright "
         "as they are, or a wall that is, is taken for them.");
   }
-  if (r.black_share > params_.max_clipped_share) {
+  if (r.black_share > kMaxClippedShare) {
     warn(percent(r.black_share) + " of the pixels are quite black: expose longer or add light.");
   }
-  if (r.white_share > params_.max_clipped_share) {
+  if (r.white_share > kMaxClippedShare) {
     warn(percent(r.white_share) + " of the pixels are clipped at white: expose shorter.");
   }
   return r;

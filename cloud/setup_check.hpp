@@ -17,10 +17,6 @@ namespace heel {
 
 /// From when on a figure is a warning.
 struct SetupCheckParams {
-  /// Warn if a smaller share of the pixels has a depth or disparity.
-  double min_found_share = 0.3;
-  /// Warn if a greater share of the pixels is quite black, or quite white.
-  double max_clipped_share = 0.2;
   double max_gap_s = 1.0;  ///< Warn if more time than this goes by between two frames.
 };
 

@@ -15,6 +15,8 @@
 namespace heel {
 namespace {
 
+constexpr int kSpeckleRange = 1;  // Neighbours of one island differ by no more than this [px].
+
 constexpr std::int16_t kNoMatch = -kDisparityScale;
 
 void requireImages(bool holds, const char* rule) {
@@ -27,8 +29,8 @@ StereoMatcher::StereoMatcher(const StereoMatcherParams& params)
     : params_(checked(params)),
       dense_(cv::StereoSGBM::create(0, params.disparities, params.block_size, params.p1, params.p2,
                                     params.max_left_right_difference, params.prefilter_cap,
-                                    params.uniqueness_percent, params.speckle_size,
-                                    params.speckle_range, cv::StereoSGBM::MODE_SGBM)),
+                                    params.uniqueness_percent, params.speckle_size, kSpeckleRange,
+                                    cv::StereoSGBM::MODE_SGBM)),
       masked_(params_),
       margin_(2 * params.margin_px + 1, 2 * params.margin_px + 1, CV_8UC1, cv::Scalar(1)) {}
 
@@ -80,8 +82,8 @@ MaskedMatch StereoMatcher::match(const cv::Mat& left, const cv::Mat& right, cons
     cv::Mat filtered = filtered_(inside);
     cv::medianBlur(fixed_(inside), filtered, 3);
     if (params_.speckle_size > 0) {
-      cv::filterSpeckles(filtered, kNoMatch, params_.speckle_size,
-                         params_.speckle_range * kDisparityScale, speckle_buffer_);
+      cv::filterSpeckles(filtered, kNoMatch, params_.speckle_size, kSpeckleRange * kDisparityScale,
+                         speckle_buffer_);
     }
     filtered.copyTo(fixed_(inside));
   }

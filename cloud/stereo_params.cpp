@@ -26,8 +26,7 @@ StereoMatcherParams checked(const StereoMatcherParams& p) {
   requireParam(p.uniqueness_percent >= 0 && p.uniqueness_percent < 100,
                "uniqueness_percent must be from 0 to 99");
   requireParam(p.max_left_right_difference >= 1, "max_left_right_difference must be at least 1");
-  requireParam(p.speckle_size >= 0 && p.speckle_range >= 0,
-               "a speckle's figures can't be negative");
+  requireParam(p.speckle_size >= 0, "speckle_size can't be negative");
   requireParam(p.margin_px >= 0, "margin_px can't be negative");
   requireParam(p.min_support >= 0.0 && p.min_support <= 1.0, "min_support must be from 0 to 1");
   return p;

@@ -21,7 +21,6 @@ struct StereoMatcherParams {
   /// Greatest difference between the disparities of both views [px], >= 1.
   int max_left_right_difference = 1;
   int speckle_size = 100;  ///< Islands of fewer pixels than this are dropped; 0 keeps all.
-  int speckle_range = 1;   ///< Neighbours of one island differ by no more than this [px].
 
   /// Masked matching only: so many pixels around the mask are matched with it, so that its rim is
   /// matched as well as its middle.

@@ -12,6 +12,17 @@
 namespace heel {
 namespace {
 
+// The camera has moved if so many images, one after the other, show another scene.
+constexpr int kConfirmImages = 3;
+// A third of the image shows another scene if this share of its points differs: people together
+// change half.
+constexpr double kMinShare = 0.65;
+constexpr double kMinKnown = 0.05;  // A third in which fewer have a depth in both is not looked at.
+// A change of inverse depth counts from this on [1/m], as for people, and only from so many of its
+// own standard deviations on.
+constexpr double kMinStep = 0.02;
+constexpr double kNoiseSigmas = 3.0;
+
 constexpr int kStride = 4;  // Every so many pixels, both ways.
 constexpr int kThirds = 3;
 
@@ -22,9 +33,8 @@ StillCheck::StillCheck(const PinholeCamera& camera, const Eigen::Isometry3d& T_b
     : camera_(camera),
       T_base_camera_(T_base_camera),
       params_(params),
-      step_(std::max(params.min_step, params.noise_sigmas * inverse_depth_sigma)) {
-  if (!(params.period_s > 0.0 && params.confirm_images > 0 && params.min_share > 0.0 &&
-        params.min_known > 0.0 && step_ > 0.0 && params.min_height_m < params.max_height_m)) {
+      step_(std::max(kMinStep, kNoiseSigmas * inverse_depth_sigma)) {
+  if (!(params.period_s > 0.0 && step_ > 0.0 && params.min_height_m < params.max_height_m)) {
     throw std::invalid_argument("StillCheckParams: a parameter is not positive");
   }
 }
@@ -46,7 +56,7 @@ void StillCheck::add(double stamp_s, const cv::Mat& depth_m) {
     others_ = 0;
   } else {
     if (others_++ == 0) others_s_ = stamp_s;
-    if (others_ >= params_.confirm_images) leaves_s_ = others_s_;
+    if (others_ >= kConfirmImages) leaves_s_ = others_s_;
   }
 }
 
@@ -66,8 +76,8 @@ bool StillCheck::isAnother(const cv::Mat& depth_m) const {
   }
   int thirds = 0;
   for (std::size_t i = 0; i < kThirds; ++i) {
-    if (known[i] < params_.min_known * all[i]) continue;
-    if (changed[i] <= params_.min_share * known[i]) return false;
+    if (known[i] < kMinKnown * all[i]) continue;
+    if (changed[i] <= kMinShare * known[i]) return false;
     ++thirds;
   }
   return thirds >= 2;

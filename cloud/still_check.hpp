@@ -21,16 +21,6 @@ namespace heel {
 /// depth differs, and does so for some time.
 struct StillCheckParams {
   double period_s = 1.0;  ///< An image is looked at this often.
-  /// The camera has moved if so many images, one after the other, show another scene.
-  int confirm_images = 3;
-  /// A third of the image shows another scene if this share of its points differs: people together
-  /// change half.
-  double min_share = 0.65;
-  /// A third in which a smaller share has a depth in both images is not looked at.
-  double min_known = 0.05;
-  double min_step = 0.02;  ///< Smallest change of inverse depth that counts [1/m], as for people.
-  /// A change also counts only from so many of its own standard deviations on.
-  double noise_sigmas = 3.0;
   /// Lower points are left out: the floor looks the same from everywhere.
   double min_height_m = 0.2;
   /// Higher points are left out: the ceiling looks the same from everywhere.

@@ -10,6 +10,30 @@
 namespace heel {
 namespace {
 
+constexpr double kKldError = 0.05;      // That KLD sampling allows, see kldParticles().
+constexpr double kKldQuantile = 2.326;  // Of the normal distribution: 99 %.
+constexpr double kBin_m = 0.2;          // Edge of the bins of position that KLD sampling counts.
+constexpr double kBin_rad = 0.175;      // Width of the bins of heading.
+// Particles are drawn anew when a smaller share of them is effective.
+constexpr double kResampleBelow = 0.5;
+// A scan is weighed after this way or turn: the same view twice is no news.
+constexpr double kMinMove_m = 0.05;
+constexpr double kMinTurn_rad = 0.05;
+// Particles of a cluster are no further than this from its mean.
+constexpr double kCluster_m = 0.5;
+constexpr double kCluster_rad = 0.5;
+constexpr double kSureShare = 0.8;   // Of the weight, in the largest cluster; less is not sure.
+constexpr int kConfirmingScans = 8;  // So many weighed scans must agree with a place found anew.
+// Where the fit has fallen to this share of what was usual, a better place is searched for; the
+// robot is lost until the whole map has been searched and none was found.
+constexpr double kLostDrop = 0.75;
+constexpr double kFastRate = 0.15;     // Weight of a new scan in the fit's short average,
+constexpr double kSlowRate = 0.005;    // and in the usual fit.
+constexpr std::size_t kRivals = 1000;  // Particles that may be anywhere else.
+// Chance that the robot was carried off, or its odometry failed, before a scan that is weighed: to
+// any of the places on the map.
+constexpr double kCarriedOff = 1e-3;
+
 /// While lost, each scan tries this share of the poses of a whole search, and no more than so many.
 constexpr double kEffortWhileLost = 0.2;
 constexpr double kMostWhileLost = 40000.0;
@@ -17,17 +41,12 @@ constexpr double kMostWhileLost = 40000.0;
 constexpr double kNewRivals = 0.25;
 
 const LocalizationParams& checked(const LocalizationParams& p) {
-  const auto share = [](double value) { return value > 0.0 && value <= 1.0; };
   if (p.min_particles == 0 || p.max_particles < p.min_particles) {
     throw std::invalid_argument("Localization: 0 < min_particles <= max_particles must hold");
   }
-  if (!(p.kld_error > 0.0) || !(p.bin_m > 0.0) || !(p.bin_rad > 0.0) || !(p.cluster_m > 0.0) ||
-      !(p.cluster_rad > 0.0) || !(p.near_m > 0.0)) {
-    throw std::invalid_argument("Localization: errors, bins and radii must be positive");
-  }
-  if (!share(p.evidence) || !share(p.sure_share) || !share(p.fast_rate) || !share(p.slow_rate) ||
-      !share(p.carried_off) || p.rivals == 0) {
-    throw std::invalid_argument("Localization: shares must be above 0 and at most 1");
+  if (!(p.near_m > 0.0)) throw std::invalid_argument("Localization: near_m must be positive");
+  if (!(p.evidence > 0.0 && p.evidence <= 1.0)) {
+    throw std::invalid_argument("Localization: evidence must be above 0 and at most 1");
   }
   return p;
 }
@@ -41,10 +60,10 @@ Localization::Localization(const OccupancyGrid& map, const FloorPose& T_base_sca
       beams_(T_base_scanner, params.scan),
       search_(map, params.field, params.search),
       random_(params.seed),
-      bins_(params.bin_m, params.bin_rad, params.max_particles) {
+      bins_(kBin_m, kBin_rad, params.max_particles) {
   particles_.reserve(params.max_particles);
   drawn_.reserve(params.max_particles);
-  rivals_.reserve(std::max(params.max_particles, params.rivals));
+  rivals_.reserve(std::max(params.max_particles, kRivals));
   for (auto* values : {&cosine_, &sine_, &log_likelihood_}) values->reserve(params.max_particles);
   bin_of_.reserve(params.max_particles);
 }
@@ -62,7 +81,7 @@ void Localization::startAt(const FloorPose& pose, double place_m, double heading
   search_everywhere_ = false;
   news_ = true;
   unfit_ = false;
-  confirmed_ = params_.confirming_scans;
+  confirmed_ = kConfirmingScans;
   cluster_pose_ = pose;
   estimate_ = {};
   estimate_.pose = pose;
@@ -92,8 +111,7 @@ void Localization::predict(const FloorPose& increment) {
 bool Localization::update(const LaserScan& scan, const std::vector<FloorDisc>& leave_out,
                           const FloorPose& T_base_then) {
   if (beams_.choose(scan, leave_out, T_base_then).size() == 0) return false;
-  const bool moved =
-      pending_.way_m() >= params_.min_move_m || pending_.turned_rad() >= params_.min_turn_rad;
+  const bool moved = pending_.way_m() >= kMinMove_m || pending_.turned_rad() >= kMinTurn_rad;
   if (!moved && !news_) {
     judge();
     if (unfit_ || rivals_.size() > 0) compare(0.0);
@@ -112,8 +130,8 @@ bool Localization::update(const LaserScan& scan, const std::vector<FloorDisc>& l
     moveParticles(pending_, params_.motion, random_, rivals_);
     rival_pose_ = rival_pose_ * pending_.motion();
   }
-  const double another_view = std::min(
-      pending_.way_m() / params_.cluster_m + pending_.turned_rad() / params_.cluster_rad, 1.0);
+  const double another_view =
+      std::min(pending_.way_m() / kCluster_m + pending_.turned_rad() / kCluster_rad, 1.0);
   pending_.clear();
   weigh(telling_, particles_);
   adopt(heaviestCluster(particles_));
@@ -141,7 +159,7 @@ void Localization::weigh(const BeamEnds& ends, ParticleSet& particles) {
 // own. What this scan has found is compared from the next one on.
 void Localization::compare(double another_view) {
   const double carried_off =
-      std::log(params_.carried_off / static_cast<double>(search_.poses()));  // to just there
+      std::log(kCarriedOff / static_cast<double>(search_.poses()));  // to just there
   const bool anew = rivals_.size() == 0;
   if (anew) {
     rivals_log_odds_ = carried_off;
@@ -166,19 +184,18 @@ void Localization::compare(double another_view) {
     judge();
   }
   estimate_.cluster_share = own_share_ / (1.0 + std::exp(rivals_log_odds_));
-  estimate_.lost =
-      estimate_.lost || estimate_.cluster_share < params_.sure_share || searched_ < 1.0;
+  estimate_.lost = estimate_.lost || estimate_.cluster_share < kSureShare || searched_ < 1.0;
   if (!unfit_ && rivals_log_odds_ <= carried_off) {
     rivals_.clear();
     return;
   }
   const auto found =
-      static_cast<std::size_t>((anew ? 1.0 : kNewRivals) * static_cast<double>(params_.rivals));
+      static_cast<std::size_t>((anew ? 1.0 : kNewRivals) * static_cast<double>(kRivals));
   const double poses =
       std::min(kEffortWhileLost * static_cast<double>(search_.poses()), kMostWhileLost);
   searched_ += poses / static_cast<double>(search_.poses());
   drawn_.clear();
-  drawSystematic(rivals_, params_.rivals - found, random_, drawn_);
+  drawSystematic(rivals_, kRivals - found, random_, drawn_);
   search_.find(beams_.ends(), static_cast<std::size_t>(std::ceil(poses)), found, random_, drawn_);
   drawn_.setEqualWeights();
   std::swap(rivals_, drawn_);
@@ -194,8 +211,7 @@ double Localization::logLikelihood(const ScanResiduals& r) const {
 }
 
 bool Localization::isElsewhere(const FloorPose& change) const {
-  return change.position.norm() > params_.cluster_m ||
-         std::abs(change.yaw_rad) > params_.cluster_rad;
+  return change.position.norm() > kCluster_m || std::abs(change.yaw_rad) > kCluster_rad;
 }
 
 Localization::Cluster Localization::heaviestCluster(const ParticleSet& particles) {
@@ -218,10 +234,9 @@ Localization::Cluster Localization::heaviestCluster(const ParticleSet& particles
       const FloorPose p = particles.pose(i);
       const Eigen::Vector2d off = p.position - mean.position;
       const double turn = wrapped(p.yaw_rad - mean.yaw_rad);
-      const bool belongs = round == 0
-                               ? bin_of_[i] == heaviest
-                               : off.squaredNorm() <= params_.cluster_m * params_.cluster_m &&
-                                     std::abs(turn) <= params_.cluster_rad;
+      const bool belongs = round == 0 ? bin_of_[i] == heaviest
+                                      : off.squaredNorm() <= kCluster_m * kCluster_m &&
+                                            std::abs(turn) <= kCluster_rad;
       if (!belongs) continue;
       const auto w = static_cast<double>(particles.weight[i]);
       mass += w;
@@ -257,16 +272,16 @@ void Localization::judge() {
   e.residuals =
       scanResiduals(field_, beams_.ends(), e.pose, beams_.T_base_scanner(), params_.near_m);
   const double fit = e.residuals.fit();
-  e.fit = e.fit < 0.0 ? fit : e.fit + params_.fast_rate * (fit - e.fit);
-  unfit_ = e.fit < params_.lost_fit || e.fit < params_.lost_drop * e.usual_fit;
-  e.lost = e.fit < params_.lost_fit || e.cluster_share < params_.sure_share ||
-           confirmed_ < params_.confirming_scans;
-  if (!e.lost) e.usual_fit += params_.slow_rate * (fit - e.usual_fit);
+  e.fit = e.fit < 0.0 ? fit : e.fit + kFastRate * (fit - e.fit);
+  unfit_ = e.fit < params_.lost_fit || e.fit < kLostDrop * e.usual_fit;
+  e.lost =
+      e.fit < params_.lost_fit || e.cluster_share < kSureShare || confirmed_ < kConfirmingScans;
+  if (!e.lost) e.usual_fit += kSlowRate * (fit - e.usual_fit);
 }
 
 void Localization::resample() {
   const auto size = static_cast<double>(particles_.size());
-  const bool worn = news_ || particles_.effectiveSize() < params_.resample_below * size;
+  const bool worn = news_ || particles_.effectiveSize() < kResampleBelow * size;
   if (!worn) return;
   // How many bins would survive, and with that how many particles it takes.
   drawn_.clear();
@@ -275,9 +290,8 @@ void Localization::resample() {
   for (std::size_t i = 0; i < drawn_.size(); ++i) {
     bins_.add(drawn_.x_m[i], drawn_.y_m[i], drawn_.yaw_rad[i], 1.0F);
   }
-  const std::size_t needed =
-      std::clamp(kldParticles(bins_.count(), params_.kld_error, params_.kld_quantile),
-                 params_.min_particles, params_.max_particles);
+  const std::size_t needed = std::clamp(kldParticles(bins_.count(), kKldError, kKldQuantile),
+                                        params_.min_particles, params_.max_particles);
   drawn_.clear();
   drawSystematic(particles_, needed, random_, drawn_);
   drawn_.setEqualWeights();

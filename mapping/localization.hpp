@@ -29,39 +29,14 @@ struct LocalizationParams {
   std::size_t min_particles = 500;
   /// Bounds the number of particles, and so the time of a scan; more for a large building.
   std::size_t max_particles = 5000;
-  double kld_error = 0.05;  ///< Error that KLD sampling allows, see kldParticles().
-  /// Quantile of the normal distribution that KLD sampling uses; this one is of 99 %.
-  double kld_quantile = 2.326;
-  double bin_m = 0.2;      ///< Edge of the bins of position that KLD sampling counts.
-  double bin_rad = 0.175;  ///< Width of the bins of heading that KLD sampling counts.
 
   /// Factor on the log-likelihoods of beams: neighbouring beams err together, so 60 of them are
   /// worth fewer independent ones.
   double evidence = 0.15;
-  /// Particles are drawn anew when a smaller share of them is effective.
-  double resample_below = 0.5;
-  /// A scan is weighed after this way (or min_turn_rad): the same view twice is no news.
-  double min_move_m = 0.05;
-  double min_turn_rad = 0.05;  ///< A scan is weighed after this turn (or min_move_m).
-  double cluster_m = 0.5;      ///< Particles of a cluster are no further than this from its mean.
-  double cluster_rad = 0.5;    ///< Headings of a cluster differ by no more than this from its mean.
-  /// The robot is sure of its place when the largest cluster has this share of the weight.
-  double sure_share = 0.8;
-  int confirming_scans = 8;  ///< So many weighed scans must agree with a place found anew.
-  double near_m = 0.2;       ///< A beam's end this near to where the map has it is explained.
+  double near_m = 0.2;  ///< A beam's end this near to where the map has it is explained.
   /// The robot is lost where the fit's short average (ScanResiduals::fit) is lower than this: the
   /// scans contradict the map more than they agree with it.
   double lost_fit = 0.5;
-  /// Where the fit has fallen to this share of what was usual, a better place is searched for; the
-  /// robot is lost until the whole map has been searched and none was found.
-  double lost_drop = 0.75;
-  double fast_rate = 0.15;   ///< Weight of a new scan in the fit's short average.
-  double slow_rate = 0.005;  ///< Weight of a new scan in the usual fit.
-  /// Particles that may be anywhere else, kept while the robot is lost.
-  std::size_t rivals = 1000;
-  /// Chance that the robot was carried off, or its odometry failed, before a scan that is weighed:
-  /// to any of the places on the map.
-  double carried_off = 1e-3;
   std::uint64_t seed = 1;  ///< Seed of all that is drawn by chance.
 };
 
@@ -86,7 +61,7 @@ struct LocalizationEstimate {
 /// explain every scan more or less well; the odds between them say which is the estimate, and the
 /// other is kept, so that it can win back. Rivals end when the scans fit again. The odds begin with
 /// the chance that the robot was carried off to just there, one of all the places on the map, and
-/// scans count by how far apart they were measured (once every `cluster_m` or `cluster_rad`), for
+/// scans count by how far apart they were measured (once every half metre or half radian), for
 /// furniture that has moved misleads neighbouring scans alike.
 ///
 /// The same calls give the same results. No allocation once warm.

@@ -12,6 +12,12 @@
 namespace heel {
 namespace {
 
+constexpr double kPosesPer_m2 = 500.0;   // That are tried, all headings together,
+constexpr std::size_t kMinPoses = 2000;  // and at least so many, on a small map.
+// Standard deviations by which found poses are shaken, for the search is coarse.
+constexpr double kShake_m = 0.1;
+constexpr double kShake_rad = 0.07;
+
 constexpr std::size_t kPart = 16384;         // Poses that are scored at once.
 constexpr std::size_t kMostPoses = 5000000;  // For a second or two.
 constexpr float kNegligible = 16.0F;  // A pose this much less likely than the best is never drawn.
@@ -28,9 +34,6 @@ PoseSearch::PoseSearch(const OccupancyGrid& map, const LikelihoodFieldParams& fi
     : params_(params),
       field_(map, widened(field, params.hit_m)),
       cell_size_m_(static_cast<float>(map.cell_size_m())) {
-  if (!(params.poses_per_m2 > 0.0) || params.min_poses == 0) {
-    throw std::invalid_argument("PoseSearch: numbers of poses must be positive");
-  }
   for (const double clearance_m : {params.clearance_m, -1.0}) {  // A narrow map has to do.
     for (GridCell c; c.y < map.height(); ++c.y) {
       for (c.x = 0; c.x < map.width(); ++c.x) {
@@ -45,8 +48,7 @@ PoseSearch::PoseSearch(const OccupancyGrid& map, const LikelihoodFieldParams& fi
   const double area_m2 =
       static_cast<double>(free_m_.size()) * map.cell_size_m() * map.cell_size_m();
   poses_ =
-      std::min(std::max(static_cast<std::size_t>(params.poses_per_m2 * area_m2), params.min_poses),
-               kMostPoses);
+      std::min(std::max(static_cast<std::size_t>(kPosesPer_m2 * area_m2), kMinPoses), kMostPoses);
   tried_.resize(kPart);
   kept_.reserve(std::min(poses_, 4 * kPart));
   for (auto* values : {&cosine_, &sine_, &log_likelihood_}) values->resize(kPart);
@@ -88,7 +90,7 @@ void PoseSearch::find(const BeamEnds& ends, std::size_t poses, std::size_t count
   for (float& w : kept_.weight) w = std::exp(w - best);
   const std::size_t first = to.size();
   drawSystematic(kept_, count, random, to);
-  shakeParticles(params_.shake_m, params_.shake_rad, first, random, to);
+  shakeParticles(kShake_m, kShake_rad, first, random, to);
 }
 
 }  // namespace heel

@@ -14,18 +14,11 @@ namespace heel {
 
 /// How densely the map is searched.
 struct PoseSearchParams {
-  /// Poses that are tried per square metre of free floor, all headings together.
-  double poses_per_m2 = 500.0;
-  std::size_t min_poses = 2000;  ///< At least so many poses are tried, on a small map.
   /// Standard deviation of a beam's end from the map, wide enough for so few poses.
   double hit_m = 0.3;
   /// Factor on the log-likelihoods of beams, as LocalizationParams::evidence.
   double evidence = 0.15;
   double clearance_m = 0.2;  ///< Poses are at least this far from what the map shows.
-  /// Standard deviation by which the places of found poses are shaken, for the search is coarse.
-  double shake_m = 0.1;
-  /// Standard deviation by which the headings of found poses are shaken.
-  double shake_rad = 0.07;
 };
 
 /// Finds poses by scoring many, drawn evenly over the free cells of a map.

@@ -8,12 +8,17 @@
 #include <stdexcept>
 
 namespace heel {
+namespace {
+
+constexpr double kMinRange_m = 0.05;  // Beams that end nearer hit the robot itself, or dust.
+
+}  // namespace
 
 ScanBeams::ScanBeams(const FloorPose& T_base_scanner, const ScanBeamsParams& params)
     : T_base_scanner_(T_base_scanner), params_(params) {
   if (params.beams == 0) throw std::invalid_argument("ScanBeams: no beams");
-  if (!(params.min_range_m >= 0.0) || !(params.max_range_m > params.min_range_m)) {
-    throw std::invalid_argument("ScanBeams: ranges must be 0 <= min_range_m < max_range_m");
+  if (!(params.max_range_m > kMinRange_m)) {
+    throw std::invalid_argument("ScanBeams: max_range_m must be above 0.05 m");
   }
   ends_.reserve(params.beams);
 }
@@ -25,7 +30,7 @@ const BeamEnds& ScanBeams::choose(const LaserScan& scan, const std::vector<Floor
   const Eigen::Rotation2Dd step(scan.step_rad);
   for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
     const auto range_m = static_cast<double>(scan.ranges_m[i]);
-    if (!(range_m >= params_.min_range_m && range_m <= params_.max_range_m)) continue;  // Or NaN.
+    if (!(range_m >= kMinRange_m && range_m <= params_.max_range_m)) continue;  // Or NaN.
     const double angle = scan.angle(i);
     const Eigen::Vector2d end =
         scanner * Eigen::Vector2d(range_m * std::cos(angle), range_m * std::sin(angle));

@@ -17,7 +17,6 @@ namespace heel {
 struct ScanBeamsParams {
   /// At most so many beams are used, spread evenly over those that may be.
   std::size_t beams = 60;
-  double min_range_m = 0.05;  ///< Beams that end nearer than this hit the robot itself, or dust.
   /// Beams that end further away than this tell too little for their errors.
   double max_range_m = 20.0;
 };
@@ -25,7 +24,7 @@ struct ScanBeamsParams {
 /// Chooses the ends of beams that are finite, in range, and on none of the discs.
 class ScanBeams {
  public:
-  /// @throws std::invalid_argument  unless there are beams, and 0 <= min_range_m < max_range_m.
+  /// @throws std::invalid_argument  unless there are beams, and `max_range_m` is above 0.05.
   ScanBeams(const FloorPose& T_base_scanner, const ScanBeamsParams& params);
 
   /// @param leave_out  What ends in these is left out: people who are tracked, in the base frame.

@@ -11,6 +11,10 @@
 namespace heel {
 namespace {
 
+// A cell is occupied if at least this share of the beams that met it ended in it, ...
+constexpr double kOccupiedShare = 0.35;
+constexpr std::uint32_t kLeastHits = 2;  // ... and so many.
+
 /// Further away, cells can't be counted in whole numbers.
 constexpr double kFurthest_cells = 1e9;
 
@@ -19,9 +23,6 @@ constexpr double kFurthest_cells = 1e9;
 ScanMap::ScanMap(const ScanMapParams& params) : params_(params) {
   if (!(params.cell_size_m > 0.0) || !(params.max_range_m > 0.0)) {
     throw std::invalid_argument("ScanMap: lengths must be positive");
-  }
-  if (!(params.occupied_share > 0.0) || !(params.occupied_share <= 1.0)) {
-    throw std::invalid_argument("ScanMap: occupied_share must be above 0 and at most 1");
   }
 }
 
@@ -108,8 +109,8 @@ OccupancyGrid ScanMap::grid() const {
       const Count& count = counts_[grid.index(c)];
       const double met = static_cast<double>(count.hits) + static_cast<double>(count.misses);
       if (met == 0.0) continue;
-      const bool solid = count.hits >= params_.least_hits &&
-                         static_cast<double>(count.hits) >= params_.occupied_share * met;
+      const bool solid =
+          count.hits >= kLeastHits && static_cast<double>(count.hits) >= kOccupiedShare * met;
       grid.at(c) = solid ? Occupancy::kOccupied : Occupancy::kFree;
     }
   }

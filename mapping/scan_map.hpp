@@ -18,9 +18,6 @@ namespace heel {
 struct ScanMapParams {
   double cell_size_m = 0.05;  ///< Edge of a cell.
   double max_range_m = 20.0;  ///< Longer beams clear cells up to here, and end nowhere.
-  /// A cell is occupied if at least this share of the beams that met it ended in it.
-  double occupied_share = 0.35;
-  std::uint32_t least_hits = 2;  ///< A cell in which fewer beams ended is not occupied.
 };
 
 /// Counts, cell by cell, the beams that ended in it and those that went through it (the counting

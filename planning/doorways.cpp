@@ -13,6 +13,13 @@
 namespace heel {
 namespace {
 
+constexpr double kMinWidth_m = 0.55;     // Narrower passages are no doorways.
+constexpr double kWidens_m = 0.25;       // On both sides of a doorway the way gets wider by this,
+constexpr double kWidensWithin_m = 0.9;  // no further from the doorway than this.
+constexpr double kDetour_m = 6.0;  // If it were shut, the way to its other side would be longer.
+constexpr double kSide_m2 = 2.0;   // Each side of a doorway leads to at least so much free floor.
+constexpr double kOneDoorway_m = 0.6;  // Places nearer to each other than this are one doorway.
+
 using Eigen::Vector2d;
 
 constexpr int kDirections = 16;  // Over half a turn.
@@ -93,7 +100,7 @@ class DoorwaySearch {
           // Only the middle of a gap stands for it.
           if (std::abs(a - b) > 2.0 * cell) place.width_m = kFar;
         }
-        if (!(least >= params_.min_width_m && place.width_m <= params_.max_width_m)) continue;
+        if (!(least >= kMinWidth_m && place.width_m <= params_.max_width_m)) continue;
         const Vector2d across(-place.through.y(), place.through.x());
         const double depth = 0.4;  // Both sides can be walked.
         if (freeWay(place.center, place.through, depth) < depth ||
@@ -106,7 +113,7 @@ class DoorwaySearch {
           return widens(place.center, along, across, least, edge, params_.depth_m);
         };
         const auto opens = [&](const Vector2d& along) {
-          return widens(place.center, along, across, least, params_.widens_m, params_.within_m);
+          return widens(place.center, along, across, least, kWidens_m, kWidensWithin_m);
         };
         if (ends(place.through) && ends(-place.through) &&
             (opens(place.through) || opens(-place.through))) {
@@ -124,7 +131,7 @@ class DoorwaySearch {
     Vector2d sum = Vector2d::Zero();
     int count = 0;
     for (std::size_t i = first; i < places.size(); ++i) {
-      if ((places[i].center - places[first].center).norm() > params_.apart_m) continue;
+      if ((places[i].center - places[first].center).norm() > kOneDoorway_m) continue;
       used[i] = 1;
       const bool alike = std::abs(places[i].through.dot(out.through)) > 0.98 &&
                          places[i].width_m < out.width_m + 1.1 * map_.cell_size_m();
@@ -147,9 +154,9 @@ class DoorwaySearch {
     const Vector2d off = 0.3 * door.through;
     double area = 0.0;
     if (flood(door, door.center + off, door.center - off, area)) return false;
-    if (area < params_.room_m2) return false;
+    if (area < kSide_m2) return false;
     if (flood(door, door.center - off, door.center + off, area)) return false;
-    return area >= params_.room_m2;
+    return area >= kSide_m2;
   }
 
   /// Floods from `from` as far as the detour; true if it gets to `to`.
@@ -160,7 +167,7 @@ class DoorwaySearch {
     std::size_t count = 0;
     if (!map_.contains(front_.front()) || !map_.contains(goal)) return true;
     seen_[map_.index(front_.front())] = round_;
-    const int most = static_cast<int>(params_.detour_m / map_.cell_size_m());
+    const int most = static_cast<int>(kDetour_m / map_.cell_size_m());
     for (int step = 0; step < most && !front_.empty(); ++step) {
       next_.clear();
       for (const GridCell& c : front_) {
@@ -206,9 +213,7 @@ bool isInPassage(const std::vector<DoorwayOnMap>& doorways, const Eigen::Vector2
 
 std::vector<DoorwayOnMap> findDoorways(const OccupancyGrid& map, const DoorwayParams& params) {
   if (map.empty()) throw std::invalid_argument("a map without cells has no doorways");
-  if (!(params.min_width_m > 0.0) || !(params.max_width_m > params.min_width_m) ||
-      !(params.widens_m > 0.0) || !(params.depth_m > 0.0) || !(params.within_m > 0.0) ||
-      !(params.detour_m > 0.0) || !(params.room_m2 >= 0.0) || !(params.apart_m >= 0.0)) {
+  if (!(params.max_width_m > kMinWidth_m) || !(params.depth_m > 0.0)) {
     throw std::invalid_argument("the doorways' parameters are out of order");
   }
   return DoorwaySearch(map, params).run();

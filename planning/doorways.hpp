@@ -15,16 +15,9 @@ namespace heel {
 
 /// Which narrow places of a map are doorways.
 struct DoorwayParams {
-  double min_width_m = 0.55;  ///< Narrower passages are no doorways.
-  double max_width_m = 1.1;   ///< Wider passages are no doorways.
+  double max_width_m = 1.1;  ///< Wider passages are no doorways.
   /// A doorway is no deeper than this, from its middle to where the way gets wider.
   double depth_m = 0.35;
-  double widens_m = 0.25;  ///< On both sides of a doorway the way gets wider by at least this.
-  double within_m = 0.9;   ///< The way gets wider no further from the doorway than this.
-  /// If the doorway were shut, the way from one side to the other would be longer than this.
-  double detour_m = 6.0;
-  double room_m2 = 2.0;  ///< Each side of a doorway leads to at least this much free floor.
-  double apart_m = 0.6;  ///< Places nearer to each other than this are one doorway.
 };
 
 /// A gap between two rooms.

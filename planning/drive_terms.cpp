@@ -10,6 +10,8 @@
 namespace heel {
 namespace {
 
+constexpr double kPathOff_m = 0.3;  // Mean distance at which the cost of leaving the path is half.
+
 using Eigen::Vector2d;
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
@@ -40,12 +42,12 @@ double progress(const DriveLimits& limits, const DriveScene& scene, const DriveO
   return possible < 1e-3 ? 0.0 : 1.0 - std::clamp(made / possible, -1.0, 1.0);
 }
 
-double offPath(const DriveTermParams& params, const DriveScene& scene, const DriveOption& option) {
+double offPath(const DriveScene& scene, const DriveOption& option) {
   double sum = 0.0;
   int count = 0;
   for (std::size_t i = kStride - 1; i < option.steps; i += kStride, ++count) {
     const double off2 = square(scene.path->locate(option.poses[i].position).off_m);
-    sum += off2 / (off2 + square(params.path_off_m));
+    sum += off2 / (off2 + square(kPathOff_m));
   }
   return count > 0 ? sum / count : 0.0;
 }
@@ -145,7 +147,7 @@ DriveScores driveCosts(const DriveLimits& limits, const DriveTermParams& params,
                        const DriveScene& scene, const DriveOption& option) {
   const bool on_way = scene.path != nullptr && !scene.path->empty();
   return {on_way ? progress(limits, scene, option) : 0.0,
-          on_way ? offPath(params, scene, option) : 0.0,
+          on_way ? offPath(scene, option) : 0.0,
           on_way ? headingOff(scene, option) : 0.0,
           nearThings(params, option),
           nearPeople(limits, params, scene, option),

@@ -18,7 +18,7 @@ namespace heel {
 /// The costs, in the order of `DriveScores`.
 enum class DriveTerm : std::size_t {
   kProgress,   ///< Share of the possible way along the path that it does not make, 0 to 2.
-  kPath,       ///< Mean distance to the path, 0 to 1; half at `path_off_m`.
+  kPath,       ///< Mean distance to the path, 0 to 1; half at 0.3 m.
   kHeading,    ///< Angle to the path's direction at the end, 0 to 1.
   kClearance,  ///< How much things that stand come within `comfort_m`, mean of squares.
   kPeople,     ///< How much people come within `people_comfort_m`; sooner counts more.
@@ -34,8 +34,6 @@ struct DriveTermParams {
   /// Weights of the costs, in the order of DriveTerm: progress, path, heading, clearance, people,
   /// view, smoothness.
   DriveScores weights = {10.0, 2.0, 1.5, 2.0, 16.0, 1.5, 0.4};
-  /// Mean distance from the path at which the cost of leaving it is half.
-  double path_off_m = 0.3;
   double comfort_m = 0.25;         ///< More room than this to walls and furniture is no better.
   double people_comfort_m = 0.35;  ///< More room than this to people is no better.
   double foresight_s = 2.0;        ///< How long people are taken to keep their velocity.

@@ -11,6 +11,11 @@
 namespace heel {
 namespace {
 
+/// A way with less room than comfort_m counts as longer, by up to this share.
+constexpr double kCrowding = 0.02;
+/// How far the robot may move before a search begins anew.
+constexpr double kKeepRoot_m = 0.6;
+
 /// The free cells that a point joins the grid by are within so many cells.
 constexpr double kJoinCells = 1.6;
 /// A kept search is good enough if its path is at most this much longer than it could be.
@@ -19,15 +24,14 @@ constexpr double kKeptMayBeLonger = 1.02;
 constexpr int kQuickStride = 3;
 
 GlobalPlannerParams checked(const GlobalPlannerParams& p) {
-  const double sum = p.robot_radius_m + p.safety_m + p.comfort_m + p.crowding + p.bend_room_m +
-                     p.goal_tolerance_m + p.escape_m + p.keep_root_m;
+  const double sum =
+      p.robot_radius_m + p.safety_m + p.comfort_m + p.bend_room_m + p.goal_tolerance_m + p.escape_m;
   if (!std::isfinite(sum)) throw std::invalid_argument("a planner's parameters must be finite");
   if (!(p.robot_radius_m > 0.0 && p.comfort_m > 0.0)) {
     throw std::invalid_argument("a planner's robot radius and comfort must be positive");
   }
-  if (std::min({p.safety_m, p.crowding, p.bend_room_m, p.goal_tolerance_m, p.escape_m,
-                p.keep_root_m}) < 0.0) {
-    throw std::invalid_argument("a planner's lengths and shares must not be negative");
+  if (std::min({p.safety_m, p.bend_room_m, p.goal_tolerance_m, p.escape_m}) < 0.0) {
+    throw std::invalid_argument("a planner's lengths must not be negative");
   }
   return p;
 }
@@ -69,7 +73,7 @@ GlobalPlanner::GlobalPlanner(const OccupancyGrid& map, const GlobalPlannerParams
 }
 
 GlobalPlanner::Search GlobalPlanner::makeSearch(int stride, bool is_quick) const {
-  return {GridWave(map_, {stride, radius_m_, params_.comfort_m, params_.crowding}), is_quick};
+  return {GridWave(map_, {stride, radius_m_, params_.comfort_m, kCrowding}), is_quick};
 }
 
 void GlobalPlanner::setObstacles(const std::vector<FloorDisc>& discs, const OccupancyGrid* cells) {
@@ -123,7 +127,7 @@ void GlobalPlanner::planBy(Search& search, const Eigen::Vector2d& start,
 bool GlobalPlanner::canKeepRoot(const Search& search, const Eigen::Vector2d& start) const {
   if (!search.has_root) return false;
   return start == search.root ||
-         ((start - search.root).norm() <= params_.keep_root_m && isClear(search.root, start));
+         ((start - search.root).norm() <= kKeepRoot_m && isClear(search.root, start));
 }
 
 /// Joins the start to the grid: to the free cells around it that it sees, or, where it is too near

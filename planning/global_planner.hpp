@@ -23,13 +23,10 @@ struct GlobalPlannerParams {
   double safety_m = 0.01;       ///< Room that paths keep beyond the robot's radius.
   /// Room beyond radius and safety_m from which on more is worth no detour.
   double comfort_m = 0.2;
-  /// A way with less room than comfort_m counts as longer, by up to this share.
-  double crowding = 0.02;
   double bend_room_m = 0.0;  ///< Bends are so much wider than they must be, where there is room.
   /// A path to a goal that can't be reached ends no further from it than this.
   double goal_tolerance_m = 0.5;
   double escape_m = 0.6;         ///< How far to look for room when the robot is too near something.
-  double keep_root_m = 0.6;      ///< How far the robot may move before a search begins anew.
   bool unknown_is_free = false;  ///< Whether paths go where the map knows nothing.
 };
 

@@ -11,6 +11,13 @@
 namespace heel {
 namespace {
 
+constexpr double kKeep_m = 0.25;       // A new place must be cheaper by what this much way costs.
+constexpr double kWayCost = 1.0;       // Per metre of straight line from the robot.
+constexpr double kStandoffCost = 2.5;  // Per metre nearer or further than standoff_m.
+constexpr double kDoorwayCost = 2.0;   // In the middle of a passage; less towards its rims.
+constexpr double kNarrowCost = 0.5;    // Of no more room than needed; 0 with 0.3 m more.
+constexpr double kUnseenCost = 3.0;    // Of a place from which the person is not seen.
+
 using Eigen::Vector2d;
 
 constexpr double kImpossible = std::numeric_limits<double>::infinity();
@@ -21,8 +28,7 @@ constexpr int kBearings = 32;
 GoalChooser::GoalChooser(const GoalChooserParams& params) : params_(params) {
   const auto& p = params;
   if (!(p.least_standoff_m > 0.0) || !(p.standoff_m >= p.least_standoff_m) ||
-      !(p.most_standoff_m >= p.standoff_m) || !(p.radius_m > 0.0) || !(p.margin_m >= 0.0) ||
-      !(p.keep_m >= 0.0)) {
+      !(p.most_standoff_m >= p.standoff_m) || !(p.radius_m > 0.0) || !(p.margin_m >= 0.0)) {
     throw std::invalid_argument("the goal chooser's distances are out of order");
   }
 }
@@ -47,9 +53,9 @@ std::optional<Vector2d> GoalChooser::choose(const MovingPerson& target, const Ve
     for (const DoorwayOnMap& d : doorways) {
       passage = std::max(passage, inPassage(d, at, p.doorway_depth_m, p.radius_m));
     }
-    return p.way_cost * way + p.standoff_cost * std::abs(off - p.standoff_m) +
-           p.doorway_cost * passage + (sees(at, target.position) ? 0.0 : p.unseen_cost) +
-           p.narrow_cost * std::clamp(1.0 - (room - need) / 0.3, 0.0, 1.0);
+    return kWayCost * way + kStandoffCost * std::abs(off - p.standoff_m) + kDoorwayCost * passage +
+           (sees(at, target.position) ? 0.0 : kUnseenCost) +
+           kNarrowCost * std::clamp(1.0 - (room - need) / 0.3, 0.0, 1.0);
   };
 
   Vector2d best = robot;
@@ -71,7 +77,7 @@ std::optional<Vector2d> GoalChooser::choose(const MovingPerson& target, const Ve
     }
   }
   consider(robot, 0.0);  // Where it stands may do.
-  if (last_) consider(*last_, p.keep_m * p.way_cost);
+  if (last_) consider(*last_, kKeep_m * kWayCost);
   last_.reset();
   if (least < kImpossible) last_ = best;
   return last_;

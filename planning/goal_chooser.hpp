@@ -23,14 +23,6 @@ struct GoalChooserParams {
   double margin_m = 0.08;        ///< Room that the robot needs around it.
   double lead_s = 0.4;           ///< The robot goes to where the person will be after this time.
   double doorway_depth_m = 0.7;  ///< Passage reaches this far before and behind a doorway.
-  double keep_m = 0.25;          ///< A new place must be cheaper by what this much way costs.
-  // Costs.
-  double way_cost = 1.0;       ///< Cost per metre of straight line from the robot.
-  double standoff_cost = 2.5;  ///< Cost per metre nearer or further than standoff_m.
-  /// Cost of standing in the middle of a passage; less towards its rims.
-  double doorway_cost = 2.0;
-  double narrow_cost = 0.5;  ///< Cost of having no more room than needed; 0 with 0.3 m more.
-  double unseen_cost = 3.0;  ///< Cost of a place from which the person is not seen.
 };
 
 /// Chooses among places on rings about the person; keeps the last choice unless another is clearly

@@ -11,6 +11,9 @@
 namespace heel {
 namespace {
 
+constexpr double kTurnEnds_rad = 0.05;    // No more than this is left of a turn that ends;
+constexpr double kTurnBegins_rad = 0.12;  // a robot that stands turns only for more than this.
+
 using Eigen::Vector2d;
 
 constexpr double kDiscs = 2.0;      // In a radius of the axis: their rims leave 3.2 % of it out.
@@ -160,7 +163,7 @@ double turnToFace(const DriveLimits& limits, const DriveState& now, const Vector
   if (!to.allFinite() || to.norm() < 1e-3 || !std::isfinite(now.pose.yaw_rad)) return 0.0;
   const double angle = wrapped(std::atan2(to.y(), to.x()) - now.pose.yaw_rad);
   const bool turns = std::abs(now.speed.turn_radps) > 1e-3;
-  if (std::abs(angle) < (turns ? params.still_rad : params.begin_rad)) return 0.0;
+  if (std::abs(angle) < (turns ? kTurnEnds_rad : kTurnBegins_rad)) return 0.0;
   // What is left to turn after this period must be enough to brake in.
   const double left =
       std::max(std::abs(angle) - std::abs(now.speed.turn_radps) * limits.period_s, 0.0);

@@ -117,9 +117,7 @@ void addHeld(const DriveLimits& limits, const DriveState& now, const VelocityCom
 
 /// How the robot turns on the spot.
 struct FacingParams {
-  double gain = 1.8;        ///< Speed of turning per angle that is left [1/s].
-  double still_rad = 0.05;  ///< A turn ends when no more than this is left of it.
-  double begin_rad = 0.12;  ///< A robot that stands turns only for more than this.
+  double gain = 1.8;  ///< Speed of turning per angle that is left [1/s].
 };
 
 /// The turn in rad/s that brings the robot round to `point`: proportional, never so fast that it

@@ -14,6 +14,11 @@
 namespace heel {
 namespace {
 
+// A step also counts only from this many times the pixel's own spread on.
+constexpr double kDisparitySpreads = 4.0;
+constexpr double kIntensitySpreads = 4.0;
+constexpr double kMinIntensityStep = 20.0;  // Smallest change of intensity that counts, of 255.
+
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
 constexpr int kGainStride = 4;       // one pixel in 16 is plenty for one number
 constexpr int kMinGainPixels = 100;  // fewer say nothing about the exposure
@@ -61,9 +66,8 @@ BackgroundLearner::BackgroundLearner(const BackgroundParams& params) : params_(p
   if (!(params.min_valid_share > 0.0 && params.min_valid_share <= 1.0)) {
     throw std::invalid_argument("background: min_valid_share must be in (0, 1]");
   }
-  if (!(params.min_disparity_step >= 0.0 && params.disparity_spreads >= 0.0 &&
-        params.min_intensity_step >= 0.0 && params.intensity_spreads >= 0.0)) {
-    throw std::invalid_argument("background: steps and spreads must not be negative");
+  if (!(params.min_disparity_step >= 0.0)) {
+    throw std::invalid_argument("background: min_disparity_step must not be negative");
   }
 }
 
@@ -111,9 +115,9 @@ BackgroundModel BackgroundLearner::model() const {
   const auto frames = static_cast<float>(frames_);
   const float min_valid = static_cast<float>(params_.min_valid_share) * frames;
   const auto min_step = static_cast<float>(params_.min_disparity_step);
-  const auto spreads = static_cast<float>(params_.disparity_spreads);
-  const auto min_gray_step = static_cast<float>(params_.min_intensity_step);
-  const auto gray_spreads = static_cast<float>(params_.intensity_spreads);
+  const auto spreads = static_cast<float>(kDisparitySpreads);
+  const auto min_gray_step = static_cast<float>(kMinIntensityStep);
+  const auto gray_spreads = static_cast<float>(kIntensitySpreads);
   cv::Mat restless = cv::Mat::zeros(valid_.size(), CV_8UC1);
   for (int v = 0; v < valid_.rows; ++v) {
     for (int u = 0; u < valid_.cols; ++u) {

@@ -19,11 +19,6 @@ struct BackgroundParams {
   /// A pixel's depth is known if at least this share of the frames had it.
   double min_valid_share = 0.3;
   double min_disparity_step = 0.02;  ///< Smallest step towards the camera that counts [1/m].
-  /// A step also counts only from this many times the pixel's own spread on.
-  double disparity_spreads = 4.0;
-  double min_intensity_step = 20.0;  ///< Smallest change of intensity that counts, of 255.
-  /// A change also counts only from this many times the pixel's own spread on.
-  double intensity_spreads = 4.0;
 };
 
 /// What differs from the background in one frame. Reused from frame to frame.

@@ -14,6 +14,10 @@
 namespace heel {
 namespace {
 
+constexpr double kBoardHalfWidth_m = 0.12;  // Of BodyView::disparities: that of a trunk.
+constexpr int kStripePixels = 200;          // About so many pixels of a stripe are looked at.
+constexpr int kMinStripePixels = 20;  // A stripe with fewer pixels than this counts as not seen.
+
 using Describer = BodyDescriber;
 
 constexpr double kDarkOffset = 12.0;
@@ -112,9 +116,8 @@ cv::Rect withoutEdge(int first_column, int columns, int rows, int step = 1) {
 }  // namespace
 
 BodyDescriber::BodyDescriber(const BodyDescriberParams& params) : params_(params) {
-  if (!(params.radius_m > 0.0 && params.board_half_width_m >= 0.0 && params.stripe_pixels > 0 &&
-        params.min_stripe_pixels > 0)) {
-    throw std::invalid_argument("BodyDescriberParams: a length or count is not positive");
+  if (!(params.radius_m > 0.0)) {
+    throw std::invalid_argument("BodyDescriberParams: the radius is not positive");
   }
 }
 
@@ -135,7 +138,7 @@ void BodyDescriber::finish(BodyDescription& out, double full_above) {
   for (int stripe = 0; stripe < kStripes; ++stripe) {
     const int seen = seen_[static_cast<std::size_t>(stripe)];
     auto column = out.colors.col(stripe);
-    if (seen < params_.min_stripe_pixels) {
+    if (seen < kMinStripePixels) {
       column.setZero();
       continue;
     }
@@ -151,8 +154,8 @@ cv::Rect BodyDescriber::headOf(const BodyView& view, const WorldBlob& blob) cons
 }
 
 cv::Rect BodyDescriber::boardOf(const BodyView& view, const WorldBlob& blob) const {
-  return boardIn(view, blob.position_m, params_.board_half_width_m,
-                 static_cast<double>(kEnds_m.front()), std::max(blob.max_height_m, 1.6));
+  return boardIn(view, blob.position_m, kBoardHalfWidth_m, static_cast<double>(kEnds_m.front()),
+                 std::max(blob.max_height_m, 1.6));
 }
 
 void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDescription& out) {
@@ -164,8 +167,8 @@ void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDe
     const int columns = view.image_bgr.cols - view.disparities;
     board = boardOf(view, blob) & cv::Rect(view.disparities, 0, columns, view.image_bgr.rows);
   }
-  const int step = std::max(
-      1, static_cast<int>(std::sqrt(body.area() / ((kStripes + 1) * params_.stripe_pixels))));
+  const int step =
+      std::max(1, static_cast<int>(std::sqrt(body.area() / ((kStripes + 1) * kStripePixels))));
   const cv::Rect inside =
       withoutEdge(view.disparities, view.image_bgr.cols, view.image_bgr.rows, step);
   const Eigen::Matrix3f R = view.T_base_camera.linear().cast<float>();

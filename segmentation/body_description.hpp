@@ -44,10 +44,6 @@ struct BodyDescription {
 /// How the colours of a body are counted, stripe by stripe of its height.
 struct BodyDescriberParams {
   double radius_m = 0.25;  ///< Radius of the upright cylinder that holds the body.
-  /// Half the width of the board of BodyView::disparities: that of a trunk.
-  double board_half_width_m = 0.12;
-  int stripe_pixels = 200;     ///< About so many pixels of a stripe are looked at.
-  int min_stripe_pixels = 20;  ///< A stripe with fewer pixels than this counts as not seen.
 };
 
 /// Describes bodies by the joint distribution of log(r / g), log(b / g) and log brightness in

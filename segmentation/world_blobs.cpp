@@ -13,6 +13,8 @@
 namespace heel {
 namespace {
 
+constexpr double kMaxExtent_m = 1.2;  // What is longer than this along the floor is furniture.
+
 // Labels of cells that belong to no blob.
 constexpr int kNone = -1;     // empty, or in a component too small
 constexpr int kPending = -2;  // occupied, not yet visited
@@ -30,7 +32,7 @@ std::size_t at(int row, int column, int columns) {
 
 bool hasPersonShape(const WorldBlob& blob, const PersonShape& shape) {
   return blob.max_height_m >= shape.min_height_m && blob.max_height_m <= shape.max_height_m &&
-         blob.area_m2 >= shape.min_area_m2 && blob.extent_m <= shape.max_extent_m;
+         blob.area_m2 >= shape.min_area_m2 && blob.extent_m <= kMaxExtent_m;
 }
 
 WorldBlobFinder::WorldBlobFinder(const WorldBlobParams& params) : params_(params) {

@@ -53,7 +53,6 @@ struct PersonShape {
   double min_height_m = 1.2;
   double max_height_m = 2.1;  ///< What reaches higher than this is a wall or a door.
   double min_area_m2 = 0.05;  ///< Least area on the floor: that of a head and a shoulder.
-  double max_extent_m = 1.2;  ///< What is longer than this along the floor is furniture.
 
   /// For a scene whose background is not known, where furniture passes for half hidden people: half
   /// of a body must be seen.

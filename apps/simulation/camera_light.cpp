@@ -10,6 +10,17 @@
 namespace heel {
 namespace {
 
+// Ranges are those of webcams that set themselves; nothing was chosen on recordings.
+constexpr double kAim = 0.18;   // Mean signal that the exposure is set for: photography's mid grey.
+constexpr double kLag_s = 0.5;  // Time constant of the exposure.
+constexpr double kMaxStops = 2.0;  // The exposure is at most so many stops off the scene's.
+constexpr double kBalance = 0.3;   // Red's and blue's gains are within 1 / (1 + this) and 1 + this.
+constexpr double kBalance_s = 90.0;  // Period in which they wander; drawn within a factor of 2.
+constexpr double kGamma = 1.25;  // The exponent behind sRGB's curve is between 1 / this and this.
+constexpr double kShutter_s = 0.02;  // How long it is open: what turns meanwhile is blurred.
+constexpr double kFlicker = 0.02;  // Of lamps, as a share of the light, in bands of rows that roll.
+constexpr double kFlickerBands = 3.0;  // In a picture: lamps of 100 Hz, read out within 30 ms.
+
 constexpr double kTurn_rad = 6.283185307179586;
 constexpr int kMeterStep = 4;  // Every fourth pixel of every fourth row is metered.
 
@@ -29,13 +40,13 @@ double metered(const cv::Mat& radiance, double signal_per_radiance) {
 
 }  // namespace
 
-DrawnLight::DrawnLight(const CameraLightParams& params, std::uint64_t seed) : params_(params) {
+DrawnLight::DrawnLight(std::uint64_t seed) {
   RandomStream random(seed);
-  gamma_ = std::pow(params.gamma, random.uniform(-1.0, 1.0));
+  gamma_ = std::pow(kGamma, random.uniform(-1.0, 1.0));
   for (Balance* balance : {&red_, &blue_}) {
     balance->offset = random.uniform(-0.5, 0.5);
     for (std::size_t i = 0; i < 2; ++i) {
-      balance->rate_radps[i] = kTurn_rad / params.balance_s * std::exp2(random.uniform(-1.0, 1.0));
+      balance->rate_radps[i] = kTurn_rad / kBalance_s * std::exp2(random.uniform(-1.0, 1.0));
       balance->phase_rad[i] = random.uniform(0.0, kTurn_rad);
     }
   }
@@ -47,14 +58,14 @@ float DrawnLight::gainAt(const Balance& balance, double stamp_s) const {
   for (std::size_t i = 0; i < 2; ++i) {
     share += 0.25 * std::sin(balance.rate_radps[i] * stamp_s + balance.phase_rad[i]);
   }
-  return static_cast<float>(std::pow(1.0 + params_.balance, share));
+  return static_cast<float>(std::pow(1.0 + kBalance, share));
 }
 
 double DrawnLight::wanted(double exposure, const cv::Mat& radiance,
                           double signal_per_radiance) const {
-  const double most = std::exp2(params_.max_stops);
+  const double most = std::exp2(kMaxStops);
   const double mean = metered(radiance, signal_per_radiance * exposure);
-  return std::clamp(exposure * params_.aim / std::max(mean, 1e-6), 1.0 / most, most);
+  return std::clamp(exposure * kAim / std::max(mean, 1e-6), 1.0 / most, most);
 }
 
 CameraLight DrawnLight::at(double stamp_s, const cv::Mat& radiance, double signal_per_radiance,
@@ -63,16 +74,16 @@ CameraLight DrawnLight::at(double stamp_s, const cv::Mat& radiance, double signa
     exposure_ = 1.0;
     for (int i = 0; i < 20; ++i) exposure_ = wanted(exposure_, radiance, signal_per_radiance);
   } else {
-    const double share = 1.0 - std::exp((last_s_ - stamp_s) / params_.lag_s);
+    const double share = 1.0 - std::exp((last_s_ - stamp_s) / kLag_s);
     exposure_ *= std::pow(wanted(exposure_, radiance, signal_per_radiance) / exposure_, share);
   }
   last_s_ = stamp_s;
   CameraLight light;
   light.exposure = exposure_;
   light.gains = {gainAt(blue_, stamp_s), 1.0F, gainAt(red_, stamp_s)};
-  light.blur_px = std::abs(speed_px_s) * params_.shutter_s;
-  light.flicker = params_.flicker;
-  light.flicker_bands = params_.flicker_bands;
+  light.blur_px = std::abs(speed_px_s) * kShutter_s;
+  light.flicker = kFlicker;
+  light.flicker_bands = kFlickerBands;
   light.flicker_phase = roll_radps_ * stamp_s;
   return light;
 }

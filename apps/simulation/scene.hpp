@@ -157,7 +157,7 @@ struct CameraParams {
   double vignetting = 0.25;  ///< Share of the light that is lost in the corners.
   double blur_px = 0.5;      ///< Standard deviation of the lens's blur.
   /// Whether exposure, white balance, gamma, motion blur and flicker are drawn from the run's seed
-  /// (CameraLightParams); else the light stays as it is.
+  /// (DrawnLight); else the light stays as it is.
   bool drawn_light = false;
 };
 

@@ -64,7 +64,7 @@ struct Simulator::State {
     arena.execute([this] { lights = std::make_unique<LightMap>(scene, geometry, world); });
     shader = std::make_unique<Shader>(scene, geometry, world, *lights);
     if (scene.robot.camera.drawn_light) {
-      light.emplace(CameraLightParams{}, hashOf(options.seed, 5));
+      light.emplace(hashOf(options.seed, 5));
     }
     camera_model = std::make_unique<CameraModel>(scene.robot.camera, hashOf(options.seed, 2),
                                                  light ? light->gamma() : 1.0);

@@ -29,10 +29,9 @@ class OpenCvMatcher {
  public:
   OpenCvMatcher(const cv::Mat& left_bgr, const cv::Mat& right_bgr,
                 const StereoMatcherParams& p = {})
-      : matcher_(cv::StereoSGBM::create(0, p.disparities, p.block_size, p.p1, p.p2,
-                                        p.max_left_right_difference, p.prefilter_cap,
-                                        p.uniqueness_percent, p.speckle_size, p.speckle_range,
-                                        cv::StereoSGBM::MODE_SGBM)) {
+      : matcher_(cv::StereoSGBM::create(
+            0, p.disparities, p.block_size, p.p1, p.p2, p.max_left_right_difference,
+            p.prefilter_cap, p.uniqueness_percent, p.speckle_size, 1, cv::StereoSGBM::MODE_SGBM)) {
     cv::cvtColor(left_bgr, left_, cv::COLOR_BGR2GRAY);
     cv::cvtColor(right_bgr, right_, cv::COLOR_BGR2GRAY);
   }

@@ -77,24 +77,24 @@ TEST(CameraLight, FlickerIsInRowsAndAsWideAsSaid) {
 }
 
 TEST(DrawnLight, ExposureGoesToItsAimWithItsLag) {
-  CameraLightParams params;
-  DrawnLight light(params, 3);
+  constexpr double kLag_s = 0.5;
+  DrawnLight light(3);
   EXPECT_NEAR(light.at(0.0, grey(0.1F), 2.0, 0.0).exposure, 0.18 / 0.2, 1e-6)
       << "it was there before the first picture";
   // Somebody turns the light up by a stop: half of it, in stops, is left after lag * ln 2.
   double at_s = 0.0;
   double exposure = 0.0;
   for (int i = 1; i <= 10; ++i) {
-    at_s = 0.1 * i * params.lag_s * std::log(2.0);
+    at_s = 0.1 * i * kLag_s * std::log(2.0);
     exposure = light.at(at_s, grey(0.2F), 2.0, 0.0).exposure;
   }
   EXPECT_NEAR(exposure, 0.18 / 0.4 * std::sqrt(2.0), 1e-6);
-  exposure = light.at(at_s + 20.0 * params.lag_s, grey(0.2F), 2.0, 0.0).exposure;
+  exposure = light.at(at_s + 20.0 * kLag_s, grey(0.2F), 2.0, 0.0).exposure;
   EXPECT_NEAR(exposure, 0.18 / 0.4, 1e-6);
 }
 
 TEST(DrawnLight, ExposureBearsWhiteAndBlack) {
-  DrawnLight light({}, 3);
+  DrawnLight light(3);
   EXPECT_EQ(light.at(0.0, grey(0.0F), 2.0, 0.0).exposure, 4.0);
   double exposure = 0.0;
   for (int i = 1; i <= 5; ++i) exposure = light.at(60.0 * i, grey(1e6F), 2.0, 0.0).exposure;
@@ -105,7 +105,7 @@ TEST(DrawnLight, BalanceWandersWithinItsRange) {
   std::set<double> gammas;
   double lowest = 1.0, highest = 1.0;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    DrawnLight light({}, seed);
+    DrawnLight light(seed);
     gammas.insert(light.gamma());
     EXPECT_GE(light.gamma(), 0.8);
     EXPECT_LE(light.gamma(), 1.25);
@@ -131,9 +131,8 @@ TEST(DrawnLight, BalanceWandersWithinItsRange) {
 }
 
 TEST(DrawnLight, BlursWhatTurnsWhileTheShutterIsOpen) {
-  CameraLightParams params;
-  DrawnLight light(params, 1);
-  EXPECT_DOUBLE_EQ(light.at(0.0, grey(0.1F), 2.0, -150.0).blur_px, 150.0 * params.shutter_s);
+  DrawnLight light(1);
+  EXPECT_DOUBLE_EQ(light.at(0.0, grey(0.1F), 2.0, -150.0).blur_px, 150.0 * 0.02);
 }
 
 /// Two seconds of a robot that turns.
