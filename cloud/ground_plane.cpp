@@ -200,7 +200,7 @@ std::string mountingWarning(const GroundPlane& floor, const Eigen::Isometry3d& T
                             double tolerance_m) {
   const double apart_m = floor.rmsHeight(T_base_camera.matrix().row(2));
   if (apart_m <= tolerance_m) return {};
-  constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+  constexpr double kDegrees = 180.0 / M_PI;
   const Mounting found = floor.mounting, configured = mountingOf(T_base_camera);
   std::array<char, 320> text{};
   std::snprintf(

@@ -16,7 +16,7 @@ FloorPose FloorPose::inverse() const {
 }
 
 double wrapped(double angle_rad) {
-  constexpr double kTwoPi = 6.283185307179586;
+  constexpr double kTwoPi = 2.0 * M_PI;
   return std::remainder(angle_rad, kTwoPi);
 }
 

@@ -58,7 +58,7 @@ PoseSearch::PoseSearch(const OccupancyGrid& map, const LikelihoodFieldParams& fi
 // millions of poses.
 void PoseSearch::find(const BeamEnds& ends, std::size_t poses, std::size_t count,
                       RandomNumbers& random, ParticleSet& to) {
-  constexpr double kTwoPi = 6.283185307179586;
+  constexpr double kTwoPi = 2.0 * M_PI;
   const auto evidence = static_cast<float>(params_.evidence);
   kept_.clear();
   float best = -std::numeric_limits<float>::infinity();

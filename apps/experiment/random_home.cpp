@@ -22,7 +22,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kHalfTurn = 3.14159265358979323846;
 constexpr double kDoorZone_m = 0.95;  // Nothing stands nearer to the middle of a doorway.
 constexpr double kWallThickness_m = 0.12;
 
@@ -172,7 +171,7 @@ void Builder::standAtWall(const Room& room) {
                                          {room.high.x() - back, along},
                                          {along, room.low.y() + back},
                                          {along, room.high.y() - back}}};
-    const std::array<double, 4> yaw = {0.0, kHalfTurn, kHalfTurn / 2.0, -kHalfTurn / 2.0};
+    const std::array<double, 4> yaw = {0.0, M_PI, M_PI / 2.0, -M_PI / 2.0};
     const auto s = static_cast<std::size_t>(side);
     if (add(piece.model, at[s], yaw[s], {piece.depth_m / 2.0, piece.width_m / 2.0},
             random_.uniform() < 0.8)) {
@@ -188,7 +187,7 @@ void Builder::standLoose(const Room& room) {
     // A robot passes on one side at least: near a wall, or in the open.
     const double clear_m = FloorPlan(home_.scene).clearance(at);
     if (clear_m > 0.45 && clear_m < 1.1) continue;
-    const double yaw = random_.uniform(-kHalfTurn, kHalfTurn);
+    const double yaw = random_.uniform(-M_PI, M_PI);
     if (add(pick(kLoose, random_), at, yaw, {0.26, 0.26}, false)) return;
   }
 }

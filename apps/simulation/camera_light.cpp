@@ -21,7 +21,7 @@ constexpr double kShutter_s = 0.02;  // How long it is open: what turns meanwhil
 constexpr double kFlicker = 0.02;  // Of lamps, as a share of the light, in bands of rows that roll.
 constexpr double kFlickerBands = 3.0;  // In a picture: lamps of 100 Hz, read out within 30 ms.
 
-constexpr double kTurn_rad = 6.283185307179586;
+constexpr double kTurn_rad = 2.0 * M_PI;
 constexpr int kMeterStep = 4;  // Every fourth pixel of every fourth row is metered.
 
 /// Mean signal of the pixels that the meter looks at; what is too bright counts as white.

@@ -8,7 +8,7 @@
 namespace heel {
 
 double RandomStream::gaussian() {
-  constexpr double kTwoPi = 6.283185307179586;
+  constexpr double kTwoPi = 2.0 * M_PI;
   const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
   return radius * std::cos(kTwoPi * uniform());
 }

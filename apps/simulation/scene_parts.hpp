@@ -8,11 +8,12 @@
 #include <heel/apps/simulation/scene.hpp>
 #include <heel/cloud/yaml_map.hpp>
 
+#include <cmath>
 #include <string>
 
 namespace heel {
 
-constexpr double kRadians = 3.14159265358979323846 / 180.0;  ///< Of a degree.
+constexpr double kRadians = M_PI / 180.0;  ///< Of a degree.
 
 /// A colour by name or "#rrggbb"; `fallback` where the key is absent.
 Rgb readColor(YamlMap& map, const std::string& key, const Rgb& fallback);

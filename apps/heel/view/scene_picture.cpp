@@ -131,7 +131,7 @@ Outline ring(const Eye& eye, const Vector2d& center_m, double radius_m, double h
   constexpr int kCorners = 40;
   Outline outline;
   for (int i = 0; i < kCorners; ++i) {
-    const double angle = 2.0 * 3.14159265358979323846 * i / kCorners;
+    const double angle = 2.0 * M_PI * i / kCorners;
     const Vector2d at = center_m + radius_m * Vector2d(std::cos(angle), std::sin(angle));
     if (const auto pixel = eye(Vector3d(at.x(), at.y(), height_m))) outline.push_back(*pixel);
   }
