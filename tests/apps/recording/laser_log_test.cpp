@@ -335,9 +335,8 @@ TEST(BagLaserLog, WhatCouldNotBeMeasuredIsNotFree) {
   LaserScanMsg message =
       scanOf(0.0, 0.1, {kNaN, -kInf, 0.0F, 0.05F, 0.1F, 9.9F, 10.0F, 12.0F, kInf});
   const auto unknown = testing::IsNan();
-  EXPECT_THAT(
-      LaserBag(message).scan().ranges_m,
-      testing::ElementsAre(unknown, unknown, kInf, unknown, 0.1F, 9.9F, kInf, kInf, kInf));
+  EXPECT_THAT(LaserBag(message).scan().ranges_m,
+              testing::ElementsAre(unknown, unknown, kInf, unknown, 0.1F, 9.9F, kInf, kInf, kInf));
   message.range_max = 0.0F;  // not set
   EXPECT_THAT(
       LaserBag(message).scan().ranges_m,
