@@ -10,9 +10,6 @@
 namespace heel {
 namespace {
 
-/// What a body can bump into: from just over a rug to a tall person's head.
-constexpr double kBodyHigh_m = 1.9;
-
 double distanceTo(const FloorBox& box, const Eigen::Vector2d& p) {
   const Eigen::Vector2d d = p - box.center;
   const Eigen::Vector2d side(box.axis.x() * d.x() + box.axis.y() * d.y(),
@@ -39,11 +36,11 @@ std::vector<WallPiece> wallPieces(const Wall& wall) {
   return pieces;
 }
 
-FloorPlan::FloorPlan(const Scene& scene, bool only_mapped, double low_m) {
+FloorPlan::FloorPlan(const Scene& scene, bool only_mapped, double low_m, double high_m) {
   for (const Wall& wall : scene.walls) {
     const Eigen::Vector2d along = (wall.to - wall.from).normalized();
     for (const WallPiece& piece : wallPieces(wall)) {
-      if (piece.low_m > kBodyHigh_m) continue;
+      if (piece.low_m > high_m) continue;
       boxes_.push_back({wall.from + along * (piece.from_m + piece.to_m) / 2,
                         along,
                         {(piece.to_m - piece.from_m) / 2, wall.thickness_m / 2}});
@@ -59,7 +56,7 @@ FloorPlan::FloorPlan(const Scene& scene, bool only_mapped, double low_m) {
     for (const FurniturePart& part : piece.parts) {
       const bool is_box = part.shape == FurniturePart::Shape::kBox;
       const double high = part.base.z() + (is_box ? part.size_m.z() : part.height_m);
-      if (high < low_m || part.base.z() > kBodyHigh_m) continue;
+      if (high < low_m || part.base.z() > high_m) continue;
       if (is_box) {
         boxes_.push_back({part.base.head<2>(),
                           {std::cos(part.yaw_rad), std::sin(part.yaw_rad)},

@@ -19,12 +19,16 @@ struct FloorBox {
   Eigen::Vector2d half;  ///< Half of its sides.
 };
 
+inline constexpr double kDrivesOver_m = 0.03;  ///< What is lower bars no way: a rug.
+
 /// Walls (without their doorways), furniture up to a body's height and steps down, as flat shapes.
 class FloorPlan {
  public:
   /// @param only_mapped  Leaves out what is not in the robot's map.
   /// @param low_m        And what is lower, and steps that are.
-  explicit FloorPlan(const Scene& scene, bool only_mapped = false, double low_m = 0.03);
+  /// @param high_m       And what hangs higher: by default than a person.
+  explicit FloorPlan(const Scene& scene, bool only_mapped = false, double low_m = kDrivesOver_m,
+                     double high_m = 1.9);
 
   /// Distance to the nearest obstacle [m]; negative inside one.
   double clearance(const Eigen::Vector2d& p) const;

@@ -12,8 +12,6 @@
 namespace heel {
 namespace {
 
-constexpr double kFlat_m = 0.03;  // Lower than this one walks over it.
-
 void addWall(WallMapBuilder& builder, const Wall& wall) {
   const Eigen::Vector2d along = (wall.to - wall.from).normalized();
   for (const WallPiece& piece : wallPieces(wall)) {
@@ -29,7 +27,7 @@ void addWall(WallMapBuilder& builder, const Wall& wall) {
 void addPart(WallMapBuilder& builder, const FurniturePart& part) {
   const bool is_box = part.shape == FurniturePart::Shape::kBox;
   const double low = part.base.z(), high = low + (is_box ? part.size_m.z() : part.height_m);
-  if (high < kFlat_m) return;
+  if (high < kDrivesOver_m) return;
   if (is_box) {
     builder.add(
         WallBox{part.base.head<2>(), part.yaw_rad, part.size_m.head<2>(), HeightBand{low, high}});
@@ -53,22 +51,6 @@ WallMap wallMapOf(const Scene& scene, double cell_size_m) {
 }
 
 namespace {
-
-/// The scene without furniture above or below some heights.
-Scene sliceOf(Scene scene, double low_m, double high_m) {
-  for (Furniture& piece : scene.furniture) {
-    auto& parts = piece.parts;
-    parts.erase(std::remove_if(parts.begin(), parts.end(),
-                               [&](const FurniturePart& part) {
-                                 const bool box = part.shape == FurniturePart::Shape::kBox;
-                                 const double height_m = box ? part.size_m.z() : part.height_m;
-                                 const double base_m = part.base.z();
-                                 return base_m > high_m || base_m + height_m < low_m;
-                               }),
-                parts.end());
-  }
-  return scene;
-}
 
 /// Marks as free what can be reached over unknown cells.
 void fillFree(const GridCell& start, OccupancyGrid& grid) {
@@ -96,7 +78,7 @@ OccupancyGrid sceneGrid(const Scene& scene, const SceneGridParams& params) {
   OccupancyGrid grid(
       origin, params.cell_size_m, static_cast<int>(std::ceil(size.x() / params.cell_size_m)),
       static_cast<int>(std::ceil(size.y() / params.cell_size_m)), Occupancy::kUnknown);
-  const FloorPlan plan(sliceOf(scene, params.low_m, params.high_m), true);
+  const FloorPlan plan(scene, true, std::max(params.low_m, kDrivesOver_m), params.high_m);
   for (GridCell c; c.y < grid.height(); ++c.y) {
     for (c.x = 0; c.x < grid.width(); ++c.x) {
       if (plan.clearance(grid.center(c)) < 0.0) grid.at(c) = Occupancy::kOccupied;

@@ -48,7 +48,7 @@ struct Simulator::State {
         options(options_in),
         arena(options.threads > 0 ? std::min(options.threads, tbb::info::default_concurrency())
                                   : tbb::task_arena::automatic),
-        plan(scene),
+        plan(scene, false, kDrivesOver_m, scene.robot.height_m),
         walkers_plan(scene, false, kStepsOver_m),
         geometry(makeGeometry(scene)),
         world(geometry),

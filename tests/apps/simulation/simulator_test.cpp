@@ -129,6 +129,27 @@ TEST(Simulator, StopsTheRobotAtAWallAndSaysSo) {
   EXPECT_TRUE(contact);
 }
 
+// Bug: the robot was stopped by a lampshade that hung over it.
+TEST(Simulator, LetsTheRobotDriveUnderWhatHangsHigher) {
+  for (const double height_m : {1.1, 1.5}) {
+    Scene scene = test::squareRoom();
+    FurniturePart shade;
+    shade.shape = FurniturePart::Shape::kCylinder;
+    shade.base = {scene.robot.start.x() + 0.6, scene.robot.start.y(), 1.4};
+    shade.radius_m = 0.2;
+    shade.height_m = 0.3;
+    scene.furniture.push_back({});
+    scene.furniture.back().parts = {shade};
+    scene.robot.height_m = height_m;
+    Simulator simulator(scene, {1, 0, false});
+    bool contact = false;
+    for (int i = 0; i < 20; ++i) {
+      contact = contact || simulator.step(0.1, {0.3, 0.0}).truth.contact;
+    }
+    EXPECT_EQ(contact, height_m > 1.4) << height_m;
+  }
+}
+
 TEST(Simulator, ObeysLateWhereTheWheelsAreLate) {
   SimulatorOptions options{1, 0, false};
   options.wheels_latency_s = 0.2;
