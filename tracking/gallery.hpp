@@ -108,6 +108,7 @@ class Gallery {
            const Tallness& log_tallness = Tallness::Zero());
   bool isKnown(int hypothesis) const { return people_[index(hypothesis)].weight > 0.0; }
   bool isFull() const;
+  const GalleryParams& params() const { return params_; }
 
  private:
   struct Person {

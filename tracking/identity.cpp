@@ -14,37 +14,23 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTwoPi = 6.283185307179586;
-constexpr double kRest_m = 0.2;         // Whoever is no further off has not moved.
+constexpr double kMistaken = BodyBelief::kMistaken;
+const double kLogMistaken = std::log(kMistaken);
 constexpr double kRests_s = 1.0;        // Nobody who walks stays that near for so long.
 constexpr double kPlaceSigma_m = 0.25;  // Of where a person who is tracked is observed next.
-constexpr double kRestSigma_m = 0.5 * kRest_m;  // Of where whoever rests is observed again.
-constexpr double kMissed = 0.1;                 // Of the looks at somebody in full view.
+constexpr double kRestSigma_m =
+    0.5 * BodyBelief::kRest_m;          // Of where whoever rests is observed again.
+constexpr double kMissed = 0.1;         // Of the looks at somebody in full view.
 constexpr double kCoastMemory_s = 1.0;  // Hidden somebody may have gone elsewhere in this time.
 constexpr double kRoom_m2 = 20.0;       // Where somebody who is away may be.
 constexpr double kUnexpected = 0.02;    // Share of targets who are not where they are expected.
 constexpr double kMetLooks = 1.5;       // A stranger is met after so many independent looks.
 constexpr double kSurest = 12.0;        // Logarithm of the greatest odds of places and ways.
-constexpr double kOtherView = 0.5;      // A look with so much news begins another view;
-constexpr double kMostLooks = 10.0;     // so many of the last ones make its mean, or are learned.
-constexpr double kMistaken = 0.01;      // Of the identities that seem sure, or that one is told,
-const double kLogMistaken = std::log(kMistaken);  // so many are wrong.
-constexpr double kAlone_m = 1.0;                  // Nobody nearer: then a look is theirs alone.
-constexpr std::size_t kMostLeft = 16;             // Ended tracks that are remembered.
+constexpr double kAlone_m = 1.0;        // Nobody nearer: then a look is theirs alone.
+constexpr std::size_t kMostLeft = 16;   // Ended tracks that are remembered.
 
+/// Weights of which the greatest is 1.
 Evidence relative(const Evidence& log_weight) { return (log_weight - log_weight.maxCoeff()).exp(); }
-
-/// Whoever is observed no further off than this may not have moved.
-double restRadiusOf(const Observation& seen) {
-  return kRest_m + 2.0 * std::sqrt(seen.covariance_m2.trace());
-}
-
-/// Evidence as it is left if it is about somebody else with a probability.
-Evidence mix(const Evidence& own, const Evidence& other, double other_share) {
-  return other_share > 0.0 ? Evidence(((1.0 - other_share) * own.exp() / own.exp().sum() +
-                                       other_share * other.exp() / other.exp().sum())
-                                          .log())
-                           : own;
-}
 
 }  // namespace
 
@@ -60,28 +46,28 @@ Identity::Identity(TargetLooks looks, const IdentityParams& params, TargetDensit
   }
 }
 
-Identity::Belief* Identity::find(int track_id) {
-  return const_cast<Belief*>(std::as_const(*this).find(track_id));
+BodyBelief* Identity::find(int track_id) {
+  return const_cast<BodyBelief*>(std::as_const(*this).find(track_id));
 }
 
-const Identity::Belief* Identity::find(int track_id) const {
+const BodyBelief* Identity::find(int track_id) const {
   const auto found = std::find_if(beliefs_.begin(), beliefs_.end(),
-                                  [&](const Belief& b) { return b.track_id == track_id; });
+                                  [&](const BodyBelief& b) { return b.track_id == track_id; });
   return found == beliefs_.end() ? nullptr : &*found;
 }
 
 Evidence Identity::probabilities(int track_id) const {
-  const Belief* belief = find(track_id);
+  const BodyBelief* belief = find(track_id);
   return belief == nullptr ? Evidence(Evidence::Zero()) : belief->probability;
 }
 
 double Identity::targetProbability(int track_id) const {
-  const Belief* belief = find(track_id);
+  const BodyBelief* belief = find(track_id);
   return belief == nullptr ? 0.0 : belief->probability[kTarget];
 }
 
 double Identity::hadTarget(int track_id) const {
-  const Belief* belief = find(track_id);
+  const BodyBelief* belief = find(track_id);
   if (belief == nullptr) return 1.0;
   const double target = belief->targetShare();
   return target + (1.0 - target) * belief->replaced;
@@ -100,7 +86,7 @@ void Identity::look(const std::vector<Observation>& observations) {
 }
 
 double Identity::logLikelihood(int track_id, int observation) const {
-  const Belief* belief = find(track_id);
+  const BodyBelief* belief = find(track_id);
   if (belief == nullptr) return 0.0;
   const Evidence& look = looks_[static_cast<std::size_t>(observation)];
   const Tallness& stature = statures_[static_cast<std::size_t>(observation)];
@@ -123,7 +109,7 @@ double Identity::densityOf(int h, const Eigen::Vector2d& place_m, double stamp_s
   const auto& last = last_[static_cast<std::size_t>(h)];
   if (!last) return anywhere;
   // It counts if it was them and they have gone from there; else they were never seen.
-  const Belief* holder = find(last->track_id);
+  const BodyBelief* holder = find(last->track_id);
   const double gone = last->probability * (1.0 - (holder == nullptr ? 0.0 : holder->present));
   const double counts = gone / std::max(gone + 1.0 - last->probability, 1e-9);
   const double away_s = std::max(stamp_s - last->seen_s, 0.0);
@@ -154,7 +140,7 @@ Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s,
 
 /// Where it rests: that it is on its way through a place does not say that things come there, nor
 /// people.
-void Identity::count(Belief& belief, double time_s, double stamp_s) {
+void Identity::count(BodyBelief& belief, double time_s, double stamp_s) {
   if (belief.since_s > belief.born_s && stamp_s - belief.since_s < kRests_s) return;
   const double thing_s = time_s * belief.probability[kThing];
   clutter_.add({belief.place_m, time_s, thing_s}, stamp_s);
@@ -167,13 +153,13 @@ double IdentityParams::newsOf(double elapsed_s, double way_m) const {
 }
 
 double Identity::restsFor_s(int track_id, double stamp_s) const {
-  const Belief* belief = find(track_id);
+  const BodyBelief* belief = find(track_id);
   return belief == nullptr ? 0.0 : stamp_s - belief->since_s;
 }
 
 /// A track begins: with somebody new, or with whoever has rested there on a track that has ended,
 /// for they stay as likely as they did for that share of the time until now.
-Identity::Belief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, double stamp_s) {
+BodyBelief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, double stamp_s) {
   const Evidence prior = priorOf(place_m, stamp_s);
   // What and who is known to be there is what has rested there: of people, only who comes.
   const double newcomers_per_m2 =
@@ -192,11 +178,11 @@ Identity::Belief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, 
     most_per_m2 = per_m2;
     same = left;
   }
-  Belief& belief = beliefs_.emplace_back();
+  BodyBelief& belief = beliefs_.emplace_back();
   if (same != left_.end()) {
     const Evidence another = priorOf(place_m, stamp_s, same->counted);
     const Evidence log_others = logOthers(*same);
-    for (Belief& other : beliefs_) {  // They are together again.
+    for (BodyBelief& other : beliefs_) {  // They are together again.
       if (!same->was_apart || other.born_s > same->seen_s) continue;
       other.log_free = (other.log_free - log_others).min(0.0);
     }
@@ -205,7 +191,7 @@ Identity::Belief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, 
     for (std::optional<Absence>& last : last_) {
       if (last && last->track_id == belief.track_id) last->track_id = track_id;
     }
-    mixIn(belief, {another, another}, newcomers_per_m2 / (newcomers_per_m2 + most_per_m2));
+    belief.mixIn(gallery_, {another, another}, newcomers_per_m2 / (newcomers_per_m2 + most_per_m2));
     belief.is_alive = true;
     belief.present = 1.0;
   } else {
@@ -219,10 +205,10 @@ Identity::Belief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, 
 }
 
 /// Where somebody is and goes.
-void Identity::takePlace(Belief& belief, const Track& track, const Observation& seen,
+void Identity::takePlace(BodyBelief& belief, const Track& track, const Observation& seen,
                          double stamp_s) {
   const double off_m = (seen.position_m - belief.place_m).norm();
-  const bool has_moved = off_m > restRadiusOf(seen);
+  const bool has_moved = off_m > BodyBelief::restRadius_m(seen);
   const double elapsed_s = std::max(stamp_s - belief.seen_s, 0.0);
   const double news = params_.newsOf(elapsed_s, has_moved ? off_m : 0.0);
   const double there = kTwoPi * kPlaceSigma_m * kPlaceSigma_m;
@@ -241,7 +227,7 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
     const double target = belief.targetShare();
     const double lost = other_share * target;
     belief.replaced = (lost + (1.0 - target) * belief.replaced) / (lost + 1.0 - target);
-    mixIn(belief, {prior, prior}, other_share);
+    belief.mixIn(gallery_, {prior, prior}, other_share);
   }
   // However long it lasts, nothing is surer than that: who sat for an hour may get up.
   belief.log_place -= belief.log_place.maxCoeff();
@@ -256,45 +242,10 @@ void Identity::takePlace(Belief& belief, const Track& track, const Observation& 
   }
 }
 
-void Identity::takeLook(Belief& belief, const Observation& seen, std::size_t look,
-                        const Eigen::Vector2d& eye_m, double stamp_s) {
-  View& view = belief.view;
-  const Eigen::Vector2d ray_m = seen.position_m - eye_m;
-  const double way_m =
-      std::max((seen.position_m - view.place_m).norm(), (ray_m - view.ray_m).norm());
-  const bool is_first = view.weight == 0.0;
-  const double news =
-      is_first ? 1.0
-               : params_.newsOf(stamp_s - view.since_s, way_m > restRadiusOf(seen) ? way_m : 0.0);
-  if (is_first || news > kOtherView) {
-    belief.log_views += view.evidence();
-    belief.log_tallness = belief.logTallness();
-    const double keep = std::exp(-params_.gallery.look_correlation * news);
-    belief.log_views *= keep;
-    belief.log_tallness *= keep;
-    belief.looks += news;
-    view = View{seen.position_m, ray_m, stamp_s, news};
-  }
-  view.count = std::min(view.count + 1.0, kMostLooks);
-  const LookEvidence& parts = parts_[look];
-  if (belief.known_looks.size() == 0) {
-    belief.known_parts.setZero(kHypotheses, parts.is_seen.size());
-    belief.known_looks.setZero(parts.is_seen.size());
-  }
-  const Evidence unseen =
-      (belief.known_parts.rowwise() * (1.0 - parts.is_seen).transpose()).rowwise().sum();
-  belief.known_looks = (belief.known_looks + parts.is_seen).min(kMostLooks);
-  belief.known_parts += (parts.parts - belief.known_parts).rowwise() *
-                        (parts.is_seen / belief.known_looks.max(1.0)).transpose();
-  Evidence evidence = gallery_.logLikelihood(parts, unseen);
-  evidence[kThing] = looks_[look][kThing];
-  for (int h = 0; h < kHypotheses; ++h) {
-    if (std::isfinite(evidence[h])) view.mean[h] += (evidence[h] - view.mean[h]) / view.count;
-  }
-  view.tallness += (statures_[look] - view.tallness) / view.count;
-  belief.log_stature = gallery_.logLikelihood(belief.logTallness());
-  if (belief.sum.size() == 0) belief.sum.setZero(seen.look->rows(), seen.look->cols());
-  belief.sum += *seen.look;
+void Identity::takeLook(BodyBelief& belief, const BodyLook& look) {
+  const double elapsed_s = look.stamp_s - belief.view.since_s;
+  const double news = params_.newsOf(elapsed_s, belief.wayTo(look));
+  belief.takeLook(gallery_, look, belief.view.weight == 0.0 ? 1.0 : news);
 }
 
 void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& tracks,
@@ -307,7 +258,7 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
     clutter_.setClock(stamp_s);
   }
   for (const Track& track : tracks) {
-    Belief* belief = find(track.id);
+    BodyBelief* belief = find(track.id);
     if (belief == nullptr || track.observation != Track::kUnseen) continue;
     const Sight sight =
         viewpoint.sight_of ? viewpoint.sight_of(track.motion.position_m()) : Sight::kUnknown;
@@ -320,13 +271,13 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
   mixSwaps(report.swaps);
   for (const Track& track : tracks) {
     if (track.observation == Track::kUnseen) continue;
-    Belief& belief = *find(track.id);
+    BodyBelief& belief = *find(track.id);
     const auto i = static_cast<std::size_t>(track.observation);
     // begin() has taken in where it was seen first.
     if (belief.seen_s != stamp_s) takePlace(belief, track, observations[i], stamp_s);
-    if (observations[i].look != nullptr) {
-      takeLook(belief, observations[i], i, viewpoint.position_m, stamp_s);
-    }
+    if (observations[i].look == nullptr) continue;
+    takeLook(belief, {observations[i], parts_[i], looks_[i][kThing], statures_[i],
+                      viewpoint.position_m, stamp_s});
   }
   weighTogether();
   remember(tracks, observations, stamp_s);
@@ -336,7 +287,7 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const ObservationUse& use = report.uses[i];
     if (use.fate == ObservationFate::kFragment || use.verdict != GateVerdict::kAccepted) continue;
-    if (Belief* belief = find(use.track_id)) {
+    if (BodyBelief* belief = find(use.track_id)) {
       count(*belief, time_s, stamp_s);
     } else {
       const Evidence prior = relative(priorOf(observations[i].position_m, stamp_s));
@@ -346,52 +297,20 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
   }
 }
 
-Tallness Identity::mixed(const Tallness& own, const Tallness& other, double other_share) const {
-  return ((1.0 - other_share) * (own - gallery_.logIfAnybody(own)).exp() +
-          other_share * (other - gallery_.logIfAnybody(other)).exp())
-      .log();
-}
-
-/// With a probability it is another body than before, of which `other` is believed. Past looks then
-/// say whatever the place does not, so that as they fade the place is left.
-void Identity::mixIn(Belief& belief, const Past& other, double other_share) {
-  if (other_share > kMistaken) {  // A portrait is of one body.
-    belief.looks = 0.0;
-    belief.sum.setZero();
-  }
-  belief.known_parts *= 1.0 - other_share;
-  const Past own = belief.past();
-  const Evidence both = mix(own.log_all, other.log_all, other_share);
-  belief.log_place = mix(own.log_place, other.log_place, other_share);
-  belief.log_free *= 1.0 - other_share;
-  if (View& view = belief.view; view.weight > 0.0) {
-    view.mean = mix(own.log_view, other.log_view, other_share) / view.weight;
-    view.mean -= view.mean[kStranger];
-    view.tallness =
-        mixed(own.log_view_tallness, other.log_view_tallness, other_share) / view.weight;
-    view.count *= 1.0 - other_share;
-  }
-  const Evidence views = both - belief.log_place - belief.log_free - belief.view.evidence();
-  belief.log_views = views.isFinite().select(views, 0.0);
-  belief.log_tallness = mixed(own.log_tallness, other.log_tallness, other_share) -
-                        belief.view.weight * belief.view.tallness;
-  belief.log_stature = gallery_.logLikelihood(belief.logTallness());
-}
-
 /// Of bodies that meet nobody can say for sure which observation is whose.
 void Identity::mixSwaps(const std::vector<Swap>& swaps) {
   for (const Swap& swap : swaps) {
-    Belief* a = find(swap.track_a);
-    Belief* b = find(swap.track_b);
+    BodyBelief* a = find(swap.track_a);
+    BodyBelief* b = find(swap.track_b);
     if (a == nullptr || b == nullptr) continue;
-    const Past past_a = a->past();
-    mixIn(*a, b->past(), swap.probability);
-    mixIn(*b, past_a, swap.probability);
+    const PastBelief past_a = a->past();
+    a->mixIn(gallery_, b->past(), swap.probability);
+    b->mixIn(gallery_, past_a, swap.probability);
   }
 }
 
 /// However well looks fit the target, it may be a stranger who is dressed alike.
-Evidence Identity::logWeight(const Belief& belief) const {
+Evidence Identity::logWeight(const BodyBelief& belief) const {
   const Evidence log_looks = belief.logLooks();
   Evidence log_weight = belief.log_place + belief.log_free + log_looks;
   const double log_odds = std::min(log_looks[kTarget] - log_looks[kStranger], 100.0);
@@ -399,81 +318,37 @@ Evidence Identity::logWeight(const Belief& belief) const {
   return log_weight;
 }
 
-/// The exact marginals of all beliefs together, where each person can be one track only: sums over
-/// all ways to give people to tracks, by which of the people are taken (forward-backward).
-/// @param is_left  Whether tracks that are not seen may be empty, and their people somebody else.
-void Identity::weigh(bool is_left, std::vector<Evidence>& marginals) {
-  int bit_of[kHypotheses];
-  int bits = 0;
-  for (int h = kTarget; h < kHypotheses; ++h) {
-    bit_of[h] = h == kTarget || gallery_.isKnown(h) ? bits++ : -1;
-  }
-  const std::size_t sets = std::size_t{1} << bits;
-  const std::size_t count = beliefs_.size();
-  forward_.assign((count + 1) * sets, 0.0);
-  backward_.assign((count + 1) * sets, 0.0);
-  marginals.assign(count, Evidence::Zero());
-  forward_[0] = 1.0;
-  std::fill(backward_.end() - static_cast<std::ptrdiff_t>(sets), backward_.end(), 1.0);
-  const auto rescale = [&](double* row) {
-    const double most = *std::max_element(row, row + sets);
-    for (std::size_t s = 0; s < sets; ++s) row[s] /= std::max(most, 1e-300);
-  };
-  weights_.resize(count);
-  for (std::size_t j = 0; j < count; ++j) {
-    const double present = is_left ? beliefs_[j].present : 1.0;
+/// Of all beliefs, by themselves.
+/// @param may_be_empty  Whether tracks that are not seen may be.
+const std::vector<BodyWeights>& Identity::weigh(bool may_be_empty) {
+  weights_.resize(beliefs_.size());
+  for (std::size_t j = 0; j < beliefs_.size(); ++j) {
+    const double present = may_be_empty ? beliefs_[j].present : 1.0;
     const Evidence all = relative(logWeight(beliefs_[j]));
-    const auto& [weight, nobody] = weights_[j] = {present * all, (1.0 - present) * all.sum()};
-    const double* before = &forward_[j * sets];
-    double* after = &forward_[(j + 1) * sets];
-    for (std::size_t s = 0; s < sets; ++s) {
-      after[s] += before[s] * (nobody + weight[kThing] + weight[kStranger]);
-      for (int h = kTarget; h < kHypotheses; ++h) {
-        if (bit_of[h] < 0 || (s >> bit_of[h] & 1U) != 0) continue;
-        after[s | std::size_t{1} << bit_of[h]] += before[s] * weight[h];
-      }
+    weights_[j] = {present * all, (1.0 - present) * all.sum()};
+    for (int h = kFirstOther; h < kHypotheses; ++h) {
+      if (!gallery_.isKnown(h)) weights_[j].weight[h] = 0.0;
     }
-    rescale(after);
   }
-  for (std::size_t j = count; j-- > 0;) {
-    double empty = 0.0;
-    const auto& [weight, nobody] = weights_[j];
-    const double* before = &forward_[j * sets];
-    const double* after = &backward_[(j + 1) * sets];
-    double* now = &backward_[j * sets];
-    Evidence& marginal = marginals[j];
-    for (std::size_t s = 0; s < sets; ++s) {
-      now[s] = after[s] * (nobody + weight[kThing] + weight[kStranger]);
-      empty += before[s] * after[s] * nobody;
-      marginal[kThing] += before[s] * after[s] * weight[kThing];
-      marginal[kStranger] += before[s] * after[s] * weight[kStranger];
-      for (int h = kTarget; h < kHypotheses; ++h) {
-        if (bit_of[h] < 0 || (s >> bit_of[h] & 1U) != 0) continue;
-        const double rest = weight[h] * after[s | std::size_t{1} << bit_of[h]];
-        now[s] += rest;
-        marginal[h] += before[s] * rest;
-      }
-    }
-    rescale(now);
-    marginal /= empty + marginal.sum();
-  }
+  return weights_;
 }
 
 /// Whoever was in view together with somebody stays another when that one has left; only who came
 /// since may be them.
 void Identity::weighTogether() {
-  weigh(false, together_);
+  const std::vector<Evidence>& together = together_.of(weigh(false));
   double unseen_since_s = kInfinity;
-  for (const Belief& belief : beliefs_) {
+  for (const BodyBelief& belief : beliefs_) {
     if (belief.present < 1.0) unseen_since_s = std::min(unseen_since_s, belief.seen_s);
   }
-  if (unseen_since_s < kInfinity) weigh(true, after_);
+  const std::vector<Evidence>& after =
+      unseen_since_s < kInfinity ? after_.of(weigh(true)) : together;
   away_.setOnes();
   for (const bool is_new : {false, true}) {
     for (std::size_t j = 0; j < beliefs_.size(); ++j) {
-      Belief& belief = beliefs_[j];
+      BodyBelief& belief = beliefs_[j];
       if ((belief.born_s > unseen_since_s) != is_new) continue;
-      belief.probability = is_new ? after_[j] : Evidence(belief.present * together_[j]);
+      belief.probability = is_new ? after[j] : Evidence(belief.present * together[j]);
       auto people = belief.probability.tail<kHypotheses - kTarget>();
       people = people.min(away_.tail<kHypotheses - kTarget>());
       away_ = (away_ - belief.probability).max(0.0);
@@ -482,20 +357,20 @@ void Identity::weighTogether() {
 }
 
 void Identity::endBeliefs(const std::vector<Track>& tracks) {
-  for (Belief& belief : beliefs_) {
+  for (BodyBelief& belief : beliefs_) {
     belief.is_alive = std::any_of(tracks.begin(), tracks.end(),
                                   [&](const Track& track) { return track.id == belief.track_id; });
   }
-  for (Belief& belief : beliefs_) {
+  for (BodyBelief& belief : beliefs_) {
     if (!belief.is_alive) leave(belief);
   }
   beliefs_.erase(std::remove_if(beliefs_.begin(), beliefs_.end(),
-                                [](const Belief& belief) { return !belief.is_alive; }),
+                                [](const BodyBelief& belief) { return !belief.is_alive; }),
                  beliefs_.end());
 }
 
 /// Of each person being another than whoever this is; 0 of what is no person.
-Evidence Identity::logOthers(const Belief& belief) const {
+Evidence Identity::logOthers(const BodyBelief& belief) const {
   const Evidence weight = relative(logWeight(belief));
   Evidence log_others = (1.0 - weight / weight.sum()).log();
   log_others.head<kTarget>() = 0.0;
@@ -504,9 +379,9 @@ Evidence Identity::logOthers(const Belief& belief) const {
 
 /// A track ends. Who was in view together with its person is another, as likely as they are who:
 /// but not if it was always close to somebody, whose body it may have been, too.
-void Identity::leave(Belief& belief) {
+void Identity::leave(BodyBelief& belief) {
   const Evidence log_others = logOthers(belief);
-  for (Belief& other : beliefs_) {
+  for (BodyBelief& other : beliefs_) {
     if (!belief.was_apart || !other.is_alive || other.born_s > belief.seen_s) continue;
     other.log_free = (other.log_free + log_others).max(kLogMistaken);
   }
@@ -529,7 +404,7 @@ void Identity::remember(const std::vector<Track>& tracks,
   }
   for (const Track& track : tracks) {
     if (track.observation == Track::kUnseen) continue;
-    Belief& belief = *find(track.id);
+    BodyBelief& belief = *find(track.id);
     const Eigen::Vector2d place_m = track.motion.position_m();
     const Observation& seen = observations[static_cast<std::size_t>(track.observation)];
     const bool is_alone = std::none_of(tracks.begin(), tracks.end(), [&](const Track& other) {
@@ -552,16 +427,16 @@ void Identity::remember(const std::vector<Track>& tracks,
       const bool is_unlike = looks[kTarget] - looks[kStranger] < kLogMistaken;
       const bool is_stranger = belief.probability[kStranger] > 1.0 - kMistaken;
       if ((is_another || is_unlike) && is_stranger && belief.looks > kMetLooks) meet(belief);
-    } else if (belief.probability[best] > 1.0 - kMistaken && belief.view.count < kMostLooks) {
+    } else if (belief.probability[best] > 1.0 - kMistaken && belief.view.count < View::kMostLooks) {
       // All looks from one side together teach what that view is worth, however long it lasts.
-      gallery_.addLookAt(best, seen, belief.view.weight / kMostLooks);
+      gallery_.addLookAt(best, seen, belief.view.weight / View::kMostLooks);
     }
   }
 }
 
 /// A stranger becomes one of the others; where there is no room, in the place of whoever has been
 /// away for longest.
-void Identity::meet(Belief& belief) {
+void Identity::meet(BodyBelief& belief) {
   int replaced = kStranger;
   if (gallery_.isFull()) {
     double oldest_s = kInfinity;
@@ -582,8 +457,8 @@ void Identity::meet(Belief& belief) {
   }
   const int h = gallery_.meet(mean, belief.looks, replaced, belief.logTallness());
   if (h == kStranger) return;
-  for (std::vector<Belief>* beliefs : {&beliefs_, &left_}) {
-    for (Belief& other : *beliefs) {
+  for (std::vector<BodyBelief>* beliefs : {&beliefs_, &left_}) {
+    for (BodyBelief& other : *beliefs) {
       for (Evidence* evidence : {&other.log_place, &other.log_free, &other.log_views,
                                  &other.view.mean, &other.log_stature}) {
         (*evidence)[h] = (*evidence)[kStranger];
@@ -599,7 +474,7 @@ void Identity::meet(Belief& belief) {
 }
 
 void Identity::makeTarget(int track_id, const Eigen::Vector2d& place_m, double stamp_s) {
-  Belief* belief = find(track_id);
+  BodyBelief* belief = find(track_id);
   if (belief == nullptr) belief = &begin(track_id, place_m, stamp_s);
   for (double& weight : belief->log_place) weight = std::isfinite(weight) ? kLogMistaken : weight;
   belief->log_place[kTarget] = 0.0;

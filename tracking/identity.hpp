@@ -5,14 +5,15 @@
 /// Who is who: what is believed of each track, by Bayes, over time.
 #pragma once
 
+#include <heel/tracking/body_belief.hpp>
 #include <heel/tracking/clutter_map.hpp>
 #include <heel/tracking/gallery.hpp>
 #include <heel/tracking/geometric_gate.hpp>
+#include <heel/tracking/joint_marginals.hpp>
 #include <heel/tracking/track.hpp>
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -94,104 +95,39 @@ class Identity {
   const std::vector<Evidence>& looks() const { return looks_; }
 
  private:
-  /// Looks from one side at somebody at one place: their mean says what one look does, but better.
-  struct View {
-    Eigen::Vector2d place_m = Eigen::Vector2d::Zero();
-    Eigen::Vector2d ray_m = Eigen::Vector2d::Zero();  ///< From the camera.
-    double since_s = 0.0;
-    double weight = 0.0;  ///< As far as it is another view than the one before.
-    Evidence mean = Evidence::Zero();
-    Tallness tallness = Tallness::Zero();  ///< The mean, too.
-    double count = 0.0;
-    Evidence evidence() const { return weight * mean; }
-  };
-
-  /// What is believed of a body before it is seen again.
-  struct Past {
-    Evidence log_place = Evidence::Zero();
-    Evidence log_all = Evidence::Zero();   ///< By all but statures,
-    Evidence log_view = Evidence::Zero();  ///< and of it by the view at hand.
-    Tallness log_tallness = Tallness::Zero(), log_view_tallness = Tallness::Zero();
-  };
-
-  struct Belief {
-    int track_id = 0;
-    Evidence log_place = Evidence::Zero();  ///< By where it came from and goes.
-    Evidence log_views = Evidence::Zero();  ///< By looks from all views but the present one.
-    /// By who was somebody else in view at the same time, and has left.
-    Evidence log_free = Evidence::Zero();
-    Evidence probability = Evidence::Zero();            ///< With who is in view now, too.
-    Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  ///< Where it rests, or was lately,
-    double since_s = 0.0;                               ///< since then;
-    ClutterCount counted;                               ///< of it there, in that time.
-    double born_s = 0.0;                                ///< Seen first,
-    double seen_s = 0.0;                                ///< and last.
-    View view;
-    double looks = 0.0;   ///< Independent ones, and the sum of all, since it was surely
-    Eigen::ArrayXXf sum;  ///< the same body.
-    /// Of all views but the present one, and what all views say of it: a stature is one fact.
-    Tallness log_tallness = Tallness::Zero();
-    Evidence log_stature = Evidence::Zero();
-    /// Means of what looks said of each part, so that one that is out of view still counts,
-    Eigen::ArrayXXd known_parts;
-    Eigen::ArrayXd known_looks;  ///< of so many looks.
-    double present = 1.0;        ///< Probability that whoever it is still is there.
-    double replaced = 0.0;       ///< Unless it is the target: that it was, before another came.
-    bool was_apart = false;      ///< At some time nobody else was near.
-    bool is_alive = true;
-
-    Tallness logTallness() const { return log_tallness + view.weight * view.tallness; }
-    double targetShare() const {
-      return probability[kTarget] / std::max(probability.sum(), 1e-300);
-    }
-    Evidence logLooks() const { return log_views + view.evidence() + log_stature; }
-    Past past() const {
-      return {log_place, log_place + log_free + log_views + view.evidence(), view.evidence(),
-              logTallness(), view.weight * view.tallness};
-    }
-  };
-
-  Belief* find(int track_id);
-  const Belief* find(int track_id) const;
-  Belief& begin(int track_id, const Eigen::Vector2d& place_m, double stamp_s);
+  BodyBelief* find(int track_id);
+  const BodyBelief* find(int track_id) const;
+  BodyBelief& begin(int track_id, const Eigen::Vector2d& place_m, double stamp_s);
   double densityOf(int h, const Eigen::Vector2d& place_m, double stamp_s) const;
   Evidence priorOf(const Eigen::Vector2d& place_m, double stamp_s,
                    const ClutterCount& but = {}) const;
-  void count(Belief& belief, double time_s, double stamp_s);
-  void takePlace(Belief& belief, const Track& track, const Observation& seen, double stamp_s);
-  void takeLook(Belief& belief, const Observation& seen, std::size_t look,
-                const Eigen::Vector2d& eye_m, double stamp_s);
-  Tallness mixed(const Tallness& own, const Tallness& other, double other_share) const;
-  void mixIn(Belief& belief, const Past& other, double other_share);
+  void count(BodyBelief& belief, double time_s, double stamp_s);
+  void takePlace(BodyBelief& belief, const Track& track, const Observation& seen, double stamp_s);
+  void takeLook(BodyBelief& belief, const BodyLook& look);
   void mixSwaps(const std::vector<Swap>& swaps);
   void weighTogether();
-  void weigh(bool is_left, std::vector<Evidence>& marginals);
+  const std::vector<BodyWeights>& weigh(bool may_be_empty);
   void endBeliefs(const std::vector<Track>& tracks);
-  Evidence logWeight(const Belief& belief) const;
-  Evidence logOthers(const Belief& belief) const;
-  void leave(Belief& belief);
+  Evidence logWeight(const BodyBelief& belief) const;
+  Evidence logOthers(const BodyBelief& belief) const;
+  void leave(BodyBelief& belief);
   void remember(const std::vector<Track>& tracks, const std::vector<Observation>& observations,
                 double stamp_s);
-  void meet(Belief& belief);
+  void meet(BodyBelief& belief);
 
   IdentityParams params_;
   TargetDensity target_density_;
   Gallery gallery_;
   ClutterMap clutter_;
-  std::vector<Belief> beliefs_;
-  std::vector<Belief> left_;                  // of tracks that have ended, the last one last
+  std::vector<BodyBelief> beliefs_;
+  std::vector<BodyBelief> left_;              // of tracks that have ended, the last one last
   std::vector<Evidence> looks_;               // of the step's observations, alone,
   std::vector<LookEvidence> parts_;           // and part by part,
   std::vector<Tallness> statures_;            // and of these
   Evidence away_ = Evidence::Ones();          // of each person, that they are none of the tracks
   std::vector<std::optional<Absence>> last_;  // where each was seen last
-  struct Weights {
-    Evidence weight;
-    double nobody = 0.0;  // that it is empty
-  };
-  std::vector<Weights> weights_;
-  std::vector<double> forward_, backward_;
-  std::vector<Evidence> together_, after_;  // marginals, see weighTogether()
+  std::vector<BodyWeights> weights_;
+  JointMarginals together_, after_;  // see weighTogether()
 };
 
 }  // namespace heel
