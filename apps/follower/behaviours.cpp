@@ -14,7 +14,8 @@ using Eigen::Vector2d;
 
 constexpr double kFullTurn_rad = 6.283185307179586;
 constexpr double kHalfBody_m = 0.25;
-constexpr double kAhead_m = 2.0;  // Any place ahead of a view.
+constexpr double kSeenSide_m = 0.75 * kHalfBody_m;  // Off their middle, of both sides.
+constexpr double kAhead_m = 2.0;                    // Any place ahead of a view.
 
 std::optional<Vector2d> placeOf(const std::optional<MovingPerson>& person) {
   return person ? std::optional(person->position) : std::nullopt;
@@ -36,9 +37,15 @@ Premises::Premises(const FollowerParams& params, std::shared_ptr<const WallMap> 
       radius_m(params.goal.radius_m),
       eye_m(params.gate.eye_height_m) {}
 
-bool Premises::sees(const Vector2d& from, const Vector2d& to) const {
-  return !walls ||
-         walls->lineOfSight({from.x(), from.y(), eye_m}, {to.x(), to.y(), eye_m}, kHalfBody_m);
+// Who is hidden by half is seen, and lost at the next step; nor do they see the robot.
+bool Premises::sees(const Vector2d& from, const Vector2d& person) const {
+  if (!walls) return true;
+  const Vector2d ray = (person - from).normalized();
+  const Vector2d side = kSeenSide_m * Vector2d(-ray.y(), ray.x());
+  const auto isOpen = [&](const Vector2d& to) {
+    return walls->lineOfSight({from.x(), from.y(), eye_m}, {to.x(), to.y(), eye_m}, kHalfBody_m);
+  };
+  return isOpen(person + side) && isOpen(person - side);
 }
 
 std::optional<Intent> FollowTarget::step(const Situation& now, const Ways& ways) {

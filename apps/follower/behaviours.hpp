@@ -31,7 +31,8 @@ struct Premises {
   bool isInDoorway(const Eigen::Vector2d& place) const {
     return isInPassage(doorways, place, passage_depth_m, radius_m);
   }
-  bool sees(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
+  /// Whether a place has both sides of a person in view, as far as the map knows.
+  bool sees(const Eigen::Vector2d& from, const Eigen::Vector2d& person) const;
 };
 
 /// Goes where it is with the person: near, in view and in nobody's way.

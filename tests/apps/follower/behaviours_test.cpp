@@ -5,6 +5,7 @@
 #include <heel/apps/follower/behaviours.hpp>
 #include <heel/apps/follower/look_who.hpp>
 #include <heel/apps/follower/make_room.hpp>
+#include <heel/mapping/wall_map_builder.hpp>
 
 #include <gtest/gtest.h>
 
@@ -67,6 +68,28 @@ TEST_F(BehavioursTest, FollowsToAMetreOffAndKeepsThePersonInView) {
   EXPECT_EQ(*intent->keep_in_view, kPerson.position);
   now.target.reset();
   EXPECT_EQ(*floor.ask(follow, now)->go_to, kPerson.position) << "where they were";
+}
+
+// Bug: it stood where a corner hid half of whom it followed, and lost them again and again (50006).
+TEST_F(BehavioursTest, StandsWhereNoCornerHidesHalfOfThePerson) {
+  WallMapBuilder builder;
+  builder.add(WallBox{{1.9, 1.2}, 0.0, {0.2, 2.0}, {0.0, 2.5}});  // from y = 0.2 on
+  const Premises corner(params, std::make_shared<const WallMap>(builder.build()), {});
+  now.robot.position = {1.2, 0.05};
+  now.target = kPerson;
+  now.target->position = {2.2, 0.2};
+  // Whether the corner hides what is to the left of the person's middle.
+  const auto hides = [&](const Vector2d& from, double left_m) {
+    const Vector2d ray = (now.target->position - from).normalized();
+    const Vector2d to = now.target->position + left_m * Vector2d(-ray.y(), ray.x());
+    return from.y() + (to - from).y() * (2.0 - from.x()) / (to - from).x() > 0.2;
+  };
+  ASSERT_FALSE(hides(now.robot.position, 0.0)) << "their middle is in view";
+  ASSERT_TRUE(hides(now.robot.position, 0.1)) << "their left is not";
+  FollowTarget follow(corner, params.goal);
+  const auto intent = floor.ask(follow, now);
+  ASSERT_TRUE(intent->go_to);
+  EXPECT_FALSE(hides(*intent->go_to, 0.1)) << intent->go_to->transpose();
 }
 
 TEST_F(BehavioursTest, FacesThePersonWhereItStands) {
