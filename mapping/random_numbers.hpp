@@ -34,7 +34,7 @@ class RandomNumbers {
       return spare_;
     }
     const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
-    const double angle = 6.283185307179586 * uniform();
+    const double angle = 2.0 * M_PI * uniform();
     spare_ = radius * std::sin(angle);
     has_spare_ = true;
     return radius * std::cos(angle);

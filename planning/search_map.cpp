@@ -13,7 +13,6 @@ namespace heel {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kSeenSide = 0.75;  // So much of both sides of somebody must be in sight.
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kRounding_m = 1e-6;
@@ -30,7 +29,7 @@ void requirePositive(const SearchMapParams& p) {
   }
 }
 
-double headingOf(std::size_t way) { return static_cast<double>(way) * kPi / 4.0; }
+double headingOf(std::size_t way) { return static_cast<double>(way) * M_PI / 4.0; }
 
 std::size_t index(int cell) { return static_cast<std::size_t>(cell); }
 
@@ -378,7 +377,7 @@ std::optional<SearchView> SearchMap::nextView(const FloorPose& camera,
                                               FunctionRef<double(const Eigen::Vector2d&)> way_s) {
   if (walked_m_.empty()) return std::nullopt;
   // First the place, by all that is in view around it: who goes to a room looks all around in it.
-  const double around_s = 2.0 * kPi / params_.limits.max_turn_radps + params_.look_s;
+  const double around_s = 2.0 * M_PI / params_.limits.max_turn_radps + params_.look_s;
   const auto toThere_s = [&](double on_way_m) { return on_way_m / params_.limits.max_speed_mps; };
   const auto onMap_s = [&](std::size_t view) {
     return toThere_s(static_cast<double>(way_m_[index(view_cells_[view])]));
@@ -431,7 +430,7 @@ SearchMap::Bearings SearchMap::chancesAround(std::size_t view, double in_s) cons
     for (int x = std::max(0, x0 - reach_cells_); x <= high_x; ++x) {
       const int c = y * floor_.width() + x;
       if (belief_[index(c)] < kNoChance || !is_visible_[visibleIndex(view, c)]) continue;
-      const double turns = std::atan2(y - y0, x - x0) / (2.0 * kPi) + 1.0;
+      const double turns = std::atan2(y - y0, x - x0) / (2.0 * M_PI) + 1.0;
       chances[static_cast<std::size_t>(turns * kBearings) % kBearings] +=
           passes(from, floor_.center(c), in_s) * belief_[index(c)];
     }
@@ -442,14 +441,14 @@ SearchMap::Bearings SearchMap::chancesAround(std::size_t view, double in_s) cons
 SearchView SearchMap::bestLook(std::size_t view, double way_s, double yaw_rad) const {
   const Bearings around = chancesAround(view, way_s + params_.look_s);
   const auto in_view = static_cast<std::size_t>(
-      std::clamp(params_.field_of_view_rad / (2.0 * kPi) * kBearings, 1.0, 1.0 * kBearings));
+      std::clamp(params_.field_of_view_rad / (2.0 * M_PI) * kBearings, 1.0, 1.0 * kBearings));
   SearchView best;
   double best_rate = -1.0;
   for (std::size_t first = 0; first < kBearings; ++first) {
     double chance = 0.0;
     for (std::size_t i = 0; i < in_view; ++i) chance += around[(first + i) % kBearings];
     const double middle = static_cast<double>(first) + 0.5 * static_cast<double>(in_view);
-    const double yaw = wrapped(2.0 * kPi / kBearings * middle);
+    const double yaw = wrapped(2.0 * M_PI / kBearings * middle);
     const double look_s =
         std::abs(wrapped(yaw - yaw_rad)) / params_.limits.max_turn_radps + params_.look_s;
     if (!(chance / look_s > best_rate)) continue;

@@ -14,6 +14,7 @@ using Eigen::Vector2d;
 
 constexpr int kPlaces = 24;
 constexpr double kRing_m = 0.2;
+constexpr double kAway_m = 1.0;  // The robot keeps this far from people.
 /// Cosine of the least angle between the way to a place and the direction of the person.
 constexpr double kTowards = 0.3;
 
@@ -46,7 +47,7 @@ void findWaysides(const Vector2d& robot, const std::vector<Vector2d>& people, Cl
     if (!(clearance(place) >= params.radius_m + params.margin_m) || blocks(place)) return false;
     const Vector2d way = place - robot;
     return std::all_of(people.begin(), people.end(), [&](const Vector2d& person) {
-      return (place - person).norm() >= params.away_m &&
+      return (place - person).norm() >= kAway_m &&
              way.dot((person - robot).normalized()) <= kTowards * way.norm() &&
              (!leaves_room || leavesRoom(place, person, clearance, params));
     });

@@ -18,7 +18,6 @@ struct WaysideParams {
   double margin_m = 0.08;        ///< Room that the robot needs around it.
   double person_m = 0.3;         ///< Half the width that a person needs to walk by.
   double reach_m = 3.0;          ///< Places further from the robot than this are not looked at.
-  double away_m = 1.0;           ///< The robot keeps this far from the person.
   double doorway_depth_m = 0.9;  ///< People come through this far before and behind a doorway.
   double apart_m = 0.4;          ///< Places nearer to each other than this are one.
 };

@@ -13,7 +13,6 @@ namespace heel {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTwoPi = 6.283185307179586;
 constexpr double kMistaken = BodyBelief::kMistaken;
 const double kLogMistaken = std::log(kMistaken);
 constexpr double kRests_s = 1.0;        // Nobody who walks stays that near for so long.
@@ -115,7 +114,7 @@ double Identity::densityOf(int h, const Eigen::Vector2d& place_m, double stamp_s
   const double away_s = std::max(stamp_s - last->seen_s, 0.0);
   const double away_m = (place_m - last->place_m).norm();
   const double sigma_m = std::hypot(0.3, params_.walk_mps * away_s);
-  const double area_m2 = kTwoPi * sigma_m * sigma_m;
+  const double area_m2 = 2.0 * M_PI * sigma_m * sigma_m;
   const double reach =
       std::max(kRoom_m2 / area_m2, 1.0) * std::exp(-0.5 * away_m * away_m / (sigma_m * sigma_m));
   return anywhere * (counts * reach + 1.0 - counts);
@@ -173,7 +172,7 @@ BodyBelief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, double
     const double stood_s = left->seen_s - left->since_s;
     const double stays = stood_s > 0.0 ? stood_s / (stamp_s - left->since_s) : 0.0;
     const double off2 = (place_m - left->place_m).squaredNorm() / rest_m2;
-    const double per_m2 = stays * std::exp(-0.5 * off2) / (kTwoPi * rest_m2);
+    const double per_m2 = stays * std::exp(-0.5 * off2) / (2.0 * M_PI * rest_m2);
     if (per_m2 <= most_per_m2) continue;
     most_per_m2 = per_m2;
     same = left;
@@ -211,7 +210,7 @@ void Identity::takePlace(BodyBelief& belief, const Track& track, const Observati
   const bool has_moved = off_m > BodyBelief::restRadius_m(seen);
   const double elapsed_s = std::max(stamp_s - belief.seen_s, 0.0);
   const double news = params_.newsOf(elapsed_s, has_moved ? off_m : 0.0);
-  const double there = kTwoPi * kPlaceSigma_m * kPlaceSigma_m;
+  const double there = 2.0 * M_PI * kPlaceSigma_m * kPlaceSigma_m;
   const double clutter = clutter_.density(seen.position_m, stamp_s, belief.counted).things_per_m2;
   const double stood_s = params_.stands_s + std::max(belief.seen_s - belief.since_s, 0.0);
   const double stands = std::log1p(elapsed_s / stood_s);  // -log P(stays | person)

@@ -12,8 +12,6 @@
 namespace heel {
 namespace {
 
-const double kPi = std::acos(-1.0);
-
 /// (1 - e^-x) / x: the mean velocity over a step, as a share of that at its start.
 double meanShare(double x) { return x > 0.0 ? -std::expm1(-x) / x : 1.0; }
 
@@ -89,7 +87,7 @@ double squaredMahalanobis(const Innovation& innovation) {
 double logLikelihood(const Innovation& innovation) {
   return -0.5 *
              (squaredMahalanobis(innovation) + std::log(innovation.covariance_m2.determinant())) -
-         std::log(2.0 * kPi);
+         std::log(2.0 * M_PI);
 }
 
 double chiSquare2Quantile(double probability) {

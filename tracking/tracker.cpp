@@ -14,7 +14,6 @@
 namespace heel {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
 constexpr double kStampTolerance_s = 1e-6;  // Sums of decimal stamps are not exact.
 constexpr double kLeastScoreShare = 1e-3;   // A score of 0 counts as this share of the best.
 constexpr double kUnlikely = 14.0;          // -2 ln of a likelihood ratio of 1 to 1000.
@@ -139,7 +138,7 @@ void Tracker::fillCosts(const std::vector<Observation>& observations, const Look
       const double distance2 = squaredMahalanobis(seen);
       if (distance2 > gate_limit_ || seen.residual_m.norm() > reach_m) continue;
       costs_(row, column) = base_cost_ + distance2 +
-                            std::log(kTwoPi * kTwoPi * seen.covariance_m2.determinant()) -
+                            std::log(2.0 * M_PI * 2.0 * M_PI * seen.covariance_m2.determinant()) -
                             (looks ? 2.0 * looks(track.id, index) : 0.0);
       best_score = std::max(best_score, o.score);
     }

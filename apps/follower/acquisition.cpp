@@ -170,7 +170,7 @@ void Acquisition::findPerson(double stamp_s) {
 void Acquisition::forgetPerson() {
   result_.state = AcquisitionState::kWaiting;
   result_.person_frames = result_.missed_frames = 0;
-  result_.points = result_.torso_points = 0;
+  result_.points = 0;
   result_.first_seen_s = result_.last_seen_s = 0.0;
 }
 
@@ -211,7 +211,6 @@ void Acquisition::labelPixels() {
     const bool torso = point.z > torso_m;
     step_.labels.data[i] = torso ? AcquisitionStep::kTorso : AcquisitionStep::kLegs;
     ++result_.points;
-    result_.torso_points += torso ? 1 : 0;
   }
 }
 

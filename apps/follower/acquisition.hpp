@@ -65,7 +65,6 @@ struct AcquisitionResult {
   int person_frames = 0;      ///< With the person in view.
   int missed_frames = 0;      ///< Since the person entered, without them in view.
   long points = 0;            ///< Of the person, in all frames.
-  long torso_points = 0;      ///< Of these, higher than min_learn_height_m.
   double first_seen_s = 0.0;  ///< Stamp; 0 if nobody came.
   double last_seen_s = 0.0;
   Eigen::Vector2d last_place_m = Eigen::Vector2d::Zero();  ///< Of the person, in the base frame.

@@ -12,7 +12,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kFullTurn_rad = 6.283185307179586;
 constexpr double kHalfBody_m = 0.25;
 constexpr double kSeenSide_m = 0.75 * kHalfBody_m;  // Off their middle, of both sides.
 constexpr double kAhead_m = 2.0;                    // Any place ahead of a view.
@@ -101,7 +100,7 @@ std::optional<Intent> SeekTarget::step(const Situation& now, const Ways&) {
 }
 
 void SeekTarget::tell(FollowingFacts& facts) const {
-  facts[FollowingCondition::kFullTurn] = turned_rad_ > kFullTurn_rad;
+  facts[FollowingCondition::kFullTurn] = turned_rad_ > 2.0 * M_PI;
 }
 
 void SearchForTarget::begin(const Situation&) {

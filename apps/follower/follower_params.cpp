@@ -21,8 +21,8 @@ void check(const FollowerParams& p) {
     throw std::invalid_argument("FollowerParams: near_m must not be greater than far_m");
   }
   const WaysideParams& w = p.wayside;
-  requireNotNegative("WaysideParams", {w.radius_m, w.margin_m, w.person_m, w.reach_m, w.away_m,
-                                       w.doorway_depth_m, w.apart_m});
+  requireNotNegative("WaysideParams",
+                     {w.radius_m, w.margin_m, w.person_m, w.reach_m, w.doorway_depth_m, w.apart_m});
 }
 
 // Things at the rim are half seen.

@@ -32,7 +32,6 @@ std::unique_ptr<LaserLog> openLaserLog(const std::filesystem::path& path, const 
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 /// What scanners of that time report when nothing came back is 81.9 m and the like.
 constexpr double kNothing_m = 80.0;
 constexpr int kMostBeams = 10000;
@@ -108,7 +107,7 @@ struct CarmenLog::State {
   bool scanLine(std::string_view kind) {
     const bool is_new = kind == "ROBOTLASER1";
     if (!is_new && kind != "FLASER") return false;
-    double first_rad = -kPi / 2.0, step_rad = 0.0, most_m = kNothing_m;
+    double first_rad = -M_PI / 2.0, step_rad = 0.0, most_m = kNothing_m;
     if (is_new) {
       number();  // the laser's type
       first_rad = number();
@@ -122,7 +121,7 @@ struct CarmenLog::State {
     if (!(beams >= 2.0) || beams > kMostBeams) fail("a scan must have 2 to 10000 beams");
     const auto count = static_cast<std::size_t>(beams);
     // 180 or 360 beams leave out the last of 181 or 361; an odd number has both ends.
-    if (!is_new) step_rad = kPi / static_cast<double>(count % 2 == 0 ? count : count - 1);
+    if (!is_new) step_rad = M_PI / static_cast<double>(count % 2 == 0 ? count : count - 1);
     if (!(std::abs(step_rad) > 0.0)) fail("a scan's beams have no angle between them");
     scan.first_rad = first_rad;
     scan.step_rad = step_rad;

@@ -36,8 +36,6 @@ void colorsOf(const ColorCloud& cloud, cv::Mat& image_bgr) {
                  [](const auto& p) { return cv::Vec3b(p.b, p.g, p.r); });
 }
 
-void writePcd(const std::filesystem::path& file, const PcdFile& pcd) { writeCloud(file, pcd); }
-
 namespace fs = std::filesystem;
 
 namespace {

@@ -28,10 +28,6 @@ void checkPcd(const std::filesystem::path& file);
 /// The colours of an organized cloud as an image (CV_8UC3, BGR).
 void colorsOf(const ColorCloud& cloud, cv::Mat& image_bgr);
 
-/// Writes `pcd.blob`, compressed.
-/// @throws std::runtime_error  with one sentence, for instance when the disk is full.
-void writePcd(const std::filesystem::path& file, const PcdFile& pcd);
-
 /// All of a PCD file but its points.
 struct PcdHeader {
   pcl::PCLPointCloud2 layout;  ///< Fields and sizes; no points.

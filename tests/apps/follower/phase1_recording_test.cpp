@@ -92,7 +92,7 @@ TEST(Phase1OnSixPeople, AcquiresTheFirstPersonUntilTheSecondComes) {
   EXPECT_GE(frame.number, 36U);
   EXPECT_LE(frame.number, 38U);
   EXPECT_EQ(result.confidence(), 1.0);
-  EXPECT_GT(result.torso_points, 50000);
+  EXPECT_GT(result.points, 50000);
 }
 
 // Where one sees the five: medians of the points on the middle of each torso, marked by hand in the
