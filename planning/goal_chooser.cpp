@@ -16,7 +16,7 @@ constexpr double kWayCost = 1.0;       // Per metre of straight line from the ro
 constexpr double kStandoffCost = 2.5;  // Per metre nearer or further than standoff_m.
 constexpr double kDoorwayCost = 2.0;   // In the middle of a passage; less towards its rims.
 constexpr double kNarrowCost = 0.5;    // Of no more room than needed; 0 with 0.3 m more.
-constexpr double kUnseenCost = 3.0;    // Of a place from which the person is not seen.
+constexpr double kUnseenCost = 3.0;    // Of a place from which, or on whose way, they are not seen.
 
 using Eigen::Vector2d;
 
@@ -48,13 +48,16 @@ std::optional<Vector2d> GoalChooser::choose(const MovingPerson& target, const Ve
     const double off = (person - at).norm();
     const double room = clearance(at);
     if (off < p.least_standoff_m || off > p.most_standoff_m || !(room >= need)) return kImpossible;
-    const double way = (at - robot).norm();
+    const Vector2d way = at - robot;
+    const bool keeps =
+        way.dot(person - robot) >= std::cos(p.half_view_rad) * way.norm() * (person - robot).norm();
+    const bool is_seen = keeps && sees(at, target.position);
     double passage = 0.0;
     for (const DoorwayOnMap& d : doorways) {
       passage = std::max(passage, inPassage(d, at, p.doorway_depth_m, p.radius_m));
     }
-    return kWayCost * way + kStandoffCost * std::abs(off - p.standoff_m) + kDoorwayCost * passage +
-           (sees(at, target.position) ? 0.0 : kUnseenCost) +
+    return kWayCost * way.norm() + kStandoffCost * std::abs(off - p.standoff_m) +
+           kDoorwayCost * passage + (is_seen ? 0.0 : kUnseenCost) +
            kNarrowCost * std::clamp(1.0 - (room - need) / 0.3, 0.0, 1.0);
   };
 

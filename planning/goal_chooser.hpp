@@ -23,6 +23,7 @@ struct GoalChooserParams {
   double margin_m = 0.08;        ///< Room that the robot needs around it.
   double lead_s = 0.4;           ///< The robot goes to where the person will be after this time.
   double doorway_depth_m = 0.7;  ///< Passage reaches this far before and behind a doorway.
+  double half_view_rad = 0.4;    ///< Whoever is further to a side of the way is not seen on it.
 };
 
 /// Chooses among places on rings about the person; keeps the last choice unless another is clearly

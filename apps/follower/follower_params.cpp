@@ -90,6 +90,7 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
     double& keeps_in_rad = params.drive.terms.half_view_rad;
     keeps_in_rad = std::min(keeps_in_rad, 0.8 * half_rad);
   }
+  params.goal.half_view_rad = params.drive.terms.half_view_rad;
   return params;
 }
 

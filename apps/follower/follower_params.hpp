@@ -45,9 +45,10 @@ struct RobotDescription {
 
 /// All that can be set of a Follower. Some of it the robot tells, whatever is written here:
 /// drive.limits, drive.reacts_s, search.map.limits, paths.robot_radius_m, goal.radius_m,
-/// wayside.radius_m, wayside.person_m, obstacles.min_height_m, obstacles.max_height_m,
-/// obstacles.laser_height_m, obstacle_points.max_height_m, floor_points.max_height_m,
-/// gate.eye_height_m, and of last_gate all but margin_m and sight.remembers_s; see fittedTo().
+/// goal.half_view_rad, wayside.radius_m, wayside.person_m, obstacles.min_height_m,
+/// obstacles.max_height_m, obstacles.laser_height_m, obstacle_points.max_height_m,
+/// floor_points.max_height_m, gate.eye_height_m, and of last_gate all but margin_m and
+/// sight.remembers_s; see fittedTo().
 struct FollowerParams {
   LearnPersonParams learn;
   PerceptionParams perception;

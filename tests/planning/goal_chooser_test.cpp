@@ -78,6 +78,23 @@ TEST(GoalChooser, PrefersPlacesThatSeeThePerson) {
   EXPECT_GT(place->y(), 0.3);
 }
 
+// Bug: to see all of somebody who had gone into a room it turned away from them, and lost them.
+TEST(GoalChooser, DoesNotTurnAwayFromThePersonForABetterView) {
+  const Vector2d robot(2.2, 0.0);
+  const auto sees = [](const Vector2d& from, const Vector2d&) { return std::abs(from.y()) > 0.3; };
+  GoalChooserParams params;
+  params.half_view_rad = M_PI;
+  GoalChooser any_way(params), keeps_in_view;
+  const auto aside = any_way.choose(kStanding, robot, kOpen, sees, {});
+  const auto ahead = keeps_in_view.choose(kStanding, robot, kOpen, sees, {});
+  ASSERT_TRUE(aside && ahead);
+  const auto off_rad = [&](const Vector2d& place) {
+    return std::abs(bearingOf({robot, 0.0}, place));
+  };
+  EXPECT_GT(off_rad(*aside), 1.0);
+  EXPECT_TRUE(*ahead == robot || off_rad(*ahead) < 0.4) << ahead->transpose();
+}
+
 TEST(GoalChooser, TakesOnlyPlacesWithRoom) {
   GoalChooser chooser;
   const auto tight = [](const Vector2d& p) { return p.x() < 3.2 ? 0.3 : 1.0; };

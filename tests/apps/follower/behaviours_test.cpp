@@ -75,7 +75,7 @@ TEST_F(BehavioursTest, StandsWhereNoCornerHidesHalfOfThePerson) {
   WallMapBuilder builder;
   builder.add(WallBox{{1.9, 1.2}, 0.0, {0.2, 2.0}, {0.0, 2.5}});  // from y = 0.2 on
   const Premises corner(params, std::make_shared<const WallMap>(builder.build()), {});
-  now.robot.position = {1.2, 0.05};
+  now.robot.position = {0.0, -0.1};
   now.target = kPerson;
   now.target->position = {2.2, 0.2};
   // Whether the corner hides what is to the left of the person's middle.
@@ -84,8 +84,9 @@ TEST_F(BehavioursTest, StandsWhereNoCornerHidesHalfOfThePerson) {
     const Vector2d to = now.target->position + left_m * Vector2d(-ray.y(), ray.x());
     return from.y() + (to - from).y() * (2.0 - from.x()) / (to - from).x() > 0.2;
   };
-  ASSERT_FALSE(hides(now.robot.position, 0.0)) << "their middle is in view";
-  ASSERT_TRUE(hides(now.robot.position, 0.1)) << "their left is not";
+  const Vector2d straight_on(1.2, 0.06);
+  ASSERT_FALSE(hides(straight_on, 0.0)) << "their middle is in view";
+  ASSERT_TRUE(hides(straight_on, 0.1)) << "their left is not";
   FollowTarget follow(corner, params.goal);
   const auto intent = floor.ask(follow, now);
   ASSERT_TRUE(intent->go_to);

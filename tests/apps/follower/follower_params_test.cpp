@@ -48,6 +48,7 @@ TEST(FollowerParams, ANarrowCameraSeesNoMoreThanItDoes) {
   const FollowerParams narrow = fittedTo(robotWithHalfView(0.3), {});
   EXPECT_NEAR(narrow.search.map.field_of_view_rad, 0.6, 1e-12);
   EXPECT_LT(narrow.drive.terms.half_view_rad, 0.3);
+  EXPECT_EQ(narrow.goal.half_view_rad, narrow.drive.terms.half_view_rad);
 }
 
 TEST(FollowerParams, ThatMakeNoSenseAreRefused) {
