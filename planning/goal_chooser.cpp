@@ -44,27 +44,31 @@ std::optional<Vector2d> GoalChooser::choose(const MovingPerson& target, const Ve
   const Vector2d person = target.position + p.lead_s * target.velocity;
   const double need = p.radius_m + p.margin_m;
 
-  const auto costOf = [&](const Vector2d& at) {
+  const auto costIfSeen = [&](const Vector2d& at) {
     const double off = (person - at).norm();
     const double room = clearance(at);
     if (off < p.least_standoff_m || off > p.most_standoff_m || !(room >= need)) return kImpossible;
-    const Vector2d way = at - robot;
-    const bool keeps =
-        way.dot(person - robot) >= std::cos(p.half_view_rad) * way.norm() * (person - robot).norm();
-    const bool is_seen = keeps && sees(at, target.position);
     double passage = 0.0;
     for (const DoorwayOnMap& d : doorways) {
       passage = std::max(passage, inPassage(d, at, p.doorway_depth_m, p.radius_m));
     }
-    return kWayCost * way.norm() + kStandoffCost * std::abs(off - p.standoff_m) +
-           kDoorwayCost * passage + (is_seen ? 0.0 : kUnseenCost) +
-           kNarrowCost * std::clamp(1.0 - (room - need) / 0.3, 0.0, 1.0);
+    return kWayCost * (at - robot).norm() + kStandoffCost * std::abs(off - p.standoff_m) +
+           kDoorwayCost * passage + kNarrowCost * std::clamp(1.0 - (room - need) / 0.3, 0.0, 1.0);
+  };
+
+  const Vector2d to_person = person - robot;
+  const double keeps_cos = std::cos(p.half_view_rad);
+  const auto isSeen = [&](const Vector2d& at) {
+    const Vector2d way = at - robot;
+    return way.dot(to_person) >= keeps_cos * way.norm() * to_person.norm() &&
+           sees(at, target.position);
   };
 
   Vector2d best = robot;
   double least = kImpossible;
   const auto consider = [&](const Vector2d& place, double favour) {
-    const double cost = costOf(place) - favour;
+    double cost = costIfSeen(place) - favour;
+    if (cost < least && !isSeen(place)) cost += kUnseenCost;  // Sight takes longest to tell.
     if (cost >= least) return;
     least = cost;
     best = place;
