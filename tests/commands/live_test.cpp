@@ -26,6 +26,7 @@ constexpr const char* kRosa =
     "{name: rosa, height_m: 1.7, start: [4.4, 1.5], speed_mps: 0.7, outfit: {top: {color: red}, "
     "trousers: {color: charcoal}}, path: [{wait_s: 5}, {to: [2.4, 0.4]}, {to: [3.4, -0.6]}, "
     "{to: [2.6, 0.6]}, {to: [3.4, -0.4]}, {to: [2.8, 0.4]}, {to: [3.6, -0.6]}, {to: [3.0, 0.4]}, "
+    "{to: [3.4, -0.6]}, {to: [2.6, 0.6]}, {to: [3.4, -0.4]}, {to: [2.8, 0.4]}, {to: [3.6, -0.6]}, "
     "{to: [4.2, 0.0]}]}";
 constexpr const char* kCamera =
     "{at: [0.05, 0.06, 1.13], pitch_deg: 5.7, width: 160, height: 120, view_deg: 60, rate_hz: 5}";
@@ -90,9 +91,9 @@ INSTANTIATE_TEST_SUITE_P(Networks, Live, testing::ValuesIn(networks()),
                          [](const auto& tested) { return tested.param; });
 
 TEST_P(Live, ARobotOnTheNetworkLearnsAPersonFollowsThemAndDoesAsItIsTold) {
-  auto robot = this->robot("45");
+  auto robot = this->robot("55");
   const HeelRun follower =
-      heelUntil(live({"--limit", "90", "--wait", "60"}, true), " follow", [this](pid_t) {
+      heelUntil(live({"--limit", "90", "--wait", "60"}, true), "s: follow", [this](pid_t) {
         EXPECT_TRUE(obeys("go", "any", "moves"));
         EXPECT_TRUE(obeys("pause", "paused", "stands"));
         EXPECT_TRUE(obeys("dance", "any", "stands"));
@@ -107,7 +108,7 @@ TEST_P(Live, ARobotOnTheNetworkLearnsAPersonFollowsThemAndDoesAsItIsTold) {
   EXPECT_THAT(follower.warnings(), testing::Contains(HasSubstr("'dance' is not known; it takes")));
   EXPECT_THAT(follower.err, HasSubstr("/camera/left/image_rect_color"));
   EXPECT_THAT(follower.err, testing::Not(HasSubstr("nobody hears")));
-  EXPECT_THAT(follower.err, HasSubstr("follow"));
+  EXPECT_THAT(follower.err, HasSubstr("s: follow"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "live/report.html"));
   std::smatch drove;
   ASSERT_TRUE(std::regex_search(world.out, drove, std::regex("drove ([0-9.]+) m by ([0-9]+) ")))
