@@ -4,7 +4,8 @@
 /// @file
 /// Calibration files of stereo pairs, in the formats that people have.
 ///
-/// Every reader throws std::runtime_error with one sentence that names the file and the reason.
+/// Every reader throws std::runtime_error with one sentence that names the file and the reason; and
+/// std::invalid_argument if it is given no file.
 #pragma once
 
 #include <heel/cloud/stereo_rig.hpp>

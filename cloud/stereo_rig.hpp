@@ -44,10 +44,12 @@ class StereoRig {
   /// Cameras whose rectification is known (R and P are set; the right P has the baseline).
   /// @param origin  Where the figures come from, for messages: a file's name.
   /// @throws std::runtime_error  with one sentence, if there is no baseline, the cameras are
-  ///         swapped or stand above each other, or the size is not given.
+  ///         swapped or stand above each other, the size is not given, or a distortion is not
+  ///         known.
   StereoRig(RawCamera left, RawCamera right, cv::Size image_size, const std::string& origin);
 
   /// Images that are rectified already.
+  /// @throws std::invalid_argument  if there is no baseline.
   explicit StereoRig(const StereoCamera& camera);
 
   /// What rectified images measure.

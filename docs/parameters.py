@@ -155,8 +155,8 @@ def make_page():
         "`heel::FollowerParams params; params.near_m = 0.8; heel::Follower follower(robot, walls, "
         "plan, start, params);`. A value",
         "out of its range throws `std::invalid_argument`. The `heel` command uses the defaults, "
-        "except where it has an option, and in `heel follow` where `--config` names a file: `heel config "
-        "> robot.yaml` prints one,",
+        "except where it has an option, or `--config` of `heel follow`, `heel live` and `heel experiment follow` "
+        "names a file: `heel config > robot.yaml` prints one,",
         f"with the robot and the first {first}.",
         "A *share* is a part of a whole, from 0 to 1; a parameter without a unit is a plain "
         "number.",

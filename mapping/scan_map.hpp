@@ -21,8 +21,8 @@ struct ScanMapParams {
 };
 
 /// Counts, cell by cell, the beams that ended in it and those that went through it (the counting
-/// model of Haehnel and others; it forgets nothing, so that what moves is outvoted). Grows as the
-/// robot goes.
+/// model of Haehnel and others; it forgets nothing, so that what moves is outvoted). Beams without
+/// an echo are left out. Grows as the robot goes.
 class ScanMap {
  public:
   /// @throws std::invalid_argument  if a parameter is out of range.

@@ -27,6 +27,7 @@ class ClearanceMap {
   /// Lays this layer in place of the last one; a cell is blocked where a disc, or an occupied cell
   /// of `cells` (which may have another cell size), covers a part of it.
   /// @return  the cells whose distance has changed, until the next call.
+  /// @throws std::invalid_argument  if a disc is not finite.
   const std::vector<int>& setLayer(const std::vector<FloorDisc>& discs,
                                    const OccupancyGrid* cells = nullptr);
 

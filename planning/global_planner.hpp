@@ -80,6 +80,7 @@ class GlobalPlanner {
 
   /// Takes these, in place of those before, as blocked besides the map: discs, and the occupied
   /// cells of a grid, which may be smaller and of another cell size.
+  /// @throws std::invalid_argument  if a disc is not finite.
   void setObstacles(const std::vector<FloorDisc>& discs, const OccupancyGrid* cells = nullptr);
 
   /// @param start,goal  World [m].

@@ -13,7 +13,7 @@ namespace heel {
 
 /// A condition over named facts: `near`, `not near`, `and targetSeen (not near)`, `or a b c`.
 /// Operators stand in front, as in Petri Net Plans; what has operands of its own is in parentheses.
-/// An empty guard always holds.
+/// A guard without a text always holds; an empty text is an error.
 class PlanGuard {
  public:
   PlanGuard() = default;

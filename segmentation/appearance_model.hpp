@@ -95,8 +95,7 @@ struct Separability {
 
 /// The appearance of one person: counted colours, and the tables that follow from them.
 ///
-/// A value type. It keeps the counts, so that two models of a person can be merged, and errors be
-/// counted, long after phase 1.
+/// A value type. It keeps the counts, so that errors can be counted long after phase 1.
 class AppearanceModel {
  public:
   /// @param person  Counts of each of `params.bands`, in their order.

@@ -76,8 +76,8 @@ struct ColorClusters {
 
 /// Parts `colors` into at most `count` groups by k-means on the logarithms of the channels.
 ///
-/// Deterministic: starts from the colours that lie furthest from each other, weighed by how often
-/// they were seen.
+/// Deterministic: starts from their mean and the colours that lie furthest from it and each other,
+/// weighed by how often they were seen.
 /// @throws std::invalid_argument  if `count` is not positive or `colors` is empty.
 ColorClusters clusterColors(const ColorHistogram& colors, int count);
 

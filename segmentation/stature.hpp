@@ -26,7 +26,7 @@ struct Stature {
 class StatureSample {
  public:
   static constexpr double kLeastHeight_m = 1.2;  ///< What is lower is not looked at.
-  static constexpr double kMostHeight_m = 2.3;   ///< Nor what is higher.
+  static constexpr double kMostHeight_m = 2.3;   ///< Nor what is higher, by who adds points.
   static constexpr int kEdge_px = 8;             ///< Stereo has no depth in the outermost few.
   static constexpr int kMinPoints = 60;
   static constexpr double kAbove_m = 0.1;  ///< So far above them is looked at what is behind.

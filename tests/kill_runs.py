@@ -8,7 +8,8 @@
 Each run replaces results that are there already. Whatever happens to it:
 
   - the results are those that were there, or the run's own, whole: the same bytes as an undisturbed
-    run gives (but for times and films, which differ from run to run);
+    run gives (but for times and films, which differ from run to run). Each verb is called in two
+    ways with other results, so a mixture of both would be seen;
   - files of somebody else, in the folder and beside it, stay as they are;
   - the next run works, and nothing of the one before is left;
   - a run that was asked to stop ends with 130, and what it wrote says that it is not complete; one
@@ -81,23 +82,29 @@ def content(folder):
 class Verb:
     """A verb with its own folder, in which its results are."""
 
-    def __init__(self, heel, folder, name, call, results="out", shared=False):
-        """`shared`: somebody's file is among the results, too."""
+    def __init__(self, heel, folder, name, call, other, results="out", shared=False):
+        """`other`: what is added to the call for other results. `shared`: somebody's file is among
+        the results, too."""
         self.name, self.folder = name, folder / (name + "_shared" if shared else name)
         self.folder.mkdir()
         self.out = self.folder / results
-        self.call = [heel, name, *[str(word) for word in call], "--out", str(self.out)]
+        first = [heel, name, *[str(word) for word in call], "--out", str(self.out)]
+        self.calls = [first, [*first, *other]]
         self.mine = [self.folder / "mine.txt"] + ([self.out / "mine.txt"] if shared else [])
         for mine in self.mine:
             mine.parent.mkdir(exist_ok=True)
             mine.write_text("somebody's")
-        started = time.monotonic()
-        self.finish()
-        self.duration_s = time.monotonic() - started
-        self.reference = content(self.folder)
+        self.references = []
+        for way in range(2):
+            started = time.monotonic()
+            self.finish(way)
+            self.duration_s = time.monotonic() - started
+            self.references.append(content(self.folder))
+        if self.references[0] == self.references[1]:
+            raise Fault(f"{name}: both calls have the same results")
 
-    def start(self, **more):
-        return subprocess.Popen(self.call, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    def start(self, way, **more):
+        return subprocess.Popen(self.calls[way], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                                 errors="replace", **more)
 
     def clear(self):
@@ -105,20 +112,23 @@ class Verb:
         for kept in self.folder.glob("*.[0-9]*"):
             shutil.rmtree(kept)
 
-    def finish(self):
-        run = subprocess.run(self.call, capture_output=True, text=True, errors="replace")
+    def finish(self, way):
+        run = subprocess.run(self.calls[way], capture_output=True, text=True, errors="replace")
         if run.returncode != 0:
             raise Fault(f"{self.name}: the next run failed ({run.returncode}): {run.stderr[-300:]}")
 
-    def check(self, what):
-        """The results are whole, and other people's files are there."""
+    def check(self, what, ways=(0, 1)):
+        """The results are whole, of one of the ways, and other people's files are there."""
         for mine in self.mine:
             if not mine.exists() or mine.read_text() != "somebody's":
                 raise Fault(f"{self.name}, {what}: somebody's file is gone or changed")
         found = {name: value for name, value in content(self.folder).items()
                  if ".heel-part/" not in name and not is_aside(name)}
-        if found != self.reference:
-            wrong = sorted(set(found.items()) ^ set(self.reference.items()))[:6]
+        self.check_whole(found, what, ways)
+
+    def check_whole(self, found, what, ways):
+        if all(found != self.references[way] for way in ways):
+            wrong = sorted(set(found.items()) ^ set(self.references[ways[0]].items()))[:6]
             raise Fault(f"{self.name}, {what}: the results are not whole: {wrong}")
 
     def check_aside(self, what):
@@ -140,7 +150,7 @@ def is_aside(name):
 def killed(verb, draw):
     """One run that a signal meets at a random moment."""
     name = draw.choice(["SIGKILL", "SIGTERM", "SIGINT"])
-    run = verb.start()
+    run = verb.start(draw.randrange(2))
     # Half of them about the end, where the results get their place.
     time.sleep(verb.duration_s * draw.uniform(draw.choice([0.0, 0.8]), 1.1))
     run.send_signal(getattr(signal, name))
@@ -158,7 +168,7 @@ def killed(verb, draw):
 
 def twice(verb, _):
     """Two runs at once: one says so, or comes after the other."""
-    runs = [verb.start(), verb.start()]
+    runs = [verb.start(0), verb.start(1)]
     ends = []
     for run in runs:
         _, err = run.communicate(timeout=240)
@@ -174,22 +184,26 @@ def twice(verb, _):
 
 def full(verb, draw, mounts):
     """One run on a disk that is full at a random moment."""
-    size = draw.choice([4, 16, 64, 256]) * 1024
+    size, way = draw.choice([4, 16, 64, 256, 4096]) * 1024, draw.randrange(2)
     if mounts:
-        disk = verb.folder.parent / "disk"
+        disk, copy = verb.folder.parent / "disk", verb.folder.parent / "copy"
         disk.mkdir(exist_ok=True)
-        call = [str(disk / verb.out.name) if word == str(verb.out) else word for word in verb.call]
-        # What is there when the run has ended is told by ls; without the mount it would be gone.
-        script = ('mount -t tmpfs -o size="$1" none "$2" && shift && d="$1" && shift && "$@" >&2; '
-                  'code=$?; ls -A "$d"; exit $code')
-        run = subprocess.run([*mounts, "sh", "-c", script, "sh", str(size), str(disk), *call],
-                             capture_output=True, text=True, errors="replace", timeout=240)
-        left = [name for name in run.stdout.split() if name != verb.out.name]
-        if run.returncode == 1 and left:
-            raise Fault(f"{verb.name}, full disk: left {left}")
+        shutil.rmtree(copy, ignore_errors=True)
+        call = [str(disk / verb.out.name) if word == str(verb.out) else word
+                for word in verb.calls[way]]
+        # Without the mount, what is there when the run has ended would be gone.
+        script = ('mount -t tmpfs -o size="$1" none "$2" && d="$2" && copy="$3" && shift 3 && "$@"; '
+                  'code=$?; cp -r "$d" "$copy"; exit $code')
+        run = subprocess.run([*mounts, "sh", "-c", script, "sh", str(size), str(disk), str(copy),
+                              *call], capture_output=True, text=True, errors="replace", timeout=240)
+        if run.returncode == 0:
+            verb.check_whole(content(copy), "full disk", (way,))
+        elif any(copy.iterdir()):
+            raise Fault(f"{verb.name}, full disk: left {list(copy.iterdir())}")
     else:
-        run = verb.start(preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
-        run.stderr_text = run.communicate(timeout=240)[1]
+        run = verb.start(way, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE,
+                                                                    (size, size)))
+        run.communicate(timeout=240)
         verb.check("full disk")
         verb.check_clean("full disk")
     if run.returncode not in (0, 1):
@@ -246,14 +260,15 @@ def run_all(heel, folder, count, draw):
     work.mkdir()
     learn = ["--background", "3", "--person", "5"]
     verbs = [
-        Verb(heel, work, "track", [recording, "--model", model]),
-        Verb(heel, work, "track", [recording, "--model", model, "--no-film"], shared=True),
-        Verb(heel, work, "simulate", [short]),
-        Verb(heel, work, "follow", [scene, "--limit", "2"]),
-        Verb(heel, work, "filter", [clouds, "--negative", "--model", model]),
-        Verb(heel, work, "map", [scene]),
-        Verb(heel, work, "map", [scene], shared=True),
-        Verb(heel, work, "learn", [recording, *learn], "p.yaml"),
+        Verb(heel, work, "track", [recording, "--model", model], ["--to", "12"]),
+        Verb(heel, work, "track", [recording, "--model", model, "--no-film"], ["--to", "12"],
+             shared=True),
+        Verb(heel, work, "simulate", [short], ["--seed", "2"]),
+        Verb(heel, work, "follow", [scene, "--limit", "2"], ["--seed", "2"]),
+        Verb(heel, work, "filter", [clouds, "--model", model], ["--negative"]),
+        Verb(heel, work, "map", [scene], ["--resolution", "0.08"]),
+        Verb(heel, work, "map", [scene], ["--resolution", "0.08"], shared=True),
+        Verb(heel, work, "learn", [recording, *learn], ["--to", "12"], "p.yaml"),
     ]
     mounts = mount_call()
     counts = {}
@@ -264,9 +279,10 @@ def run_all(heel, folder, count, draw):
             what = (killed(verb, draw) if kind == "killed" else
                     twice(verb, draw) if kind == "twice" else full(verb, draw, mounts))
             if draw.random() < 0.25 or number >= count - len(verbs):
+                way = draw.randrange(2)
                 verb.clear()
-                verb.finish()
-                verb.check("the next run")
+                verb.finish(way)
+                verb.check("the next run", (way,))
                 verb.check_clean("the next run")
         except Fault as fault:
             print(f"run {number}: {fault}", file=sys.stderr)

@@ -51,7 +51,7 @@ struct ClutterDensity {
 /// that share of the time until now. Who is not known counts as both by their probabilities, so
 /// that to be there again at once makes them no more of a thing. A torus of cells of 0.25
 /// m, 40 m around: what is further apart shares them. Nothing further than 8 m from the camera is
-/// counted.
+/// looked at.
 class ClutterMap {
  public:
   /// @throws std::invalid_argument  if a parameter is out of its range.

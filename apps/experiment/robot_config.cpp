@@ -52,7 +52,7 @@ std::vector<Setting> settingsOf(RobotConfig& c) {
              "The camera looks down steeply, and the floor is not found: raise it.",
              {0.0, 1.5, true}),
       FOLLOW(perception.tracker.confirm_frames,
-             "Frames come at less than 4 Hz: lower it, and `confirm_hits` with it.",
+             "Frames come at less than 4 Hz: lower it, to 2 at the least.",
              {1, 100}),
       FOLLOW(perception.tracker.max_coast_s,
              "Tracks end too soon while somebody is hidden, or too late.",
@@ -170,6 +170,7 @@ RobotConfig loadRobotConfig(const std::string& file) {
   YamlMap top = YamlMap::fromFile(file, "robot's file");
   if (auto robot = top.map("robot", "robot")) {
     const bool tells_camera = robot->has("camera");
+    config.tells_laser = robot->has("laser");
     config.robot = readRobotItself(*robot);
     const CameraParams& camera = config.robot.camera;
     // Else its place is a default, of which the floor that is seen knows more.
@@ -196,7 +197,8 @@ std::string toYaml(const RobotConfig& config) {
   RobotConfig copy = config;
   const std::vector<Setting> settings = settingsOf(copy);
   std::ostringstream out;
-  out << "# A robot, and how it follows: heel follow SCENE --config FILE.\n"
+  out << "# A robot, and how it follows: heel follow SCENE --config FILE, heel live --config "
+         "FILE.\n"
          "# What is left out has its default. Base frame: X ahead, Y left, Z up, on the floor.\n"
          "# With 'floor_camera: {}' it has a depth camera that looks at the floor, and sees "
          "steps.\n"

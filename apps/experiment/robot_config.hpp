@@ -16,6 +16,7 @@ namespace heel {
 /// The contents of a robot.yaml. What is absent there has its default.
 struct RobotConfig {
   RobotParams robot;               ///< `robot`, with the keys of a scene's robot but for its start.
+  bool tells_laser = false;        ///< Whether `robot` has a `laser`; else its place is a guess.
   CameraSetupParams camera_setup;  ///< `camera_setup`: of a log's camera.
   FollowerParams follow;           ///< `follow`: some of them, named as they are in the struct.
 };

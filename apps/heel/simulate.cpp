@@ -111,7 +111,7 @@ void addSimulate(CLI::App& app) {
       "tells where it really was.");
   verb->add_option(
           "SCENE", options->scene,
-          "a scene's name (wardrobe, pair, home, office, corridor, crowd) or its YAML file")
+          "a scene's name (wardrobe, pair, home, office, corridor, crowd, poster) or its YAML file")
       ->required();
   CLI::Option* out = verb->add_option("--out", options->simulate.out, "folder for the recording");
   addNetwork(*verb, options->live.network);
@@ -129,7 +129,8 @@ void addSimulate(CLI::App& app) {
   verb->add_option(
       "--bag", options->simulate.bag,
       "also write a bag: NAME.bag for ROS 1; NAME.mcap, NAME.db3, or a folder, for ROS 2");
-  verb->add_option("--duration", options->simulate.duration_s, "instead of the scene's own [s]")
+  verb->add_option("--duration", options->simulate.duration_s,
+                   "instead of the scene's own, or of 600 with --live [s]")
       ->check(CLI::Range(0.01, 1e6));
   verb->add_option("--seed", options->simulate.seed, "of noise and of people's ways")
       ->capture_default_str();

@@ -55,7 +55,7 @@ struct TruthRow {
   std::size_t frame = 0;
   std::string person;
   Eigen::Vector2d position_m = Eigen::Vector2d::Zero();
-  bool exact = true;  ///< False where the place is interpolated.
+  bool exact = true;  ///< False where less than a quarter of them is seen.
 };
 
 /// tracks.csv, frames.csv and timing.csv of a run, written as it goes on.

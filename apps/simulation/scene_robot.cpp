@@ -139,7 +139,7 @@ void visit(Keys& keys, Part& p) {
   } else {
     auto& drive = p.drive;
     keys.number("radius_m", drive.radius_m, kPositive,
-                "[m] of a round robot; or footprint: its corners, as Nav2's");
+                "[m] of a round robot; or, for these three, footprint: its corners, as Nav2's");
     keys.number("front_m", drive.front_m, {-5.0, 5.0},
                 "[m] a long body's disc is drawn ahead to here,");
     keys.number("back_m", drive.back_m, {-5.0, 5.0}, "[m] and back to here");

@@ -35,6 +35,8 @@ TEST_P(Help, NamesNoNumberThatMayBeInfinite) {
   // "--cell FLOAT", "--start X,Y", but not "--out TEXT".
   const std::regex number("\n  (--[a-z-]+) (FLOAT|INT|UINT|K:INT|X|X0|LOW|SIZE)\\b");
   const std::string help = heel(GetParam(), {"--help"}).out;
+  const bool has_numbers = help.find("--max-memory") != std::string::npos;
+  EXPECT_EQ(std::regex_search(help, number), has_numbers);
   for (std::sregex_iterator option(help.begin(), help.end(), number), end; option != end;
        ++option) {
     for (const std::string bad : {"nan", "1e999"}) {

@@ -202,4 +202,12 @@ std::vector<std::string> filesBelow(const std::filesystem::path& folder) {
   return names;
 }
 
+std::map<std::string, std::size_t> contentOf(const std::filesystem::path& folder) {
+  std::map<std::string, std::size_t> content;
+  for (const std::string& name : filesBelow(folder)) {
+    content[name] = std::hash<std::string>{}(readText(folder / name));
+  }
+  return content;
+}
+
 }  // namespace heel::test

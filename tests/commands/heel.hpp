@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -73,5 +74,8 @@ nlohmann::json summaryIn(const std::filesystem::path& folder);
 /// Names of all files below a folder but manifests, hidden ones too, sorted; empty if there is no
 /// folder.
 std::vector<std::string> filesBelow(const std::filesystem::path& folder);
+
+/// Those, each with a hash of its bytes.
+std::map<std::string, std::size_t> contentOf(const std::filesystem::path& folder);
 
 }  // namespace heel::test

@@ -122,7 +122,7 @@ TEST_P(Live, WithoutARobotItSaysWhatIsMissing) {
   EXPECT_TRUE(failsWith(heel(live({"--wait", "1"})), {"nothing is sent on the network"}));
 }
 
-TEST_P(Live, WhenTheRobotIsGoneItStandsAndSaysSo) {
+TEST_P(Live, SaysThatTheRobotIsGone) {
   auto robot = this->robot("4");
   const HeelRun follower = heel(live({"--limit", "12", "--wait", "60"}));
   ASSERT_TRUE(succeeds(robot.get()));
@@ -173,7 +173,7 @@ TEST_P(LiveByRoscore, WithoutItItSaysSo) {
   EXPECT_TRUE(failsWith(heel(live({})), {"ROS_MASTER_URI must be like http://localhost:11311"}));
 }
 
-TEST_P(LiveByRoscore, WhenItIsGoneTheRobotStandsAndThenGoesOn) {
+TEST_P(LiveByRoscore, SaysThatItIsGoneAndGoesOnWhenItIsBack) {
   auto robot = this->robot("20");
   const HeelRun follower = heelUntil(live({"--limit", "12", "--wait", "60"}), "learn", [&](pid_t) {
     roscore_->stop();

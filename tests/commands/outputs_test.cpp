@@ -17,7 +17,7 @@
 
 #include <csignal>
 #include <functional>
-#include <map>
+#include <regex>
 
 namespace heel::test {
 namespace {
@@ -32,15 +32,6 @@ const std::string kOutputScene =
     hallScene("1", R"({name: "Rosa, the \"first\"", height_m: 1.8, start: [3, -0.5],
      outfit: {top: {color: red}, trousers: {color: charcoal}}, path: [{to: [3, 0.8]}]})",
               "{at: [0.05, 0.06, 1.13], pitch_deg: 5.7, width: 160, height: 120, view_deg: 60}");
-
-/// All files below a folder, and what is in them, made short for messages.
-std::map<std::string, std::size_t> contentOf(const fs::path& folder) {
-  std::map<std::string, std::size_t> content;
-  for (const std::string& name : filesBelow(folder)) {
-    content[name] = std::hash<std::string>{}(readText(folder / name));
-  }
-  return content;
-}
 
 class Outputs : public testing::Test {
  protected:
@@ -161,6 +152,12 @@ TEST_F(Outputs, OfAShortFollowHoldNoNan) {
       {"follow", folder_ / "hall.yaml", "--limit", "0.5", "--no-film", "--out", folder_ / "out"});
   EXPECT_TRUE(succeeds(run));
   EXPECT_THAT(run.out, Not(HasSubstr("nan")));
+  const std::regex no_number("[:,\\[ ]-?(nan|inf)[,\\]}\n]", std::regex::icase);
+  for (const char* file : {"summary.json", "follow.csv"}) {
+    const std::string text = readText(folder_ / "out" / file);
+    EXPECT_FALSE(text.empty()) << file;
+    EXPECT_FALSE(std::regex_search(text, no_number)) << file;
+  }
 }
 
 TEST_F(Outputs, OfAKilledRunAreNoneAndDoNotStopTheNext) {

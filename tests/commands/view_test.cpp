@@ -41,11 +41,11 @@ TEST_F(View, WithAModelShowsTheSameBytesEachTime) {
     EXPECT_TRUE(succeeds(heel({"view", folder_ / "room", "--model", folder_ / "person.yaml",
                                "--out", folder_ / out, "--pictures", "0"})));
   }
-  const auto names = filesBelow(folder_ / "a");
-  EXPECT_THAT(names, SizeIs(13));
-  for (const auto& name : names) {
-    EXPECT_EQ(readText(folder_ / "a" / name), readText(folder_ / "b" / name)) << name;
-  }
+  EXPECT_TRUE(
+      succeeds(heel({"view", folder_ / "room", "--out", folder_ / "without", "--pictures", "0"})));
+  EXPECT_THAT(filesBelow(folder_ / "a"), SizeIs(13));
+  EXPECT_TRUE(contentOf(folder_ / "a") == contentOf(folder_ / "b"));
+  EXPECT_FALSE(contentOf(folder_ / "a") == contentOf(folder_ / "without"));
 }
 
 TEST_F(View, WithoutADisplayAsksForAFolder) {

@@ -44,7 +44,7 @@ auto fromFile(const char* name, const Read& read) {
   return [=](const fs::path& folder, const std::string& bytes) { read(put(folder, name, bytes)); };
 }
 
-auto seed(const char* text) {
+auto seed(const std::string& text) {
   return [=](const fs::path&) { return Seeds{text}; };
 }
 
@@ -71,17 +71,42 @@ void readLog(const fs::path& file) {
   for (LaserReading reading; log->next(reading);) continue;
 }
 
+/// All of it, as a recording if it has a camera, and as a log if it has not.
 void readBag(const fs::path& file) {
   surveyBag(file);
   const auto bag = openBag(file);
   for (BagMessage raw; bag->next(raw);) continue;
+  std::unique_ptr<Recording> recording;
   try {
-    const auto recording = openRecording(file);
-    for (Frame frame; recording->next(frame);) continue;
+    recording = openRecording(file);
   } catch (const std::runtime_error&) {
-    // It may hold scans, nevertheless.
+    return readLog(file);
   }
-  readLog(file);
+  for (Frame frame; recording->next(frame);) continue;
+  if (!recording->skipped().empty()) throw std::runtime_error(recording->skipped()[0].reason);
+}
+
+/// A message that its readers take.
+template <class Message>
+Message sound() {
+  Message message = filled<Message>();
+  const cv::Mat image(3, 4, CV_8UC3, cv::Scalar(1, 2, 3));
+  if constexpr (std::is_same_v<Message, PointCloud2Msg>) {
+    ColorCloud cloud;
+    cloud.push_back({1.0F, 2.0F, 3.0F, 4, 5, 6});
+    message = toCloudMsg(cloud);
+  } else if constexpr (std::is_same_v<Message, ImageMsg>) {
+    message.width = 4;
+    message.height = 3;
+    message.encoding = "bgr8";
+    message.is_bigendian = 0;
+    message.step = 12;
+    message.data.assign(image.datastart, image.dataend);
+  } else if constexpr (std::is_same_v<Message, CompressedImageMsg>) {
+    message.format = "png";
+    cv::imencode(".png", image, message.data);
+  }
+  return message;
 }
 
 Seeds bagSeeds(const fs::path& folder, const std::string& ending) {
@@ -96,16 +121,23 @@ Seeds bagSeeds(const fs::path& folder, const std::string& ending) {
     for (; frame.stamp_s < 0.3; frame.stamp_s += 0.1) bag.add(frame);
     bag.commit();
   };
+  const auto drawCloud = [](const fs::path& file) {
+    RecordingInfo info;
+    info.sensor = SensorKind::kCloud;
+    SensorBag bag(file, info);
+    Frame frame;
+    frame.cloud = toColorCloud(sound<PointCloud2Msg>());
+    bag.add(frame);
+    bag.commit();
+  };
   const auto drawOthers = [](const fs::path& file) {
     const auto bag = createBag(file);
-    bag->write("/image", 1, filled<ImageMsg>());
     bag->write("/scan", 2, filled<LaserScanMsg>());
     bag->write("/odom", 3, filled<OdometryMsg>());
     bag->write("/tf", 4, filled<TFMessageMsg>());
-    bag->write("/points", 5, filled<PointCloud2Msg>());
     bag->commit();
   };
-  return {drawn(folder, "camera" + ending, drawCamera),
+  return {drawn(folder, "camera" + ending, drawCamera), drawn(folder, "cloud" + ending, drawCloud),
           drawn(folder, "others" + ending, drawOthers)};
 }
 
@@ -145,7 +177,7 @@ struct MessageList {
   template <class Message>
   static std::string seedOf(BagForm form, std::size_t i) {
     std::vector<std::uint8_t> bytes;
-    writeMessage(form, filled<Message>(), bytes);
+    writeMessage(form, sound<Message>(), bytes);
     return std::string(1, static_cast<char>(i)) + std::string(bytes.begin(), bytes.end());
   }
 };
@@ -195,12 +227,15 @@ Seeds stereoSeeds(const fs::path& folder) {
           stored("rectified.json", rectified)};
 }
 
-const char* const kCameraInfo =
-    "image_width: 64\nimage_height: 48\ndistortion_model: plumb_bob\n"
-    "camera_matrix: {rows: 3, cols: 3, data: [90, 0, 32, 0, 90, 24, 0, 0, 1]}\n"
-    "distortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n"
-    "rectification_matrix: {rows: 3, cols: 3, data: [1, 0, 0, 0, 1, 0, 0, 0, 1]}\n"
-    "projection_matrix: {rows: 3, cols: 4, data: [90, 0, 32, -9, 0, 90, 24, 0, 0, 0, 1, 0]}\n";
+/// @param t_x  The first row's last number: 0 of a left camera, -f b of a right one.
+std::string cameraInfo(const std::string& t_x) {
+  return "image_width: 64\nimage_height: 48\ndistortion_model: plumb_bob\n"
+         "camera_matrix: {rows: 3, cols: 3, data: [90, 0, 32, 0, 90, 24, 0, 0, 1]}\n"
+         "distortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}\n"
+         "rectification_matrix: {rows: 3, cols: 3, data: [1, 0, 0, 0, 1, 0, 0, 0, 1]}\n"
+         "projection_matrix: {rows: 3, cols: 4, data: [90, 0, 32, " +
+         t_x + ", 0, 90, 24, 0, 0, 0, 1, 0]}\n";
+}
 
 AppearanceModel smallModel() {
   ColorHistogram person, room;
@@ -233,17 +268,18 @@ const std::vector<FuzzReader>& fuzzReaders() {
        [](const auto& f) { return stereoSeeds(f); }},
       {"camera_info",
        [](const auto& f, const auto& b) {
-         readCameraInfo(put(f, "left.yaml", kCameraInfo), put(f, "right.yaml", b));
+         readCameraInfo(put(f, "left.yaml", cameraInfo("0")), put(f, "right.yaml", b));
        },
-       seed(kCameraInfo)},
+       seed(cameraInfo("-9"))},
       {"model", fromFile("person.yaml", loadAppearance),
        [](const auto& f) {
          return Seeds{
              drawn(f, "seed.yaml", [](const auto& file) { saveAppearance(smallModel(), file); })};
        }},
       {"scene", fromFile("a.yaml", [](const auto& file) { loadScene(file.string()); }),
-       seed("name: small\nwalls:\n  - {from: [0, 0], to: [4, 0]}\n"
-            "people:\n  - {name: ann, height_m: 1.7, at: [1, 1]}\n")},
+       seed("name: small\nwalls:\n  - {from: [0, 0], to: [4, 0]}\n  - {from: [4, 0], to: [0, 4]}\n"
+            "  - {from: [0, 4], to: [0, 0]}\n"
+            "people:\n  - {name: ann, height_m: 1.7, start: [1, 1]}\nrobot: {start: [2, 1]}\n")},
       {"map",
        [](const auto& f, const auto& b) {
          put(f, "seed.pgm", "P5\n3 2\n255\nabcdef");

@@ -102,25 +102,27 @@ struct LongGate : Gate {
     params.sight.T_base_scanner.position = {0.3, 0.0};
     gate = LastGate(params);
   }
-  /// Sees the wall from where the robot is.
-  void look(const FloorPose& base, double now_s, double view_rad) {
+  /// Sees the wall from where the robot is, or that it is not there.
+  void look(const FloorPose& base, double now_s, double view_rad, bool is_wall_there = true) {
     LaserScan scan;
     scan.first_rad = -0.5 * view_rad;
     scan.step_rad = view_rad / 720.0;
     const double off_m = 0.27 - (base * Eigen::Vector2d(0.3, 0.0)).y();
     for (std::size_t i = 0; i < 720; ++i) {
       const double sine = std::sin(base.yaw_rad + scan.angle(i));
-      scan.ranges_m.push_back(static_cast<float>(sine > 0.05 ? off_m / sine : kInfinite));
+      const bool meets = is_wall_there && sine > 0.05;
+      scan.ranges_m.push_back(static_cast<float>(meets ? off_m / sine : kInfinite));
     }
     gate.addScan(scan, base, now_s);
   }
 };
 
-/// How far it turns from there if it is asked to for 3 s.
-double turned(LongGate& at, double turn_radps, double now_s, double view_rad) {
+/// How far it turns from there if it is asked to for 3 s, beside the wall or where it is no more.
+double turned(LongGate& at, double turn_radps, double now_s, double view_rad,
+              bool is_wall_there = true) {
   DriveState state;
   for (int i = 0; i < 30; ++i, now_s += 0.1) {
-    at.look(state.pose, now_s, view_rad);
+    at.look(state.pose, now_s, view_rad, is_wall_there);
     const GatedVelocity out = at.gate.pass({0.0, turn_radps}, state, 0.0, now_s);
     state = driven({}, state, out.velocity, 0.1);
   }
@@ -144,8 +146,12 @@ TEST(LastGate, KnowsWhatStandsBesideALongBodyUntilItLooksThereAgain) {
   LongGate at(kPi);
   for (int i = 0; i <= 12; ++i) at.look({{0.1 * i - 1.2, 0.0}, 0.0}, 11.0 + 0.3 * i, kPi);
   for (int i = 0; i <= 100; ++i) at.look({}, 15.0 + 0.1 * i, kPi);
-  EXPECT_LT(turned(at, -1.0, 26.0, kPi), std::asin((0.27 - 0.22) / 0.3))
-      << "its back would swing into the wall";
+  const double free_rad = std::asin((0.27 - 0.22) / 0.3);
+  const double turned_rad = turned(at, -1.0, 26.0, kPi);
+  EXPECT_LT(turned_rad, free_rad) << "its back would swing into the wall";
+  EXPECT_GT(turned_rad, 0.3 * free_rad);
+  EXPECT_GT(turned(at, -1.0, 30.0, 2.0 * kPi, false), 2.0 * free_rad)
+      << "it looks there again, and the wall is gone";
 }
 
 TEST(LastGate, DrivesAwayFromWhatItTouches) {

@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
 #include <stdexcept>
+#include <string>
 
 namespace heel {
 namespace {
@@ -51,6 +53,10 @@ TEST(GeometricGate, EveryVerdictHasItsOwnText) {
   EXPECT_STREQ(toText(GateVerdict::kBehindWall), "behind a wall");
   EXPECT_STREQ(toText(GateVerdict::kInsideWall), "inside a wall");
   EXPECT_STREQ(toText(GateVerdict::kTooClose), "too close");
+  std::set<std::string> texts;
+  for (std::size_t i = 0; i < kGateVerdicts; ++i) texts.insert(toText(static_cast<GateVerdict>(i)));
+  EXPECT_EQ(texts.size(), kGateVerdicts);
+  EXPECT_EQ(texts.count(""), 0U);
 }
 
 }  // namespace

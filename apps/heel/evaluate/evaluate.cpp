@@ -156,8 +156,10 @@ void addEvaluate(CLI::App& app) {
   verb->add_option("--distance", options->params.match_distance_m,
                    "how far an estimate may be from a person to count [m]")
       ->capture_default_str();
-  verb->add_option("--from", options->params.from_s, "leave out what is before this stamp [s]");
-  verb->add_option("--to", options->params.to_s, "leave out what is after this stamp [s]");
+  verb->add_option("--from", options->params.from_s,
+                   "leave out what is before this stamp [s], not so long after the beginning");
+  verb->add_option("--to", options->params.to_s,
+                   "leave out what is after this stamp [s], as --from");
   verb->add_option("--out", options->out, "write the figures as JSON to this file");
   verb->callback([options] { run(*options); });
 }

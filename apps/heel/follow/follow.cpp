@@ -132,8 +132,10 @@ ShadowParams shadowOf(const FollowOptions& options, const std::optional<RobotCon
   params.map = openLogMap(options.map);
   if (config) {
     params.config = *config;
-    const RobotDescription robot = describeRobot(config->robot);
-    params.map.setScanner(robot.T_base_scanner, robot.scanner_height_m);
+    if (config->tells_laser) {
+      const RobotDescription robot = describeRobot(config->robot);
+      params.map.setScanner(robot.T_base_scanner, robot.scanner_height_m);
+    }
   }
   if (!options.model.empty()) params.model = loadAppearance(options.model);
   if (options.has_limit) params.limit_s = options.loop.limit_s;

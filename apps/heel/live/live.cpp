@@ -162,7 +162,7 @@ void run(const LiveOptions& options) {
     map.walls = std::make_shared<const WallMap>(extruded(grid));
   }
   const RobotDescription described = describeRobot(config.robot);
-  if (!options.config.empty()) {
+  if (config.tells_laser) {
     map.setScanner(described.T_base_scanner, described.scanner_height_m);
   }
   const FoundRobot found = waitForRobot(*network, commands, options, config,
@@ -316,7 +316,8 @@ void addLive(CLI::App& app) {
   verb->add_option("--plan", options->plan,
                    "what to do when the person is lost: 'paper', 'search', or a PNML file")
       ->capture_default_str();
-  verb->add_option("--out", options->out, "folder for the results of a robot's run");
+  verb->add_option("--out", options->out,
+                   "folder for the results of a robot's run; needed without --camera");
   verb->add_flag("--dry", options->dry, "send no velocities");
   verb->add_option("--wait", options->wait_s, "for the robot, so long [s] (default: for ever)")
       ->check(isPositive);

@@ -47,9 +47,11 @@ fs::path robotFile(const std::string& robot) {
 }
 
 void addRobotConfig(CLI::App& verb, std::string& robot) {
-  verb.add_option("--config", robot,
-                  "the robot and how it follows: a name (turtlebot4, tiago, ...) or a YAML file, "
-                  "as 'heel config' prints one (default: the scene's robot)");
+  verb.add_option(
+      "--config", robot,
+      "the robot and how it follows: a name (turtlebot4, tiago, ...) or a YAML file, "
+      "as 'heel config' prints one (default: the scene's robot; of a log or on the network, what "
+      "'heel config' prints)");
 }
 
 void addLight(CLI::App& verb, std::string& light) {

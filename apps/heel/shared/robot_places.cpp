@@ -31,13 +31,14 @@ void addLogMap(CLI::App& verb, LogMapOptions& options, BagTopics& topics) {
   verb.add_option(
           "--robot-start", options.start,
           "where the robot is on the map at first [m, m, rad] (default: as tf's frame 'map' "
-          "or the truth tells, else it is looked for everywhere)")
+          "or the truth of a log tells, else it is looked for everywhere)")
       ->delimiter(',')
       ->expected(3)
       ->option_text("X,Y,YAW");
-  verb.add_option("--scanner", options.scanner,
-                  "the laser's place on the robot [m, m, rad] (default: the bag's, by tf, or the "
-                  "scene's, or 0,0,0)")
+  verb.add_option(
+          "--scanner", options.scanner,
+          "the laser's place on the robot [m, m, rad] (default: by tf, or as --config or the "
+          "scene of --map tells; else of a log 0,0,0, and 'live' waits)")
       ->delimiter(',')
       ->expected(3)
       ->option_text("X,Y,YAW");

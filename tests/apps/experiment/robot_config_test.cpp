@@ -104,6 +104,12 @@ TEST_F(RobotConfigFile, TellsWhereTheCameraIsIfItHasOne) {
                   .isApprox(Eigen::Vector3d(std::cos(pitch_rad), 0.0, -std::sin(pitch_rad))));
 }
 
+// Bug: any file stood for a laser's place, which the robot then did not wait to be told.
+TEST_F(RobotConfigFile, TellsOfALaserIfItHasOne) {
+  EXPECT_FALSE(read("robot: {radius_m: 0.3}").tells_laser);
+  EXPECT_TRUE(read("robot: {laser: {at: [0.1, 0, 0.2]}}").tells_laser);
+}
+
 TEST_F(RobotConfigFile, AnUnknownKeyIsNamedWithFileLineAndTheNearest) {
   const std::string error = errorOf("robot:\n  radius_m: 0.2\n  max_sped_mps: 0.4\n");
   EXPECT_THAT(error, HasSubstr(file_ + ", line 3: 'max_sped_mps' is not a key of the robot, and "

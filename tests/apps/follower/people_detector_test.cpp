@@ -48,6 +48,7 @@ TEST(PeopleDetector, PointsKnowTheirBlob) {
   PeopleDetector detector(ActedScene().camera, ActedScene::T_base_camera());
   const ActedScene scene = ActedScene().person(2.5, 0.0);
   const PeopleView& view = detector.detect(emptyStage(), scene.image, scene.depth);
+  ASSERT_FALSE(view.candidates->empty());
   for (const pcl::index_t i : *view.candidates) {
     EXPECT_EQ(detector.blobOf((*view.cloud)[static_cast<std::size_t>(i)]), 0);
   }

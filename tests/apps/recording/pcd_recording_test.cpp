@@ -180,6 +180,7 @@ TEST(RealClouds, AreToldApartByTheirColour) {
         << frame.name;
   }
   EXPECT_THAT(numbers, ElementsAre(1, 2, 3, 5, 8));
+  EXPECT_EQ(recording->skipped().size(), 3U);
   for (const auto& skipped : recording->skipped()) {
     EXPECT_THAT(skipped.reason, HasSubstr("the cloud has no colour"));
   }

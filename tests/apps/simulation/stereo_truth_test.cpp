@@ -20,6 +20,7 @@ namespace {
 
 /// What OpenCV's matcher makes of a wall straight ahead.
 struct WallStereo {
+  int pixels = 0;         ///< That were looked at.
   double density = 0.0;   ///< Share of pixels with a disparity.
   double median_m = 0.0;  ///< Median of |depth - truth|, of those.
   double spread_m = 0.0;  ///< Standard deviation of depth - truth, from the middle half.
@@ -58,6 +59,7 @@ WallStereo lookAt(const Scene& scene, double distance_m,
     }
   }
   WallStereo result;
+  result.pixels = pixels;
   result.pixel_m = distance_m * distance_m / fb;
   if (pixels == 0 || errors.empty()) return result;
   result.density = static_cast<double>(errors.size()) / pixels;
@@ -132,6 +134,7 @@ TEST(StereoTruth, GlareFailsAsRealGlareDoes) {
   const auto burnt_out = [](const cv::Vec3b& c) { return std::min({c[0], c[1], c[2]}) >= 254; };
   const WallStereo glare = lookAt(scene, 2.5, burnt_out);
   const WallStereo beside = lookAt(scene, 2.5, [&](const auto& c) { return c[1] < 200; });
+  EXPECT_GT(glare.pixels, 300);
   EXPECT_GT(beside.right(), 0.98);
   EXPECT_LT(glare.right(), 0.75);
 }
