@@ -148,19 +148,6 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
   layOut(scene, threatened, backs);
   plan.options = futures_.size();
 
-  const auto allow = [&](const std::vector<MovingPerson>& some, double walks_mps,
-                         double least_mps) {
-    const auto most = [&](const MovingPerson& person, double way) {
-      return std::max(allowedTowards(scene, person, walks_mps, way), least_mps);
-    };
-    for (const MovingPerson& person : some) {
-      most_ahead_mps_ = std::min(most_ahead_mps_, most(person, 1.0));
-      most_back_mps_ = std::min(most_back_mps_, most(person, -1.0));
-    }
-  };
-  most_ahead_mps_ = most_back_mps_ = kInfinite;
-  allow(people, params_.walks_mps, 0.0);
-  allow(hidden_, params_.appears_mps, params_.least_speed_mps);  // or it never passes a corner
   const double drives_mps = std::max(std::abs(speed.forward_mps), kStands_mps);
   double least = kInfinite;
   for (std::size_t i = 0; i < futures_.size(); ++i) {
@@ -172,7 +159,7 @@ LocalPlan LocalPlanner::step(const FloorPose& pose, const VelocityCommand& speed
     const DriveScores costs = driveCosts(params_.limits, params_.terms, scene, option);
     const double cost = total(costs, weights);
     if (!(cost < least)) continue;
-    const VelocityCommand command = slowed(futures_.commands[i], braking.gap_m);
+    const VelocityCommand command = slowed(scene, futures_.commands[i], braking.gap_m);
     if (std::abs(futures_.commands[i].forward_mps) > drives_mps && !drives(command)) continue;
     const bool stands = command.forward_mps == 0.0 && command.turn_radps == 0.0;
     if (!stands && !permits(command)) continue;
@@ -327,12 +314,19 @@ std::size_t LocalPlanner::measure(const DriveScene& scene, std::size_t option,
   return clear;
 }
 
-VelocityCommand LocalPlanner::slowed(const VelocityCommand& command, double gap_m) const {
+VelocityCommand LocalPlanner::slowed(const DriveScene& scene, const VelocityCommand& command,
+                                     double gap_m) const {
   const double most = params_.limits.max_speed_mps;
   const double share =
       params_.slow_gap_m > 0.0 ? std::clamp(gap_m / params_.slow_gap_m, 0.0, 1.0) : 1.0;
   double allowed = params_.least_speed_mps + share * (most - params_.least_speed_mps);
-  allowed = std::min(allowed, command.forward_mps < 0.0 ? most_back_mps_ : most_ahead_mps_);
+  for (const MovingPerson& person : *scene.people) {
+    allowed = std::min(allowed, allowedTowards(scene, person, params_.walks_mps, command));
+  }
+  for (const MovingPerson& person : hidden_) {
+    const double comes_mps = allowedTowards(scene, person, params_.appears_mps, command);
+    allowed = std::min(allowed, std::max(comes_mps, params_.least_speed_mps));  // past a corner
+  }
   const double speed = std::abs(command.forward_mps);
   if (speed <= allowed) return command;
   return {allowed / speed * command.forward_mps,
@@ -347,17 +341,22 @@ double LocalPlanner::comes(double speed_mps, double walks_mps, double in_s) {
 }
 
 // They may come straight at the robot, which drives on for reacts_s, brakes, and stands when they
-// are there.
+// are there. Until then it turns, and may look at them meanwhile.
 double LocalPlanner::allowedTowards(const DriveScene& scene, const MovingPerson& person,
-                                    double walks_mps, double way) const {
+                                    double walks_mps, const VelocityCommand& command) const {
   const DriveLimits& limits = params_.limits;
   const FloorPose& pose = scene.now.pose;
   const Vector2d to = person.position - axisOf(limits, pose).nearest(person.position);
-  const double away_m = to.norm();
-  const double towards = way * to.dot(Vector2d(std::cos(pose.yaw_rad), std::sin(pose.yaw_rad)));
-  if (!(towards > 0.0)) return kInfinite;
+  const double away_m = to.norm(), brakes_mps2 = limits.max_braking_mps2;
+  const double way = command.forward_mps < 0.0 ? -1.0 : 1.0;
+  const Vector2d ahead = way * Vector2d(std::cos(pose.yaw_rad), std::sin(pose.yaw_rad));
+  const double bearing = std::atan2(ahead.x() * to.y() - ahead.y() * to.x(), ahead.dot(to));
+  const double turns =
+      command.turn_radps * (params_.reacts_s + std::abs(command.forward_mps) / brakes_mps2);
+  const double share =
+      std::cos(bearing - std::clamp(bearing, std::min(turns, 0.0), std::max(turns, 0.0)));
+  if (!(share > 0.0)) return kInfinite;
   const double comes_mps = person.gait_mps - person.velocity.dot(to) / away_m;
-  const double share = towards / away_m, brakes_mps2 = limits.max_braking_mps2;
   const double room_m = away_m - limits.radius_m - person.radius_m;
   const auto stands = [&](double speed_mps) {
     const double brakes_s = speed_mps / brakes_mps2;

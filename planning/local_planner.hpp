@@ -133,10 +133,11 @@ class LocalPlanner {
   void layOut(const DriveScene& scene, bool threatened, bool backs);
   Braking brake(const DriveScene& scene, const VelocityCommand& command, Clearance clearance) const;
   std::size_t measure(const DriveScene& scene, std::size_t option, Clearance clearance);
-  VelocityCommand slowed(const VelocityCommand& command, double gap_m) const;
+  VelocityCommand slowed(const DriveScene& scene, const VelocityCommand& command,
+                         double gap_m) const;
   static double comes(double speed_mps, double walks_mps, double in_s);
   double allowedTowards(const DriveScene& scene, const MovingPerson& person, double walks_mps,
-                        double way) const;
+                        const VelocityCommand& command) const;
   void explain(const DriveScene& scene, LocalPlan& plan, bool threatened, double elapsed_s);
 
   LocalPlannerParams params_;
@@ -148,7 +149,6 @@ class LocalPlanner {
   double backs_s_ = 0.0;   // so long a long body still backs off
   double gap_m_ = 0.0;
   std::vector<MovingPerson> hidden_;
-  double most_ahead_mps_ = 0.0, most_back_mps_ = 0.0;  // towards people
   PathAhead path_;
   Trajectories futures_;
   std::vector<double> gaps_m_;         // Of the future at hand, per step.

@@ -83,19 +83,25 @@ void PeopleAround::addTracks(double stamp_s, const Perception& perception, Situa
   }
 }
 
-// Who came of late to where the laser had seen nothing, and is no track: who stands close before
-// the robot is no person to the camera.
+// Who came of late to where the laser had seen nothing: who stands close before the robot is no
+// person to the camera. A track is late, and its place is none of where they are now: who has one
+// is there twice.
 void PeopleAround::addComers(const RecentSight& sight, const FloorPose& T_world_frame,
                              Situation& now) const {
   const Eigen::Rotation2Dd turn(T_world_frame.yaw_rad);
+  const auto tracks = static_cast<std::ptrdiff_t>(now.people.size());
   for (const SeenThing& thing : sight.things()) {
     if (!thing.is_somebody) continue;
     const Vector2d leg = T_world_frame * thing.place;
-    if (isNear(leg, now.target) || isAnybodyAt(leg, now)) continue;
-    if (const std::optional<Vector2d> body = sight.bodyAround(thing)) {
-      now.people.push_back({T_world_frame * *body, turn * thing.velocity, MovingPerson().radius_m,
-                            thing.gait_mps, thing.roams ? 0.0 : walks_on_s_});
-    }
+    const auto isThere = [&](const MovingPerson& person) { return isNear(leg, person); };
+    const auto first = now.people.begin() + tracks;
+    if (isNear(leg, now.target) || std::any_of(first, now.people.end(), isThere)) continue;
+    const std::optional<Vector2d> body = sight.bodyAround(thing);
+    if (!body) continue;
+    const bool is_track = std::any_of(now.people.begin(), first, isThere);
+    const bool rests = !thing.roams && !is_track;  // If they do, their track tells.
+    now.people.push_back({T_world_frame * *body, turn * thing.velocity, MovingPerson().radius_m,
+                          thing.gait_mps, rests ? walks_on_s_ : 0.0});
   }
 }
 

@@ -97,6 +97,42 @@ TEST(LocalPlanner, StandsWhenWhoStandsWalksOrHidesAheadCouldReachIt) {
   }
 }
 
+// Bug: who stood aside was in nobody's way, though the robot turned to them as it drove.
+TEST(LocalPlanner, StandsWhenWhoStandsAsideReachesItThoughItTurnsToThem) {
+  LocalPlannerParams params;
+  params.limits.max_braking_mps2 = 0.5;
+  params.reacts_s = 0.4;
+  const auto open = [](const Vector2d&) { return 10.0; };
+  int turning = 0;
+  for (double bearing = 1.0; bearing < 2.2; bearing += 0.1) {
+    for (double room_m = 0.2; room_m < 0.8; room_m += 0.05) {
+      const Vector2d way(std::cos(bearing), std::sin(bearing));
+      MovingPerson person;
+      person.position = (params.limits.radius_m + person.radius_m + room_m) * way;
+      LocalPlanner planner(params);
+      const Path around{{0, 0}, {0.3, 0}, {0.3, 3}};
+      const LocalPlan plan = planner.step({}, {0.3, 0.0}, around, open, {person});
+      DriveState state{{}, {plan.command.forward_mps, plan.command.turn_radps}};
+      const double brakes_s = plan.command.forward_mps / params.limits.max_braking_mps2;
+      double comes_m = 0.0, towards_mps = 0.0;
+      constexpr double kStep_s = 0.01;
+      for (double t = 0.0; t < params.reacts_s + brakes_s; t += kStep_s) {
+        const bool brakes = t >= params.reacts_s;
+        state = driven(params.limits, state, brakes ? VelocityCommand{} : plan.command, kStep_s);
+        comes_m += kStep_s * std::min(t * kWalkersGain_mps2, params.walks_mps);
+        const Vector2d heading(std::cos(state.pose.yaw_rad), std::sin(state.pose.yaw_rad));
+        towards_mps = plan.command.forward_mps * heading.dot(way);
+      }
+      const double gone_m = std::max(state.pose.position.dot(way), 0.0);
+      EXPECT_TRUE(comes_m + gone_m <= room_m + 0.01 || towards_mps <= 0.011)
+          << bearing << " " << room_m << ": " << plan.command.forward_mps << " "
+          << plan.command.turn_radps;
+      turning += plan.command.forward_mps > 0.05 && plan.command.turn_radps > 0.2 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(turning, 5);
+}
+
 TEST(LocalPlanner, TurnsOnTheSpotToAPathBehindIt) {
   DriveLoop loop(emptyRoom(), {{0, 0}, 3.0});
   EXPECT_EQ(loop.step({{0, 0}, {2, 0}}).status, DriveStatus::kTurning);

@@ -65,7 +65,7 @@ struct ColoredStage : ActedScene {
 };
 
 /// A laser at the base's origin that sees a leg at these places, and nothing else.
-inline LaserBodies legsAt(const std::vector<Eigen::Vector2d>& places_m) {
+inline LaserScan scanOf(const std::vector<Eigen::Vector2d>& places_m) {
   LaserScan scan;
   scan.first_rad = -3.14;
   scan.step_rad = 0.01;
@@ -77,6 +77,11 @@ inline LaserBodies legsAt(const std::vector<Eigen::Vector2d>& places_m) {
           static_cast<float>(place.norm());
     }
   }
+  return scan;
+}
+
+inline LaserBodies legsAt(const std::vector<Eigen::Vector2d>& places_m) {
+  const LaserScan scan = scanOf(places_m);
   LaserBodies legs;
   legs.step(
       &scan, {}, [](const Eigen::Vector2d&) { return 9.0; }, 0.1);

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace heel {
 namespace {
 
@@ -44,6 +46,37 @@ TEST(PeopleAround, WhoMayBeAPersonIsAvoidedAsOneUntilTheyAreSurelyNone) {
   ASSERT_EQ(things, 1) << "the chair";
   ASSERT_EQ(now.people.size(), 1U);
   EXPECT_LT((now.people[0].position - legs_m).norm(), 0.3);
+}
+
+// Bug: the camera's track of somebody was 15 cm behind where the laser saw their legs, and the
+// robot still rolled when they had walked up to it.
+TEST(PeopleAround, AreWhereTheLaserSeesThemNowToo) {
+  CameraSetup camera;
+  camera.sensor = SensorKind::kRgbd;
+  camera.camera.left = ColoredStage().camera;
+  camera.T_base_camera = ColoredStage::T_base_camera();
+  Perception perception(camera, AppearanceModel({}, test::paintPerson(), test::paintRoom()), {});
+  const Eigen::Vector2d track_m(-1.6, 0.32), legs_m(-1.4, 0.28);  // behind the robot
+  const LaserBodies legs = legsAt({track_m});
+  RecentSight sight({}, 8.0);
+  for (int i = 0; i < 20; ++i) sight.addScan(test::scanOf({}), {}, 0.1 * i);
+  PeopleAround people{FollowerParams()};
+  Situation now;
+  now.unseen_s = 1e3;
+  for (int i = 20; i < 50; ++i) {
+    perception.step(ColoredStage().frame(0.1 * i), {}, &legs);
+    sight.addScan(test::scanOf({legs_m}), {}, 0.1 * i);
+    people.step(0.1 * i, perception, sight, {}, now);
+  }
+  double nearest_m = 9.0, furthest_m = 0.0;
+  for (const MovingPerson& person : now.people) {
+    nearest_m = std::min(nearest_m, person.position.norm());
+    furthest_m = std::max(furthest_m, person.position.norm());
+  }
+  EXPECT_NEAR(nearest_m, legs_m.norm(), 0.05);
+  EXPECT_NEAR(furthest_m, track_m.norm(), 0.05);
+  EXPECT_EQ(now.people.size(), 2U);
+  EXPECT_LE(people.resting().size(), 1U) << "paths lead round one of them";
 }
 
 }  // namespace
