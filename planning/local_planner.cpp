@@ -324,8 +324,9 @@ VelocityCommand LocalPlanner::slowed(const DriveScene& scene, const VelocityComm
     allowed = std::min(allowed, allowedTowards(scene, person, params_.walks_mps, command));
   }
   for (const MovingPerson& person : hidden_) {
-    const double comes_mps = allowedTowards(scene, person, params_.appears_mps, command);
-    allowed = std::min(allowed, std::max(comes_mps, params_.least_speed_mps));  // past a corner
+    const double towards_mps = allowedTowards(scene, person, params_.appears_mps, command);
+    // Not slower, or it never passes a corner.
+    allowed = std::min(allowed, std::max(towards_mps, params_.least_speed_mps));
   }
   const double speed = std::abs(command.forward_mps);
   if (speed <= allowed) return command;
@@ -341,7 +342,7 @@ double LocalPlanner::comes(double speed_mps, double walks_mps, double in_s) {
 }
 
 // They may come straight at the robot, which drives on for reacts_s, brakes, and stands when they
-// are there. Until then it turns, and may look at them meanwhile.
+// are there. Until then it turns: what counts is the way in which it drives most towards them.
 double LocalPlanner::allowedTowards(const DriveScene& scene, const MovingPerson& person,
                                     double walks_mps, const VelocityCommand& command) const {
   const DriveLimits& limits = params_.limits;

@@ -84,8 +84,8 @@ void PeopleAround::addTracks(double stamp_s, const Perception& perception, Situa
 }
 
 // Who came of late to where the laser had seen nothing: who stands close before the robot is no
-// person to the camera. A track is late, and its place is none of where they are now: who has one
-// is there twice.
+// person to the camera, and a track of the camera is where somebody was. So who has one counts in
+// both places.
 void PeopleAround::addComers(const RecentSight& sight, const FloorPose& T_world_frame,
                              Situation& now) const {
   const Eigen::Rotation2Dd turn(T_world_frame.yaw_rad);

@@ -16,14 +16,18 @@ namespace {
 using test::ColoredStage;
 using test::legsAt;
 
-// Bug: legs that stood in a corner, a person as likely as not, were passed as closely as a thing,
-// and the robot grazed an arm.
-TEST(PeopleAround, WhoMayBeAPersonIsAvoidedAsOneUntilTheyAreSurelyNone) {
+Perception perceptionOfStage() {
   CameraSetup camera;
   camera.sensor = SensorKind::kRgbd;
   camera.camera.left = ColoredStage().camera;
   camera.T_base_camera = ColoredStage::T_base_camera();
-  Perception perception(camera, AppearanceModel({}, test::paintPerson(), test::paintRoom()), {});
+  return {camera, AppearanceModel({}, test::paintPerson(), test::paintRoom()), {}};
+}
+
+// Bug: legs that stood in a corner, a person as likely as not, were passed as closely as a thing,
+// and the robot grazed an arm.
+TEST(PeopleAround, WhoMayBeAPersonIsAvoidedAsOneUntilTheyAreSurelyNone) {
+  Perception perception = perceptionOfStage();
   ColoredStage stage;
   stage.part(2.5, 0.4, 0.2, 0.0, 0.8, {40, 150, 40});  // a chair
   const Eigen::Vector2d legs_m(-2.0, 1.0);             // behind the robot
@@ -51,11 +55,7 @@ TEST(PeopleAround, WhoMayBeAPersonIsAvoidedAsOneUntilTheyAreSurelyNone) {
 // Bug: the camera's track of somebody was 15 cm behind where the laser saw their legs, and the
 // robot still rolled when they had walked up to it.
 TEST(PeopleAround, AreWhereTheLaserSeesThemNowToo) {
-  CameraSetup camera;
-  camera.sensor = SensorKind::kRgbd;
-  camera.camera.left = ColoredStage().camera;
-  camera.T_base_camera = ColoredStage::T_base_camera();
-  Perception perception(camera, AppearanceModel({}, test::paintPerson(), test::paintRoom()), {});
+  Perception perception = perceptionOfStage();
   const Eigen::Vector2d track_m(-1.6, 0.32), legs_m(-1.4, 0.28);  // behind the robot
   const LaserBodies legs = legsAt({track_m});
   RecentSight sight({}, 8.0);
