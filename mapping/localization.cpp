@@ -61,6 +61,7 @@ Localization::Localization(const OccupancyGrid& map, const FloorPose& T_base_sca
       search_(map, params.field, params.search),
       random_(params.seed),
       bins_(kBin_m, kBin_rad, params.max_particles) {
+  params_.near_m = std::max(params_.near_m, map.cell_size_m());  // No map is more exact than that.
   particles_.reserve(params.max_particles);
   drawn_.reserve(params.max_particles);
   rivals_.reserve(std::max(params.max_particles, kRivals));
@@ -110,8 +111,13 @@ void Localization::predict(const FloorPose& increment) {
 
 bool Localization::update(const LaserScan& scan, const std::vector<FloorDisc>& leave_out,
                           const FloorPose& T_base_then) {
-  if (beams_.choose(scan, leave_out, T_base_then).size() == 0) return false;
-  const bool moved = pending_.way_m() >= kMinMove_m || pending_.turned_rad() >= kMinTurn_rad;
+  const FloorPose& way = pending_.motion();
+  const double way_m = way.position.norm(), turned_rad = std::abs(way.yaw_rad);
+  const bool moved = way_m >= kMinMove_m || turned_rad >= kMinTurn_rad;
+  if (beams_.choose(scan, leave_out, T_base_then).size() == 0) {
+    if (moved && !search_everywhere_) driveBlindly();
+    return false;
+  }
   if (!moved && !news_) {
     judge();
     if (unfit_ || rivals_.size() > 0) compare(0.0);
@@ -126,20 +132,32 @@ bool Localization::update(const LaserScan& scan, const std::vector<FloorDisc>& l
     // A beam that ends before the map's wall tells of somebody, not of another place.
     scanResiduals(field_, beams_.ends(), estimate_.pose, beams_.T_base_scanner(), params_.near_m,
                   &telling_);
-    moveParticles(pending_, params_.motion, random_, particles_);
-    moveParticles(pending_, params_.motion, random_, rivals_);
-    rival_pose_ = rival_pose_ * pending_.motion();
+    moveAll();
   }
-  const double another_view =
-      std::min(pending_.way_m() / kCluster_m + pending_.turned_rad() / kCluster_rad, 1.0);
+  const double another_view = std::min(way_m / kCluster_m + turned_rad / kCluster_rad, 1.0);
   pending_.clear();
   weigh(telling_, particles_);
+  ++confirmed_;
   adopt(heaviestCluster(particles_));
   judge();
   if (unfit_ || rivals_.size() > 0) compare(another_view);
   resample();
   news_ = false;
   return true;
+}
+
+void Localization::moveAll() {
+  moveParticles(pending_, params_.motion, random_, particles_);
+  moveParticles(pending_, params_.motion, random_, rivals_);
+  rival_pose_ = rival_pose_ * pending_.motion();
+}
+
+// A scan in which nothing is near enough tells nothing; how far the robot may be off by now does.
+void Localization::driveBlindly() {
+  moveAll();
+  pending_.clear();
+  adopt(heaviestCluster(particles_));
+  estimate_.lost = estimate_.lost || own_share_ < kSureShare;
 }
 
 void Localization::weigh(const BeamEnds& ends, ParticleSet& particles) {
@@ -260,8 +278,10 @@ Localization::Cluster Localization::heaviestCluster(const ParticleSet& particles
 void Localization::adopt(const Cluster& cluster) {
   const bool elsewhere = isElsewhere(estimate_.pose.inverse() * cluster.pose);
   // What was thought of another place says nothing about this one.
-  if (elsewhere) estimate_.fit = -1.0;
-  confirmed_ = elsewhere ? 0 : confirmed_ + 1;
+  if (elsewhere) {
+    estimate_.fit = -1.0;
+    confirmed_ = 0;
+  }
   estimate_.covariance = cluster.covariance;
   estimate_.cluster_share = own_share_ = cluster.share;
   cluster_pose_ = estimate_.pose = cluster.pose;

@@ -33,7 +33,8 @@ struct LocalizationParams {
   /// Factor on the log-likelihoods of beams: neighbouring beams err together, so 60 of them are
   /// worth fewer independent ones.
   double evidence = 0.15;
-  double near_m = 0.2;  ///< A beam's end this near to where the map has it is explained.
+  /// A beam's end this near to where the map has it is explained; at least the edge of a cell.
+  double near_m = 0.2;
   /// The robot is lost where the fit's short average (ScanResiduals::fit) is lower than this: the
   /// scans contradict the map more than they agree with it.
   double lost_fit = 0.5;
@@ -86,7 +87,8 @@ class Localization {
   /// @param T_base_then  Where the base was when the scan was measured, in the frame of where the
   ///                     last increment led; the same place unless the scan came late.
   /// @return whether the scan was weighed: it was not if the robot has hardly moved since the last
-  ///         one, or no beam was usable.
+  ///         one, or no beam was usable: then the robot is less and less sure where it is, the
+  ///         further it drives.
   bool update(const LaserScan& scan, const std::vector<FloorDisc>& leave_out = {},
               const FloorPose& T_base_then = {});
 
@@ -101,6 +103,8 @@ class Localization {
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
     double share = 0.0;
   };
+  void moveAll();
+  void driveBlindly();
   void weigh(const BeamEnds& ends, ParticleSet& particles);
   Cluster heaviestCluster(const ParticleSet& particles);
   bool isElsewhere(const FloorPose& change) const;

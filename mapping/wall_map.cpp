@@ -119,14 +119,19 @@ OccupancyGrid WallMap::floorGrid(const HeightBand& band) const {
   const double cell_m = cell_size_m();
   const Vector2d origin = cell_m * span.min().cast<double>();
   OccupancyGrid grid(origin, cell_m, span.sizes().x(), span.sizes().y(), Occupancy::kUnknown);
-  const double touch_m = kTouch * cell_m;
+  const auto layer = [&](double height_m, double round) {
+    return static_cast<int>(std::ceil(height_m / cell_m + round));
+  };
+  const bool is_thin = band.high_m - band.low_m < cell_m;
+  const int low = layer(band.low_m, is_thin ? kTouch - 1.0 : -kTouch);
+  const int high = layer(band.high_m, -kTouch);
   for (auto leaf = tree_->begin_leafs(); leaf != tree_->end_leafs(); ++leaf) {
-    const double bottom = leaf.getZ() - leaf.getSize() / 2.0, top = bottom + leaf.getSize();
-    const bool is_in_band = bottom < band.high_m - touch_m && top > band.low_m + touch_m;
-    const bool is_wall = tree_->isNodeOccupied(*leaf);
-    const bool is_on_floor = bottom < cell_m - touch_m && top > touch_m;
-    if (!is_in_band && (is_wall || !is_on_floor)) continue;
     const auto cells = static_cast<int>(std::lround(leaf.getSize() / cell_m));
+    const auto z0 = static_cast<int>(std::lround((leaf.getZ() - leaf.getSize() / 2.0) / cell_m));
+    const bool is_in_band = z0 < high && z0 + cells > low;
+    const bool is_wall = tree_->isNodeOccupied(*leaf);
+    const bool is_on_floor = z0 < 1 && z0 + cells > 0;
+    if (!is_in_band && (is_wall || !is_on_floor)) continue;
     const auto x0 =
         static_cast<int>(std::lround((leaf.getX() - leaf.getSize() / 2.0 - origin.x()) / cell_m));
     const auto y0 =

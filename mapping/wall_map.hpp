@@ -59,6 +59,8 @@ class WallMap {
 
   /// A height band seen from above. A cell is occupied if a wall is anywhere in the band over it;
   /// free if any of the band, or the lowest cell over the floor, is known to be free; else unknown.
+  /// A band begins with the first cell that is all in it, unless it is thinner than a cell: so the
+  /// floor is no wall, however large cells are.
   /// Covers all that is known; empty if nothing is.
   /// @throws std::invalid_argument  unless the band's low is under its high.
   /// @throws std::runtime_error     if the map spans more floor than there may be memory for.

@@ -192,22 +192,23 @@ CarmenLog::CarmenLog(const std::filesystem::path& file) : state_(std::make_uniqu
   State all(file);
   std::optional<FloorPose> first;
   bool differs = false;
+  int scans = 0, jumps = 0;
   try {
-    while (all.nextScan()) {
-      state_->is_corrected |=
-          apart(all.jump) > kSame && apart(all.jump) > kFastest * std::abs(all.jump_s);
+    for (; all.nextScan(); ++scans) {
+      jumps += apart(all.jump) > kSame && apart(all.jump) > kFastest * std::abs(all.jump_s);
       const FloorPose T_robot_laser = all.robot.inverse() * all.laser;
       if (!first) first = T_robot_laser;
       differs |= apart(first->inverse() * T_robot_laser) > 2.0 * kSame;
     }
   } catch (const std::runtime_error&) {  // next() will tell of it.
   }
-  if (differs) {
+  if (differs) {  // What differs from the reference is the raw odometry.
     reference_ = Reference::kLaser;
     T_base_scanner_ = {{all.laser_ahead_m, 0.0}, 0.0};
-    state_->is_corrected = false;  // What differs from the reference is the raw odometry.
     return;
   }
+  // Wheels slip now and then, and drivers start again.
+  state_->is_corrected = jumps > 0 && 2 * jumps >= scans;
   if (first) T_base_scanner_ = *first;
   if (state_->is_corrected || !all.has_odometry) reference_ = Reference::kRobot;
 }

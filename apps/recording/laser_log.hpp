@@ -63,10 +63,11 @@ std::unique_ptr<LaserLog> openLaserLog(const std::filesystem::path& path,
 /// of the laser and of the robot. What they are differs from log to log, and is found in the log:
 ///
 /// - Where the one is at the same place from the other in all scans, that is the scanner's place,
-///   and the pose belongs to the odometry. There is no reference.
-/// - If ODOM lines lead elsewhere, faster than any robot, a SLAM program has corrected the log: the
-///   robot's pose is the reference, and ODOM lines start again from it. The odometry is the chain
-///   of their increments, without the jump to the pose.
+///   and the pose belongs to the odometry. There is no reference; without ODOM lines the pose is
+///   taken for one.
+/// - If ODOM lines lead elsewhere, faster than any robot, before most scans, a SLAM program has
+///   corrected the log: the robot's pose is the reference, and ODOM lines start again from it. The
+///   odometry is the chain of their increments, without the jump to the pose.
 /// - Where the one is not at the same place from the other, the laser's is the reference; it is
 ///   robot_frontlaser_offset before the base.
 class CarmenLog : public LaserLog {

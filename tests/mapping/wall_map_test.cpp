@@ -266,6 +266,32 @@ TEST(WallMap, TheFloorGridIsOfABandOfHeights) {
   EXPECT_EQ(map.floorGrid({0.1, 2.0}).at(Vector2d(2.1, 0.5)), Occupancy::kFree) << "it touches";
 }
 
+// Bug: with cells of 0.1 m a floor that was seen was a wall.
+TEST(WallMap, AFloorIsNoWallHoweverLargeCellsAre) {
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  T_world_camera.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;  // looks along the world's x
+  T_world_camera.translation() = Vector3d(0.0, 0.0, 1.2);
+  std::vector<Eigen::Vector3f> points;
+  for (float right_m = -1.0F; right_m < 1.0F; right_m += 0.01F) {
+    for (float ahead_m = 1.0F; ahead_m < 3.0F; ahead_m += 0.01F) {
+      points.emplace_back(right_m, 1.2F, ahead_m);
+    }
+    for (float down_m = 0.0F; down_m < 1.2F; down_m += 0.01F) {
+      points.emplace_back(right_m, down_m, 3.0F);
+    }
+  }
+  for (const double cell_m : {0.04, 0.05, 0.1, 0.2, 0.4}) {
+    SCOPED_TRACE(cell_m);
+    WallMapBuilder builder(cell_m);
+    builder.add(points, T_world_camera, 5.0);
+    const OccupancyGrid floor = builder.build().floorGrid();
+    for (double x = 1.0; x < 2.5; x += 0.02) {
+      EXPECT_EQ(floor.at(Vector2d(x, 0.02)), Occupancy::kFree) << x;
+    }
+    EXPECT_EQ(floor.at(Vector2d(3.01, 0.02)), Occupancy::kOccupied);
+  }
+}
+
 TEST(WallMapBuilder, RefusesCellsThatAreTooFineForItsWalls) {
   WallMapBuilder builder(0.001);
   EXPECT_THROW(builder.addFreeFloor({0.0, 0.0}, {4.0, 4.0}), std::runtime_error);

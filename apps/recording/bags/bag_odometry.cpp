@@ -6,6 +6,7 @@
 #include <heel/apps/recording/bags/bag_poses.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <regex>
 #include <stdexcept>
 
@@ -84,6 +85,7 @@ BagPoses::BagPoses(const BagSurvey& survey, const BagTopics& topics) {
 }
 
 void BagPoses::add(Poses& poses, const StampedPose& pose) {
+  if (!pose.pose.position.allFinite() || !std::isfinite(pose.pose.yaw_rad)) return;
   poses.push_back(pose);
   if (poses.size() > kMostPoses) poses.pop_front();
 }

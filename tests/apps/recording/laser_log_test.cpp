@@ -73,6 +73,20 @@ TEST(CarmenLog, GoesAlongWithTheScansPosesWhereNobodyHasCorrectedThem) {
   EXPECT_NEAR((T_base_scanner.position - Eigen::Vector2d(0.2, 0.0)).norm(), 0.0, 1e-6);
 }
 
+// Bug: one such jump made it a corrected log, of which nothing but the scans' poses was read.
+TEST(CarmenLog, OneJumpOfTheOdometryIsNoCorrection) {
+  const auto readings = readingsOf(
+      "ODOM 0 0 0 0.3 0 0 0.1 host 0.1\n"
+      "FLASER 2 2.0 2.0 0.02 0.0 0.0 0.02 0.0 0.0 0.2 host 0.2\n"
+      "ODOM 0.03 0 0 0.3 0 0 0.3 host 0.3\n"
+      "FLASER 2 2.0 2.0 1.09 0.0 0.0 1.09 0.0 0.0 0.4 host 0.4\n"
+      "ODOM 1.1 0 0 0.3 0 0 0.5 host 0.5\n"
+      "FLASER 2 2.0 2.0 1.12 0.0 0.0 1.12 0.0 0.0 0.6 host 0.6\n");
+  ASSERT_EQ(readings.size(), 3U);
+  EXPECT_FALSE(readings[1].reference);
+  EXPECT_NEAR(readings[2].odometry.position.x(), 1.12, 1e-9);
+}
+
 TEST(CarmenLog, TakesTheLasersPoseAsTheReferenceWhereItIsNoOdometry) {
   const auto readings = readingsOf(
       "PARAM robot_frontlaser_offset 0.2 nohost 0\n"
@@ -397,6 +411,25 @@ TEST(BagLaserLog, OfSeveralOdometriesThatOfTheWheelsIsRead) {
   BagTopics named;
   named.odometry = "/gps/odom";
   EXPECT_EQ(OdometryBag({"/odom", "/gps/odom"}).x_m(named), 2.0);
+}
+
+TEST(BagLaserLog, APoseThatIsNoNumberIsLeftOut) {
+  const test::TempFolder folder;
+  const auto bag = createBag(folder / "r.bag");
+  OdometryMsg odometry;
+  odometry.header.frame_id = "odom";
+  odometry.child_frame_id = "base_link";
+  odometry.pose.pose.orientation.w = 1.0;
+  for (const double x_m : {3.0, std::nan("")}) {
+    odometry.pose.pose.position.x = x_m;
+    odometry.header.stamp.ns += 50'000'000;
+    bag->write("/odom", odometry.header.stamp.ns, odometry);
+  }
+  bag->write("/scan", 200'000'000, scanOf(0.0, 0.1, {1.0F}));
+  bag->commit();
+  LaserReading reading;
+  EXPECT_TRUE(openLaserLog(folder / "r.bag")->next(reading));
+  EXPECT_EQ(reading.odometry.position.x(), 3.0);
 }
 
 TEST(BagLaserLog, SaysWhichOfSeveralTopicsIsRead) {
