@@ -6,17 +6,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace heel {
 namespace {
 
 void check(const FollowerParams& p) {
-  requireNotNegative(
-      "FollowerParams",
-      {p.near_m, p.far_m, p.beside_m, p.makes_room_s, p.waits_aside_s, p.no_frame_s, p.lost_after_s,
-       p.walks_on_s, p.seek_radps, p.ahead_rad, p.lost_turn_radps, p.give_up_s, p.surely_person,
-       p.beside_people_m, p.target_radius_m, p.mapped_within_m, p.obstacles_every_s});
+  requireNotNegative("FollowerParams",
+                     {p.near_m, p.far_m, p.whole_m, p.beside_m, p.makes_room_s, p.waits_aside_s,
+                      p.no_frame_s, p.lost_after_s, p.walks_on_s, p.seek_radps, p.ahead_rad,
+                      p.lost_turn_radps, p.give_up_s, p.surely_person, p.beside_people_m,
+                      p.target_radius_m, p.mapped_within_m, p.obstacles_every_s});
   if (p.near_m > p.far_m) {
     throw std::invalid_argument("FollowerParams: near_m must not be greater than far_m");
   }
@@ -58,6 +59,23 @@ double RobotDescription::halfView_rad() const {
   return std::atan2(0.5 * left.width, left.fx);
 }
 
+double RobotDescription::wholeView_m() const {
+  constexpr double kKnee_m = 0.4, kHead_m = 1.75;
+  const PinholeCamera& left = camera.camera.left;
+  const auto slopeOf = [&](double row) {
+    const Eigen::Vector3d ray =
+        camera.T_base_camera.linear() * Eigen::Vector3d(0.0, (row - left.cy) / left.fy, 1.0);
+    return ray.z() / ray.head<2>().norm();
+  };
+  const double eye_m = camera.T_base_camera.translation().z();
+  const auto reaches_m = [](double up_m, double slope) {
+    if (!(up_m > 0.0)) return 0.0;
+    return slope > 0.0 ? up_m / slope : std::numeric_limits<double>::infinity();
+  };
+  return std::max(reaches_m(kHead_m - eye_m, slopeOf(0.0)),
+                  reaches_m(eye_m - kKnee_m, -slopeOf(left.height)));
+}
+
 FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
   check(params);
   requireNotNegative("RobotDescription", {robot.scan_latency_s, robot.wheels_latency_s});
@@ -91,6 +109,8 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
     keeps_in_rad = std::min(keeps_in_rad, 0.8 * half_rad);
   }
   params.goal.half_view_rad = params.drive.terms.half_view_rad;
+  params.whole_m = std::max(params.goal.standoff_m,
+                            std::min(robot.wholeView_m(), params.search.map.max_range_m));
   return params;
 }
 

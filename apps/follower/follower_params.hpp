@@ -41,13 +41,15 @@ struct RobotDescription {
   double wheels_latency_s = 0.0;
 
   double halfView_rad() const;  ///< Half the camera's horizontal field of view; 0: unknown.
+  /// From so far off a person is in view from knee to head; infinite if never, or unknown.
+  double wholeView_m() const;
 };
 
 /// All that can be set of a Follower. Some of it the robot tells, whatever is written here:
 /// drive.limits, drive.reacts_s, search.map.limits, paths.robot_radius_m, goal.radius_m,
 /// goal.half_view_rad, wayside.radius_m, wayside.person_m, obstacles.min_height_m,
 /// obstacles.max_height_m, obstacles.laser_height_m, obstacle_points.max_height_m,
-/// floor_points.max_height_m, gate.eye_height_m, and of last_gate all but margin_m and
+/// floor_points.max_height_m, gate.eye_height_m, whole_m, and of last_gate all but margin_m and
 /// sight.remembers_s; see fittedTo().
 struct FollowerParams {
   LearnPersonParams learn;
@@ -72,6 +74,7 @@ struct FollowerParams {
   double near_m = 1.0;
   /// A robot that stands with the person follows again when they are further away than this.
   double far_m = 1.2;
+  double whole_m = 2.0;        ///< From so far off all of somebody is in view.
   double beside_m = 0.7;       ///< Somebody this near leaves the robot no room to drive.
   double makes_room_s = 20.0;  ///< The robot leaves the way to somebody for so long at most.
   double waits_aside_s = 6.0;  ///< The robot waits beside the way for so long at most.

@@ -6,16 +6,16 @@
 #pragma once
 
 #include <heel/apps/follower/behaviours.hpp>
-#include <heel/tracking/identity.hpp>
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 namespace heel {
 
 /// Looks at whoever may be the person who is lost, from where all of them is in view, as long as
-/// that is likelier to find them than a second spent elsewhere. Another look at somebody is worth
-/// what is new in it.
+/// that is likelier to find them than a second spent elsewhere. The more looks at a place
+/// were in vain, the more it is expected to take, whoever comes and goes there.
 class LookWhoThatIs : public Behaviour {
  public:
   LookWhoThatIs(const Premises& premises, const FollowerParams& params);
@@ -25,35 +25,30 @@ class LookWhoThatIs : public Behaviour {
   /// Whether somebody is worth a look.
   bool wants() const { return choice_.has_value(); }
   std::optional<Intent> step(const Situation& now, const Ways& ways) override;
-  void note(const IntentOutcome& outcome) override;
 
  private:
-  struct Look {
-    Eigen::Vector2d place, ray_m;  ///< Of whom, and that from the robot,
-    double stamp_s = 0.0;          ///< on the clock.
+  struct Effort {
+    Eigen::Vector2d place;
+    bool is_whole = false;  ///< From where all of somebody there is in view,
+    double looks = 0.0;     ///< so many.
   };
   struct Choice {
-    Eigen::Vector2d place, ray_m;  ///< Of whom, and along which it will look.
-    bool is_ahead = false;
-    bool goes = false;   ///< To another distance first.
-    double per_s = 0.0;  ///< How likely it finds the person, a second.
+    Eigen::Vector2d place;
+    bool is_whole = false;  ///< From where all of somebody there is in view,
+    bool goes = false;      ///< to where it goes first.
+    double takes_s = 0.0;   ///< With the turn and the way,
+    double per_s = 0.0;     ///< and how likely it finds the person, a second.
   };
 
   Choice rated(const Suspect& suspect, const Situation& now) const;
-  double newsOf(const Eigen::Vector2d& place, const Eigen::Vector2d& ray_m) const;
-  void remember(const Eigen::Vector2d& place, const Eigen::Vector2d& ray_m);
-  bool isOfChoice(const Eigen::Vector2d& place) const;
+  /// Index of the effort there; their number if there is none.
+  std::size_t find(const Eigen::Vector2d& place, bool is_whole) const;
 
-  IdentityParams looking_;
   DriveLimits drive_;
-  double look_s_, ahead_rad_, near_m_, far_m_;
-  FollowTarget nearer_;
+  double look_s_, near_m_, far_m_;
+  FollowTarget whole_;
   std::optional<Choice> choice_;
-  bool is_near_ = false;     // to that, as near as it can get,
-  bool has_turned_ = false;  // and to it, as far as it can,
-  double looked_s_ = 0.0;    // and has looked.
-  std::vector<Look> looks_;  // since the person was lost, the last ones
-  double clock_s_ = 0.0;
+  std::vector<Effort> efforts_;  // since the person was lost
 };
 
 }  // namespace heel

@@ -51,6 +51,21 @@ TEST(FollowerParams, ANarrowCameraSeesNoMoreThanItDoes) {
   EXPECT_EQ(narrow.goal.half_view_rad, narrow.drive.terms.half_view_rad);
 }
 
+TEST(FollowerParams, AllOfSomebodyIsInViewFromWhereTheCameraSeesKneeAndHead) {
+  RobotDescription robot;
+  robot.camera.camera.left = {320,   240,   240.0,
+                              240.0, 160.0, 120.0};  // half its distance up and down
+  robot.camera.T_base_camera.linear() << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  robot.camera.T_base_camera.translation().z() = 1.25;
+  EXPECT_NEAR(robot.wholeView_m(), (1.25 - 0.4) / 0.5, 1e-9);
+  robot.camera.T_base_camera.translation().z() = 0.75;
+  EXPECT_NEAR(robot.wholeView_m(), (1.75 - 0.75) / 0.5, 1e-9);
+  EXPECT_EQ(fittedTo(robot, {}).whole_m, robot.wholeView_m());
+  robot.camera.T_base_camera.rotate(Eigen::AngleAxisd(-0.6, Eigen::Vector3d::UnitX()));
+  EXPECT_TRUE(std::isinf(robot.wholeView_m())) << "it sees no head, however far off";
+  EXPECT_EQ(fittedTo(robot, {}).whole_m, FollowerParams().search.map.max_range_m);
+}
+
 TEST(FollowerParams, ThatMakeNoSenseAreRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<std::function<void(FollowerParams&)>> mistakes = {
