@@ -14,6 +14,7 @@ namespace heel {
 namespace {
 
 constexpr std::size_t kMostPoses = 200;  // seconds of odometry
+constexpr double kOtherClock_s = 1.0;    // What is so much older than all of it has another clock.
 
 bool tellsTruth(const BagTopicSummary& t) {
   return t.topic.name.find("truth") != std::string::npos;
@@ -95,7 +96,9 @@ std::optional<FloorPose> BagPoses::at(const Poses& poses, double stamp_s) {
   const auto latest = std::find_if(poses.rbegin(), poses.rend(), [&](const StampedPose& p) {
     return p.stamp_s <= stamp_s + 1e-6;
   });
-  return latest == poses.rend() ? poses.front().pose : latest->pose;
+  if (latest != poses.rend()) return latest->pose;
+  const bool is_other_clock = stamp_s < poses.front().stamp_s - kOtherClock_s;
+  return is_other_clock ? poses.back().pose : poses.front().pose;
 }
 
 void BagPoses::takeOdometry(const BagReader& bag, const BagMessage& raw, Poses& poses) {

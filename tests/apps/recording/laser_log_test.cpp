@@ -413,6 +413,26 @@ TEST(BagLaserLog, OfSeveralOdometriesThatOfTheWheelsIsRead) {
   EXPECT_EQ(OdometryBag({"/odom", "/gps/odom"}).x_m(named), 2.0);
 }
 
+// Bug: a scanner whose clock began with the robot's start was given odometry that was 20 s old.
+TEST(BagLaserLog, AScanOfAnotherClockGoesWithTheOdometryThatCameLast) {
+  const test::TempFolder folder;
+  const auto bag = createBag(folder / "r.bag");
+  OdometryMsg odometry;
+  odometry.header.frame_id = "odom";
+  odometry.child_frame_id = "base_link";
+  odometry.pose.pose.orientation.w = 1.0;
+  for (int i = 1; i < 10; ++i) {
+    odometry.pose.pose.position.x = i;
+    odometry.header.stamp.ns = 5'000'000'000'000 + i * 100'000'000;
+    bag->write("/odom", odometry.header.stamp.ns, odometry);
+  }
+  bag->write("/scan", odometry.header.stamp.ns, scanOf(0.0, 0.1, {1.0F}));  // stamped 0.2 s
+  bag->commit();
+  LaserReading reading;
+  EXPECT_TRUE(openLaserLog(folder / "r.bag")->next(reading));
+  EXPECT_EQ(reading.odometry.position.x(), 9.0);
+}
+
 TEST(BagLaserLog, APoseThatIsNoNumberIsLeftOut) {
   const test::TempFolder folder;
   const auto bag = createBag(folder / "r.bag");
