@@ -107,10 +107,10 @@ FollowerParams fittedTo(const RobotDescription& robot, FollowerParams params) {
     field_rad = std::min(field_rad, 2.0 * half_rad);
     double& keeps_in_rad = params.drive.terms.half_view_rad;
     keeps_in_rad = std::min(keeps_in_rad, 0.8 * half_rad);
+    params.whole_m = std::max(params.goal.standoff_m,
+                              std::min(robot.wholeView_m(), params.search.map.max_range_m));
   }
   params.goal.half_view_rad = params.drive.terms.half_view_rad;
-  params.whole_m = std::max(params.goal.standoff_m,
-                            std::min(robot.wholeView_m(), params.search.map.max_range_m));
   return params;
 }
 

@@ -41,7 +41,7 @@ struct RobotDescription {
   double wheels_latency_s = 0.0;
 
   double halfView_rad() const;  ///< Half the camera's horizontal field of view; 0: unknown.
-  /// From so far off a person is in view from knee to head; infinite if never, or unknown.
+  /// From so far off a person is in view from knee to head; infinite if never.
   double wholeView_m() const;
 };
 
