@@ -16,6 +16,7 @@ namespace {
 
 // Of the picture: who walks through sweeps as much, and more; who enters at the end covers less.
 constexpr double kSweptShare = 0.1;
+constexpr double kLeastEmpty_s = 1.0;  // Who comes later ends the empty scene.
 
 }  // namespace
 
@@ -58,20 +59,31 @@ const AcquisitionStep& Acquisition::step(double stamp_s, const cv::Mat& image_bg
   if (result_.state == AcquisitionState::kEnded) return step_;
 
   const double start_s = started_ ? start_s_ : stamp_s;
-  if (stamp_s - start_s <= params_.background_s + kSameTime_s) {
-    learner_.add(image_bgr, depth_m);
-    result_.empty_frames = learner_.frames();
-    step_.labels.create(image_bgr.size(), CV_8UC1);
-    step_.labels.setTo(AcquisitionStep::kScene);
-    step_.usable = true;
-  } else {
-    if (background_.empty()) {
+  if (background_.empty()) {
+    const double elapsed_s = stamp_s - start_s;
+    const bool is_up = elapsed_s > params_.background_s + kSameTime_s;
+    const bool is_empty = !is_up && !showsSomebody(elapsed_s, image_bgr, depth_m);
+    if (is_empty) {
+      learner_.add(image_bgr, depth_m);
+      result_.empty_frames = learner_.frames();
+      step_.labels.create(image_bgr.size(), CV_8UC1);
+      step_.labels.setTo(AcquisitionStep::kScene);
+      step_.usable = true;
+      early_frames_ = 0;
+    } else if (early_frames_++ == 0) {
+      early_s_ = stamp_s;
+    }
+    const bool came_early = early_frames_ >= params_.confirm_frames &&
+                            stamp_s - early_s_ > params_.others_s - kSameTime_s;
+    if (is_up || came_early) {
       background_ = learner_.model();
       result_.was_empty = background_.restlessShare() < kSweptShare;
       result_.state = AcquisitionState::kWaiting;
     }
+  }
+  if (!background_.empty()) {
     step_.view = &detector_.detect(background_, image_bgr, depth_m);
-    countPoints();
+    countPoints(*step_.view);
     tellPeopleApart();
     leaveOutNoise(stamp_s);
     findPerson(stamp_s);
@@ -84,14 +96,24 @@ const AcquisitionStep& Acquisition::step(double stamp_s, const cv::Mat& image_bg
   return step_;
 }
 
-void Acquisition::countPoints() {
-  points_.assign(step_.view->blobs.size(), {});
-  for (const pcl::index_t i : *step_.view->candidates) {
-    const int blob = detector_.blobOf((*step_.view->cloud)[static_cast<std::size_t>(i)]);
+// Against what was empty until then: noise is known by then.
+bool Acquisition::showsSomebody(double elapsed_s, const cv::Mat& image_bgr,
+                                const cv::Mat& depth_m) {
+  if (elapsed_s < kLeastEmpty_s || learner_.frames() < params_.confirm_frames) return false;
+  const PeopleView& view = detector_.detect(learner_.model(), image_bgr, depth_m);
+  countPoints(view);
+  return std::any_of(view.people.begin(), view.people.end(),
+                     [this](int i) { return !looksLikeTheWall(i); });
+}
+
+void Acquisition::countPoints(const PeopleView& view) {
+  points_.assign(view.blobs.size(), {});
+  for (const pcl::index_t i : *view.candidates) {
+    const int blob = detector_.blobOf((*view.cloud)[static_cast<std::size_t>(i)]);
     if (blob < 0) continue;
     PointCount& count = points_[static_cast<std::size_t>(blob)];
     ++count.all;
-    count.changed += step_.view->foreground.changed.data[i] != 0 ? 1 : 0;
+    count.changed += view.foreground.changed.data[i] != 0 ? 1 : 0;
   }
 }
 

@@ -13,10 +13,12 @@ namespace heel {
 
 /// How long things take, and how far the person can get between two frames.
 struct AcquisitionParams {
-  double background_s = 5.0;   ///< The scene is empty for so long at the start.
-  double person_s = 10.0;      ///< The acquisition ends this long after the person entered.
-  int confirm_frames = 2;      ///< Somebody is there when seen in so many frames: depth is noisy.
-  double others_s = 0.5;       ///< A second person is there when seen all this time.
+  /// The scene is empty for so long at the start, or until somebody comes, a second or more.
+  double background_s = 5.0;
+  double person_s = 10.0;  ///< The acquisition ends this long after the person entered.
+  int confirm_frames = 2;  ///< Somebody is there when seen in so many frames: depth is noisy.
+  /// A second person, or one who comes before background_s, is there when seen all this time.
+  double others_s = 0.5;
   double max_missing_s = 1.0;  ///< A person who was not seen for longer has left.
   /// The person is no further from their last place than they walk at this speed, and max_jump_m.
   double max_speed_mps = 3.0;
@@ -112,7 +114,8 @@ class Acquisition {
 
  private:
   void findPerson(double stamp_s);
-  void countPoints();
+  bool showsSomebody(double elapsed_s, const cv::Mat& image_bgr, const cv::Mat& depth_m);
+  void countPoints(const PeopleView& view);
   void tellPeopleApart();
   void leaveOutNoise(double stamp_s);
   bool somebodyElseIsThere(double stamp_s) const;
@@ -138,6 +141,8 @@ class Acquisition {
   bool started_ = false;
   double start_s_ = 0.0;
   double stamp_s_ = 0.0;
+  int early_frames_ = 0;  // in a row that show somebody before the empty scene's time is up, ...
+  double early_s_ = 0.0;  // and since when
   int frames_with_others_ = 0;  // in a row, ...
   double with_others_s_ = 0.0;  // and since when
 };

@@ -50,6 +50,23 @@ TEST_F(AcquisitionTest, LearnsTheEmptySceneFirst) {
   EXPECT_EQ(acquisition.result().confidence(), 0.0);
 }
 
+TEST_F(AcquisitionTest, BeginsWithWhoComesBeforeTheEmptyTimeIsUp) {
+  AcquisitionParams params;
+  params.background_s = 5.0;
+  acquisition = Acquisition(ActedScene().camera, ActedScene::T_base_camera(), params);
+  for (int i = 0; i < 8; ++i) act(ActedScene());
+  EXPECT_FALSE(act(ActedScene().person(2.5, 0.0)).usable);  // but one frame may be noise
+  EXPECT_TRUE(act(ActedScene()).usable);
+  EXPECT_EQ(acquisition.result().empty_frames, 9);
+  for (int i = 0; i < 3; ++i) act(ActedScene().person(2.5, 0.0));
+  EXPECT_EQ(acquisition.result().state, AcquisitionState::kEmptyScene);
+  const AcquisitionStep& step = act(ActedScene().person(2.5, 0.0));
+  EXPECT_EQ(step.state, AcquisitionState::kPerson);
+  EXPECT_TRUE(step.usable);
+  EXPECT_EQ(acquisition.result().empty_frames, 9);
+  EXPECT_TRUE(acquisition.result().was_empty);
+}
+
 TEST_F(AcquisitionTest, LabelsTorsoLegsAndRoom) {
   const AcquisitionStep& step = act(ActedScene().person(2.5, 0.0));
   EXPECT_EQ(step.state, AcquisitionState::kPerson);
