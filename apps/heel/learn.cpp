@@ -209,7 +209,7 @@ void addLearn(CLI::App& app) {
   verb->add_option("RECORDING", options->recording, "folder of a recording, or a bag")->required();
   verb->add_option("--out", options->out, "where to write the model (.yaml)")->required();
   verb->add_option("--background", options->params.acquisition.background_s,
-                   "how long the room is empty at the beginning [s]")
+                   "how long the room is empty at the beginning [s]; who comes earlier ends it")
       ->capture_default_str();
   verb->add_option("--person", options->params.acquisition.person_s,
                    "how long to look at the person [s]")
