@@ -186,6 +186,14 @@ void RecentSight::tellWalk(SeenThing& thing) const {
   }
 }
 
+// Whose parts may be taken for those of somebody who stands: how they walk is not known.
+bool RecentSight::isBesideStanding(const SeenThing& thing) const {
+  return std::any_of(things_.begin(), things_.end(), [&](const SeenThing& other) {
+    return other.is_somebody && other.gait_mps == 0.0 && other.seen_s == thing.seen_s &&
+           (other.place - thing.place).squaredNorm() < 4.0 * kBody_m * kBody_m;
+  });
+}
+
 // Most of what a standing robot sees stands, too. A thing that moved is beyond errors, or too few.
 void RecentSight::measureErrors(const Look& look, const Look& last) {
   const std::vector<float>& now_m = look.scan.ranges_m;
@@ -255,6 +263,11 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
   }
   for (SeenThing& thing : things_) {
     if (thing.roams && thing.seen_s == stamp_s) tellWalk(thing);
+  }
+  for (SeenThing& thing : things_) {
+    if (thing.gait_mps == 0.0 || thing.seen_s != stamp_s || !isBesideStanding(thing)) continue;
+    thing.velocity.setZero();
+    thing.gait_mps = kFastestWalk_mps;
   }
   layOut();
 }

@@ -79,5 +79,23 @@ TEST(PeopleAround, AreWhereTheLaserSeesThemNowToo) {
   EXPECT_LE(people.resting().size(), 1U) << "paths lead round one of them";
 }
 
+// Bug: who set off from beside somebody who stood seemed to walk away for half a second, by the
+// legs of both, and was at the robot while it rolled.
+TEST(RecentSight, BesideWhoStandsNobodyIsSaidToWalkOtherwiseThanTheyDo) {
+  const Eigen::Vector2d stands_m(1.2, -0.2), walks_mps(-1.0, -0.6);
+  Eigen::Vector2d comes_m(1.2, 0.4);
+  RecentSight sight({}, 8.0);
+  for (int i = 0; i < 20; ++i) sight.addScan(test::scanOf({}), {}, 0.1 * i);
+  for (int i = 20; i < 30; ++i) sight.addScan(test::scanOf({stands_m, comes_m}), {}, 0.1 * i);
+  for (int i = 30; i < 40; ++i) {
+    comes_m += 0.1 * walks_mps;
+    sight.addScan(test::scanOf({stands_m, comes_m}), {}, 0.1 * i);
+    for (const SeenThing& thing : sight.things()) {
+      if ((thing.place - comes_m).norm() > 0.1) continue;
+      EXPECT_LT((thing.velocity - walks_mps).norm(), thing.gait_mps) << "step " << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace heel
