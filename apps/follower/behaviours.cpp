@@ -75,6 +75,7 @@ std::optional<Intent> FaceTarget::step(const Situation& now, const Ways& ways) {
   if (now.target && (now.target->position - here).norm() < beside_m_) return intent;
   std::optional<Intent> aside = aside_.step(now, ways);
   aside->keep_in_view.reset();  // They wait: to make room goes before.
+  aside->look_at = intent.look_at;
   return aside;
 }
 

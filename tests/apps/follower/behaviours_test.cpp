@@ -109,6 +109,7 @@ TEST_F(BehavioursTest, LeavesADoorwayBeforeItFacesThePerson) {
   ASSERT_TRUE(intent->go_to);
   EXPECT_FALSE(isInPassage(kDoorway, *intent->go_to, params.goal.doorway_depth_m, 0.26));
   EXPECT_FALSE(intent->keep_in_view) << "they wait";
+  EXPECT_EQ(*intent->look_at, now.target->position) << "from there";
   now.target->position.x() = 0.6;
   EXPECT_FALSE(floor.ask(face, now)->go_to) << "they leave no room to drive";
 }
