@@ -188,8 +188,10 @@ void RecentSight::tellWalk(SeenThing& thing) const {
 
 // Whose parts may be taken for those of somebody who stands: how they walk is not known.
 bool RecentSight::isBesideStanding(const SeenThing& thing) const {
-  return std::any_of(things_.begin(), things_.end(), [&](const SeenThing& other) {
-    return other.is_somebody && other.gait_mps == 0.0 && other.seen_s == thing.seen_s &&
+  const auto isOfOldScan = [&](const SeenThing& other) { return other.seen_s != thing.seen_s; };
+  const auto end = std::find_if(things_.rbegin(), things_.rend(), isOfOldScan);
+  return std::any_of(things_.rbegin(), end, [&](const SeenThing& other) {
+    return other.is_somebody && other.gait_mps == 0.0 &&
            (other.place - thing.place).squaredNorm() < 4.0 * kBody_m * kBody_m;
   });
 }
