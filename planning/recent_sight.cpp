@@ -186,14 +186,23 @@ void RecentSight::tellWalk(SeenThing& thing) const {
   }
 }
 
-// Whose parts may be taken for those of somebody who stands: how they walk is not known.
-bool RecentSight::isBesideStanding(const SeenThing& thing) const {
-  const auto isOfOldScan = [&](const SeenThing& other) { return other.seen_s != thing.seen_s; };
-  const auto end = std::find_if(things_.rbegin(), things_.rend(), isOfOldScan);
-  return std::any_of(things_.rbegin(), end, [&](const SeenThing& other) {
-    return other.is_somebody && other.gait_mps == 0.0 &&
-           (other.place - thing.place).squaredNorm() < 4.0 * kBody_m * kBody_m;
+// How all that the newest scan saw walks. Whose parts may be taken for those of somebody who
+// stands: how they walk is not known.
+void RecentSight::tellWalks(double stamp_s) {
+  const auto isOlder = [&](const SeenThing& thing) { return thing.seen_s != stamp_s; };
+  const auto first = std::find_if(things_.rbegin(), things_.rend(), isOlder).base();
+  std::for_each(first, things_.end(), [this](SeenThing& thing) {
+    if (thing.roams) tellWalk(thing);
   });
+  for (auto thing = first; thing != things_.end(); ++thing) {
+    const auto standsBeside = [&](const SeenThing& other) {
+      return other.is_somebody && other.gait_mps == 0.0 &&
+             (other.place - thing->place).squaredNorm() < 4.0 * kBody_m * kBody_m;
+    };
+    if (thing->gait_mps == 0.0 || std::none_of(first, things_.end(), standsBeside)) continue;
+    thing->velocity.setZero();
+    thing->gait_mps = kFastestWalk_mps;
+  }
 }
 
 // Most of what a standing robot sees stands, too. A thing that moved is beyond errors, or too few.
@@ -263,14 +272,7 @@ void RecentSight::addScan(const LaserScan& scan, const FloorPose& base, double s
     keep({place, 0.0, stamp_s, SeenThing::kByLaser, true, roams, is_somebody, Vector2d::Zero(),
           0.0});
   }
-  for (SeenThing& thing : things_) {
-    if (thing.roams && thing.seen_s == stamp_s) tellWalk(thing);
-  }
-  for (SeenThing& thing : things_) {
-    if (thing.gait_mps == 0.0 || thing.seen_s != stamp_s || !isBesideStanding(thing)) continue;
-    thing.velocity.setZero();
-    thing.gait_mps = kFastestWalk_mps;
-  }
+  tellWalks(stamp_s);
   layOut();
 }
 

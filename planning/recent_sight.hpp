@@ -146,7 +146,7 @@ class RecentSight {
   Parts partsSince(Parts end, double stamp_s) const;  // of those before `end`
   static bool middleOf(Parts first, Parts end, Eigen::Vector2d& at);
   void tellWalk(SeenThing& thing) const;
-  bool isBesideStanding(const SeenThing& thing) const;
+  void tellWalks(double stamp_s);
   void keep(const SeenThing& thing);
   void layOut();
   void measureErrors(const Look& look, const Look& last);

@@ -69,13 +69,9 @@ const AcquisitionStep& Acquisition::step(double stamp_s, const cv::Mat& image_bg
       step_.labels.create(image_bgr.size(), CV_8UC1);
       step_.labels.setTo(AcquisitionStep::kScene);
       step_.usable = true;
-      early_frames_ = 0;
-    } else if (early_frames_++ == 0) {
-      early_s_ = stamp_s;
-    }
-    const bool came_early = early_frames_ >= params_.confirm_frames &&
-                            stamp_s - early_s_ > params_.others_s - kSameTime_s;
-    if (is_up || came_early) {
+      frames_with_others_ = 0;
+    } else if (is_up || othersStay(stamp_s)) {
+      frames_with_others_ = 0;
       background_ = learner_.model();
       result_.was_empty = background_.restlessShare() < kSweptShare;
       result_.state = AcquisitionState::kWaiting;
@@ -161,9 +157,7 @@ void Acquisition::findPerson(double stamp_s) {
     forgetPerson();  // the first look was noise, or this one is: begin with the newest
     entered = false;
   } else if (somebodyElseIsThere(stamp_s)) {
-    if (frames_with_others_++ == 0) with_others_s_ = stamp_s;
-    const bool stay = stamp_s - with_others_s_ > params_.others_s - kSameTime_s;
-    if (stay && frames_with_others_ >= params_.confirm_frames) end(AcquisitionEnd::kSecondPerson);
+    if (othersStay(stamp_s)) end(AcquisitionEnd::kSecondPerson);
     return;
   }
   frames_with_others_ = 0;
@@ -194,6 +188,13 @@ void Acquisition::forgetPerson() {
   result_.person_frames = result_.missed_frames = 0;
   result_.points = 0;
   result_.first_seen_s = result_.last_seen_s = 0.0;
+}
+
+// Whether people who should not be there are there to stay.
+bool Acquisition::othersStay(double stamp_s) {
+  if (frames_with_others_++ == 0) with_others_s_ = stamp_s;
+  const bool stay = stamp_s - with_others_s_ > params_.others_s - kSameTime_s;
+  return stay && frames_with_others_ >= params_.confirm_frames;
 }
 
 // Several people, or one who is not the person.

@@ -118,6 +118,7 @@ class Acquisition {
   void countPoints(const PeopleView& view);
   void tellPeopleApart();
   void leaveOutNoise(double stamp_s);
+  bool othersStay(double stamp_s);
   bool somebodyElseIsThere(double stamp_s) const;
   bool isElsewhere(int blob, double stamp_s) const;
   void forgetPerson();
@@ -141,8 +142,6 @@ class Acquisition {
   bool started_ = false;
   double start_s_ = 0.0;
   double stamp_s_ = 0.0;
-  int early_frames_ = 0;  // in a row that show somebody before the empty scene's time is up, ...
-  double early_s_ = 0.0;  // and since when
   int frames_with_others_ = 0;  // in a row, ...
   double with_others_s_ = 0.0;  // and since when
 };

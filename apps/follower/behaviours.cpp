@@ -73,10 +73,9 @@ std::optional<Intent> FaceTarget::step(const Situation& now, const Ways& ways) {
   if (!premises_.isInDoorway(here)) return intent;
   // Close by they leave no room to drive, and will be in view when they have gone past.
   if (now.target && (now.target->position - here).norm() < beside_m_) return intent;
-  std::optional<Intent> aside = aside_.step(now, ways);
-  aside->keep_in_view.reset();  // They wait: to make room goes before.
-  aside->look_at = intent.look_at;
-  return aside;
+  // They wait: to make room goes before, then it looks at them.
+  intent.go_to = aside_.step(now, ways)->go_to;
+  return intent;
 }
 
 std::optional<Intent> GoToLastSeen::step(const Situation& now, const Ways&) {
