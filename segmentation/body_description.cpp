@@ -251,6 +251,11 @@ double BodyDescriber::middleOf_m(int stripe) {
   return 0.5 * static_cast<double>(kEnds_m[i] + kEnds_m[i + 1]);
 }
 
+int BodyDescriber::garmentOf(int stripe) {
+  constexpr int kTrunk = 4, kHead = 7;
+  return (stripe >= kTrunk ? 1 : 0) + (stripe >= kHead ? 1 : 0);
+}
+
 Eigen::ArrayXf BodyDescriber::binsOf(const ColorHistogram& colors) {
   Eigen::ArrayXf bins = Eigen::ArrayXf::Zero(kBins);
   const auto total = static_cast<double>(std::max<std::uint64_t>(colors.total(), 1));

@@ -79,6 +79,7 @@ class BodyDescriber {
                 const pcl::Indices* indices = nullptr);
 
   static double middleOf_m(int stripe);  ///< Height of a stripe's middle over the floor.
+  static int garmentOf(int stripe);      ///< 0: trousers, 1: a top, 2: hair.
 
   /// How counted colours spread over the bins: a stripe that has them all.
   static Eigen::ArrayXf binsOf(const ColorHistogram& colors);

@@ -19,6 +19,14 @@ Evidence mix(const Evidence& own, const Evidence& other, double other_share) {
                            : own;
 }
 
+/// Each garment is the target's or is not.
+Garments mix(const Garments& own, const Garments& other, double other_share) {
+  const auto isTargets = [](const Garments& odds) { return 1.0 / (1.0 + (-odds).exp()); };
+  return (((1.0 - other_share) * isTargets(own) + other_share * isTargets(other)) /
+          ((1.0 - other_share) * isTargets(-own) + other_share * isTargets(-other)))
+      .log();
+}
+
 Tallness mix(const Gallery& gallery, const Tallness& own, const Tallness& other,
              double other_share) {
   return ((1.0 - other_share) * (own - gallery.logIfAnybody(own)).exp() +
@@ -29,8 +37,13 @@ Tallness mix(const Gallery& gallery, const Tallness& own, const Tallness& other,
 }  // namespace
 
 PastBelief BodyBelief::past() const {
-  return {log_place, log_place + log_free + log_views + view.evidence(), view.evidence(),
-          logTallness(), view.weight * view.tallness};
+  return {log_place,
+          log_place + log_free + log_views + view.evidence(),
+          view.evidence(),
+          logGarments(),
+          view.weight * view.garments,
+          logTallness(),
+          view.weight * view.tallness};
 }
 
 double BodyBelief::wayTo(const BodyLook& look) const {
@@ -44,6 +57,7 @@ void BodyBelief::takeLook(const Gallery& gallery, const BodyLook& look, double n
   if (news > kOtherView) {
     const double keep = std::exp(-gallery.params().look_correlation * news);
     log_views = keep * (log_views + view.evidence());
+    log_garments = keep * logGarments();
     log_tallness = keep * logTallness();
     looks += news;
     view = View{look.seen.position_m, look.seen.position_m - look.eye_m, look.stamp_s, news};
@@ -54,16 +68,15 @@ void BodyBelief::takeLook(const Gallery& gallery, const BodyLook& look, double n
     known_parts.setZero(kHypotheses, parts.is_seen.size());
     known_looks.setZero(parts.is_seen.size());
   }
-  const Evidence unseen =
-      (known_parts.rowwise() * (1.0 - parts.is_seen).transpose()).rowwise().sum();
+  LookOdds odds = gallery.logOdds(parts, &known_parts);
   known_looks = (known_looks + parts.is_seen).min(View::kMostLooks);
   known_parts +=
       (parts.parts - known_parts).rowwise() * (parts.is_seen / known_looks.max(1.0)).transpose();
-  Evidence evidence = gallery.logLikelihood(parts, unseen);
-  evidence[kThing] = look.log_thing;
+  odds.all[kThing] = look.log_thing;
   for (int h = 0; h < kHypotheses; ++h) {
-    if (std::isfinite(evidence[h])) view.mean[h] += (evidence[h] - view.mean[h]) / view.count;
+    if (std::isfinite(odds.all[h])) view.mean[h] += (odds.all[h] - view.mean[h]) / view.count;
   }
+  view.garments += (odds.target - view.garments) / view.count;
   view.tallness += (look.tallness - view.tallness) / view.count;
   log_stature = gallery.logLikelihood(logTallness());
   if (sum.size() == 0) sum.setZero(look.seen.look->rows(), look.seen.look->cols());
@@ -83,12 +96,15 @@ void BodyBelief::mixIn(const Gallery& gallery, const PastBelief& other, double o
   if (view.weight > 0.0) {
     view.mean = mix(own.log_view, other.log_view, other_share) / view.weight;
     view.mean -= view.mean[kStranger];
+    view.garments = mix(own.log_view_garments, other.log_view_garments, other_share) / view.weight;
     view.tallness =
         mix(gallery, own.log_view_tallness, other.log_view_tallness, other_share) / view.weight;
     view.count *= 1.0 - other_share;
   }
   const Evidence views = all - log_place - log_free - view.evidence();
   log_views = views.isFinite().select(views, 0.0);
+  log_garments =
+      mix(own.log_garments, other.log_garments, other_share) - view.weight * view.garments;
   log_tallness =
       mix(gallery, own.log_tallness, other.log_tallness, other_share) - view.weight * view.tallness;
   log_stature = gallery.logLikelihood(logTallness());

@@ -36,7 +36,8 @@ struct View {
   double since_s = 0.0;
   double weight = 0.0;  ///< As far as it is another view than the one before; 0: there is none.
   Evidence mean = Evidence::Zero();
-  Tallness tallness = Tallness::Zero();  ///< The mean, too.
+  Garments garments = Garments::Zero();  ///< The mean of what looks say of the target's,
+  Tallness tallness = Tallness::Zero();  ///< and of statures.
   double count = 0.0;
   Evidence evidence() const { return weight * mean; }
 };
@@ -46,6 +47,7 @@ struct PastBelief {
   Evidence log_place = Evidence::Zero();
   Evidence log_all = Evidence::Zero();   ///< By all but statures,
   Evidence log_view = Evidence::Zero();  ///< and of it by the view at hand.
+  Garments log_garments = Garments::Zero(), log_view_garments = Garments::Zero();
   Tallness log_tallness = Tallness::Zero(), log_view_tallness = Tallness::Zero();
 };
 
@@ -60,8 +62,9 @@ struct BodyBelief {
   static constexpr double kMistaken = 0.01;
 
   int track_id = 0;
-  Evidence log_place = Evidence::Zero();  ///< By where it came from and goes.
-  Evidence log_views = Evidence::Zero();  ///< By looks from all views but the present one.
+  Evidence log_place = Evidence::Zero();     ///< By where it came from and goes.
+  Evidence log_views = Evidence::Zero();     ///< By looks from all views but the present one,
+  Garments log_garments = Garments::Zero();  ///< and how that is spread over the target's garments.
   /// By who was somebody else in view at the same time, and has left.
   Evidence log_free = Evidence::Zero();
   Evidence probability = Evidence::Zero();            ///< With who is in view now, too.
@@ -86,6 +89,7 @@ struct BodyBelief {
 
   Tallness logTallness() const { return log_tallness + view.weight * view.tallness; }
   Evidence logLooks() const { return log_views + view.evidence() + log_stature; }
+  Garments logGarments() const { return log_garments + view.weight * view.garments; }
   double targetShare() const { return probability[kTarget] / std::max(probability.sum(), 1e-300); }
   PastBelief past() const;
 

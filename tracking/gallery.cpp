@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -53,6 +54,16 @@ Gallery::Gallery(TargetLooks looks, const GalleryParams& params)
   }
   if (!(looks_.stature_sigma_m > 0.0)) {
     throw std::invalid_argument("TargetLooks: stature_sigma_m must be positive");
+  }
+  const auto parts = static_cast<std::size_t>(looks_.target.cols());
+  if (looks_.garments.empty()) {
+    looks_.garments.resize(parts);
+    std::iota(looks_.garments.begin(), looks_.garments.end(), 0);
+  }
+  if (looks_.garments.size() != parts ||
+      std::any_of(looks_.garments.begin(), looks_.garments.end(),
+                  [](int garment) { return garment < 0 || garment >= kGarments; })) {
+    throw std::invalid_argument("TargetLooks: a part needs one of three garments");
   }
   for (const Tint& tint : looks_.tints) {
     if (tint.bins.size() != bins || tint.bins.minCoeff() < 0 || tint.bins.maxCoeff() >= bins) {
@@ -196,19 +207,31 @@ void Gallery::compare(const Observation& seen, LookEvidence& evidence) {
   }
 }
 
-Evidence Gallery::logLikelihood(const LookEvidence& look, const Evidence& unseen) const {
-  Evidence evidence = look.light;
-  if (!(look.is_seen > 0.0).any()) return evidence;
-  evidence += look.parts.rowwise().sum() + unseen;
+LookOdds Gallery::logOdds(const LookEvidence& look, const Eigen::ArrayXXd* known) const {
+  LookOdds odds{look.light};
+  if (!(look.is_seen > 0.0).any()) return odds;
   for (int h = kTarget; h < kHypotheses; ++h) {
-    if (!std::isfinite(evidence[h])) continue;
-    const double mislead = params_.misleading_share;
-    const double ratio = std::exp(std::min(evidence[h], 100.0));
+    if (!std::isfinite(look.light[h])) continue;
+    Garments garments = Garments::Zero();
+    for (Eigen::Index part = 0; part < look.parts.cols(); ++part) {
+      garments[looks_.garments[static_cast<std::size_t>(part)]] +=
+          look.is_seen[part] > 0.0 || known == nullptr ? look.parts(h, part) : (*known)(h, part);
+    }
+    const double sum = look.light[h] + garments.sum();
     // Fewer looks are like somebody by chance than are unlike themselves.
-    evidence[h] =
-        std::log((1.0 - mislead) * ratio + mislead) - std::log1p(params_.alikeShare() * ratio);
+    const double mislead = params_.misleading_share, alike = mislead * mislead;
+    const double ratio = std::exp(std::min(sum, 100.0));
+    odds.all[h] = std::log(((1.0 - mislead) * ratio + mislead) / (1.0 - alike + alike * ratio));
+    if (h != kTarget) continue;
+    constexpr double kNothing = 1e-6;  // Nearer to 0 the share is the slope there.
+    odds.target = garments * (std::abs(sum) > kNothing ? odds.all[h] / sum : 1.0 - mislead - alike);
   }
-  return evidence;
+  return odds;
+}
+
+double Gallery::logAlike(const Garments& garments) const {
+  const double share = params_.misleading_share;
+  return (1.0 - share + share * garments.min(100.0).exp()).log().max(0.0).sum();
 }
 
 void Gallery::average(Person& person, const Eigen::ArrayXXf& look, double weight) {

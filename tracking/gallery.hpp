@@ -21,10 +21,11 @@ struct Tint {
 
 /// What phase 1 leaves, in the bins and parts of Observation::look.
 struct TargetLooks {
-  Eigen::ArrayXXf target;   ///< Mean of many looks; empty: nothing is known of anybody's looks.
-  Eigen::ArrayXf room;      ///< How the room's pixels are spread over the bins.
-  Eigen::ArrayXf anybody;   ///< How anybody's are, before they are known.
-  std::vector<Tint> tints;  ///< In which people may be seen again, besides the room's own.
+  Eigen::ArrayXXf target;     ///< Mean of many looks; empty: nothing is known of anybody's looks.
+  Eigen::ArrayXf room;        ///< How the room's pixels are spread over the bins.
+  Eigen::ArrayXf anybody;     ///< How anybody's are, before they are known.
+  std::vector<int> garments;  ///< Which of kGarments each part is of; empty: each part is one.
+  std::vector<Tint> tints;    ///< In which people may be seen again, besides the room's own.
   std::optional<double> stature_m;
   double stature_sigma_m = 0.05;  ///< Of a single look's stature, without what all share.
 };
@@ -41,6 +42,10 @@ inline constexpr int kHypotheses = kFirstOther + kMostOthers;
 
 /// A value a hypothesis.
 using Evidence = Eigen::Array<double, kHypotheses, 1>;
+
+/// What strangers may share with somebody, each by itself: trousers, a top, hair.
+inline constexpr int kGarments = 3;
+using Garments = Eigen::Array<double, kGarments, 1>;
 
 /// What a look's colours say, part by part.
 struct LookEvidence {
@@ -68,13 +73,18 @@ inline constexpr double kMisfit = 0.97, kOthersMisfit = 2.0;
 /// How much of a rare colour's evidence counts: whoever wears a rare colour wears much of it.
 inline constexpr double kRarityShare = 0.5;
 
+/// What a look's colours say together: logarithms of the likelihood over a stranger's.
+struct LookOdds {
+  Evidence all = Evidence::Zero();     ///< -infinity where there is nobody.
+  Garments target = Garments::Zero();  ///< Garment by garment.
+};
+
 struct GalleryParams {
   /// Share of looks that mislead (shade, somebody half in front, a lintel over them). It bounds
-  /// what one look at colours, and one at stature, can say against anybody. Its square is the share
-  /// of strangers who look like somebody, by chance or because they are dressed alike: it bounds
-  /// what one look at colours can say for anybody, and what all looks together can for the target.
+  /// what one look at colours, and one at stature, can say against anybody. As many strangers wear
+  /// the same top as somebody, or trousers, or have the same hair, each by itself: it bounds what
+  /// all looks at each can say for the target. Its square bounds what one look says for anybody.
   double misleading_share = 0.05;
-  double alikeShare() const { return misleading_share * misleading_share; }
   /// Looks at one person are alike: many together are worth no more than 1 / this of them.
   double look_correlation = 0.2;
 };
@@ -87,10 +97,12 @@ class Gallery {
 
   /// Compares a look's colours with everybody's. What is not seen says nothing.
   void compare(const Observation& seen, LookEvidence& evidence);
-  /// Logarithm of the likelihood of a look's colours by each hypothesis, over a stranger's;
-  /// -infinity where there is nobody.
-  /// @param unseen  Sum over the parts that it does not show of what is known of them otherwise.
-  Evidence logLikelihood(const LookEvidence& look, const Evidence& unseen = Evidence::Zero()) const;
+  /// @param known  What other looks say of the parts that it does not show, as LookEvidence::parts.
+  LookOdds logOdds(const LookEvidence& look, const Eigen::ArrayXXd* known = nullptr) const;
+  /// How much likelier looks are by a stranger who may wear some of what the target does than by
+  /// any, as a logarithm.
+  /// @param garments  The log odds for the target that they have, garment by garment.
+  double logAlike(const Garments& garments) const;
 
   /// What a look says of stature; 0 where it says nothing.
   Tallness logTallness(const Observation& seen) const;

@@ -78,8 +78,8 @@ void Identity::look(const std::vector<Observation>& observations) {
   if (parts_.size() < observations.size()) parts_.resize(observations.size());
   for (std::size_t i = 0; i < observations.size(); ++i) {
     gallery_.compare(observations[i], parts_[i]);
-    looks_[i] = gallery_.logLikelihood(parts_[i]);
-    looks_[i][kThing] -= observations[i].log_person;
+    looks_[i] = gallery_.logOdds(parts_[i]);
+    looks_[i].all[kThing] -= observations[i].log_person;
     statures_[i] = gallery_.logTallness(observations[i]);
   }
 }
@@ -87,7 +87,7 @@ void Identity::look(const std::vector<Observation>& observations) {
 double Identity::logLikelihood(int track_id, int observation) const {
   const BodyBelief* belief = find(track_id);
   if (belief == nullptr) return 0.0;
-  const Evidence& look = looks_[static_cast<std::size_t>(observation)];
+  const Evidence& look = looks_[static_cast<std::size_t>(observation)].all;
   const Tallness& stature = statures_[static_cast<std::size_t>(observation)];
   const Tallness before = belief->logTallness();
   const double same = gallery_.logIfAnybody(before + stature) - gallery_.logIfAnybody(before) -
@@ -275,7 +275,7 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
     // begin() has taken in where it was seen first.
     if (belief.seen_s != stamp_s) takePlace(belief, track, observations[i], stamp_s);
     if (observations[i].look == nullptr) continue;
-    takeLook(belief, {observations[i], parts_[i], looks_[i][kThing], statures_[i],
+    takeLook(belief, {observations[i], parts_[i], looks_[i].all[kThing], statures_[i],
                       viewpoint.position_m, stamp_s});
   }
   weighTogether();
@@ -308,12 +308,17 @@ void Identity::mixSwaps(const std::vector<Swap>& swaps) {
   }
 }
 
-/// However well looks fit the target, it may be a stranger who is dressed alike.
+/// However well looks fit the target, it may be a stranger who wears some of the same: whoever wears
+/// the same top in other trousers does not become the target by being looked at for long. Where
+/// bodies may have swapped, the odds of each garment are bounded by that, and so are all together.
 Evidence Identity::logWeight(const BodyBelief& belief) const {
-  const Evidence log_looks = belief.logLooks();
-  Evidence log_weight = belief.log_place + belief.log_free + log_looks;
-  const double log_odds = std::min(log_looks[kTarget] - log_looks[kStranger], 100.0);
-  log_weight[kStranger] += std::log1p(params_.gallery.alikeShare() * std::expm1(log_odds));
+  const Evidence log_colors = belief.log_views + belief.view.evidence();
+  const Garments garments = belief.logGarments();
+  const double alike = gallery_.logAlike(garments);
+  const double most = garments.sum() - alike;
+  Evidence log_weight = belief.log_place + belief.log_free + log_colors + belief.log_stature;
+  log_weight[kStranger] +=
+      std::clamp(log_colors[kTarget] - log_colors[kStranger] - most, 0.0, alike);
   return log_weight;
 }
 
@@ -478,6 +483,7 @@ void Identity::makeTarget(int track_id, const Eigen::Vector2d& place_m, double s
   for (double& weight : belief->log_place) weight = std::isfinite(weight) ? kLogMistaken : weight;
   belief->log_place[kTarget] = 0.0;
   belief->log_views.setZero();
+  belief->log_garments.setZero();
   belief->log_free.setZero();
   belief->log_tallness.setZero();
   belief->log_stature.setZero();

@@ -92,7 +92,7 @@ class Identity {
   /// Probability that the target is none of the tracks.
   double away() const { return away_[kTarget]; }
   /// What the looks of the last step said, observation by observation, without statures.
-  const std::vector<Evidence>& looks() const { return looks_; }
+  const std::vector<LookOdds>& looks() const { return looks_; }
 
  private:
   BodyBelief* find(int track_id);
@@ -121,7 +121,7 @@ class Identity {
   ClutterMap clutter_;
   std::vector<BodyBelief> beliefs_;
   std::vector<BodyBelief> left_;              // of tracks that have ended, the last one last
-  std::vector<Evidence> looks_;               // of the step's observations, alone,
+  std::vector<LookOdds> looks_;               // of the step's observations, alone,
   std::vector<LookEvidence> parts_;           // and part by part,
   std::vector<Tallness> statures_;            // and of these
   Evidence away_ = Evidence::Ones();          // of each person, that they are none of the tracks

@@ -33,10 +33,10 @@ TargetResult lookFor(const std::string& person, const AppearanceModel& model,
     if (judged.count(frame.number) != 0) {
       best_frames.push_back(target);
       started_frames.push_back(target);
-      const std::vector<Evidence>& looks = started.identity().looks();
+      const std::vector<LookOdds>& looks = started.identity().looks();
       const auto best = std::max_element(
           looks.begin(), looks.end(),
-          [](const Evidence& a, const Evidence& b) { return a[kTarget] < b[kTarget]; });
+          [](const LookOdds& a, const LookOdds& b) { return a.all[kTarget] < b.all[kTarget]; });
       if (best != looks.end()) {
         const auto i = static_cast<std::size_t>(best - looks.begin());
         best_frames.back().estimate_m = seen.observations[i].position_m;

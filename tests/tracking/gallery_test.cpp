@@ -12,6 +12,7 @@
 #include <random>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 namespace heel {
 namespace {
@@ -25,7 +26,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 Evidence of(Gallery& gallery, const Observation& seen) {
   LookEvidence look;
   gallery.compare(seen, look);
-  return gallery.logLikelihood(look);
+  return gallery.logOdds(look).all;
 }
 
 Evidence of(Gallery& gallery, const Eigen::ArrayXXf& look) {
@@ -58,7 +59,7 @@ double usualLogOdds(double usual_misfit, double misfit) {
 double target(double log_odds, const GalleryParams& params = {}) {
   const double mislead = params.misleading_share;
   return std::log((1.0 - mislead) * std::exp(log_odds) + mislead) -
-         std::log1p(mislead * mislead * std::exp(log_odds));
+         std::log1p(mislead * mislead * std::expm1(log_odds));
 }
 
 TEST(Gallery, WhatIsNotSeenSaysNothing) {
@@ -157,7 +158,9 @@ TEST(Gallery, NoLookSaysMoreThanTheMisleadingShareLeaves) {
     const auto tall = [](int top, int bottom) {
       return clothes(top, bottom).replicate(1, 12).eval();
     };
-    Gallery gallery(looksOf(tall(0, 1)), params);
+    TargetLooks looks = looksOf(tall(0, 1));
+    for (int part = 0; part < 24; ++part) looks.garments.push_back(part % 2);
+    Gallery gallery(looks, params);
     gallery.meet(tall(2, 3), 1.0);
     for (int i = 0; i < 100; ++i) {
       Eigen::ArrayXXf look(test::kColors, 24);
@@ -173,7 +176,34 @@ TEST(Gallery, NoLookSaysMoreThanTheMisleadingShareLeaves) {
     // The clearest look says all that it may.
     EXPECT_NEAR(of(gallery, tall(0, 1))[kTarget], std::log(1.0 - share) - 2.0 * std::log(share),
                 1e-3);
-    EXPECT_NEAR(of(gallery, tall(4, 5))[kTarget], std::log(share), 1e-3);
+    EXPECT_NEAR(of(gallery, tall(4, 5))[kTarget], std::log(share / (1.0 - share * share)), 1e-3);
+  }
+}
+
+TEST(Gallery, StrangersMayWearEachGarmentByItself) {
+  GalleryParams params;
+  params.misleading_share = 0.1;
+  const Gallery gallery(looksOf(clothes(0, 1)), params);
+  const auto alike = [&](double trousers, double top, double hair) {
+    return gallery.logAlike(Garments(trousers, top, hair));
+  };
+  EXPECT_EQ(alike(0.0, 0.0, 0.0), 0.0);
+  EXPECT_NEAR(alike(std::log(11.0), 0.0, 0.0), std::log(2.0), 1e-12);
+  EXPECT_NEAR(alike(std::log(11.0), std::log(21.0), 0.0), std::log(2.0 * 3.0), 1e-12);
+  EXPECT_EQ(alike(-5.0, 0.0, -1.0), 0.0) << "who wears something else is no likelier a stranger";
+}
+
+TEST(Gallery, ALooksLogOddsForTheTargetAreThoseOfItsGarments) {
+  Gallery gallery(looksOf(clothes(0, 1)));
+  LookEvidence look;
+  for (const auto& [upper, lower] : {std::pair{0, 1}, {0, 5}, {2, 5}}) {
+    const Eigen::ArrayXXf colors = clothes(upper, lower);
+    gallery.compare(seen(0, 0, &colors), look);
+    const LookOdds odds = gallery.logOdds(look);
+    EXPECT_NEAR(odds.target.sum(), odds.all[kTarget], 1e-9);
+    EXPECT_EQ(odds.target[0] > 0.0, upper == 0);
+    EXPECT_EQ(odds.target[1] > 0.0, lower == 1);
+    EXPECT_EQ(odds.target[2], 0.0);
   }
 }
 
@@ -369,6 +399,14 @@ TEST(Gallery, RejectsLooksOfUnequalBins) {
   looks = looksOf(clothes(0, 1));
   looks.anybody.resize(0);
   EXPECT_THROW(Gallery{looks}, std::invalid_argument);
+}
+
+TEST(Gallery, RejectsPartsOfNoGarment) {
+  for (const std::vector<int>& garments : {std::vector{0}, {0, 1, 2}, {0, kGarments}, {-1, 0}}) {
+    TargetLooks looks = looksOf(clothes(0, 1));
+    looks.garments = garments;
+    EXPECT_THROW(Gallery{looks}, std::invalid_argument);
+  }
 }
 
 // Bug: a light's bins are not checked, and are read beyond their end.

@@ -142,7 +142,7 @@ TEST(TargetTracker, OfTwoWhoMayBeOneBodyTheLikelierIsTheTarget) {
   Scene run;
   run.lookAround();
   for (double off_m = 1.5; off_m > 0.2; off_m -= 0.1) run.see({seen(2, 0), seen(2, off_m)});
-  const TargetEstimate& estimate = run.see({seen(2, 0), seen(2, 0.2)});
+  const TargetEstimate& estimate = run.see({seen(2, 0), seen(2, 0.15)});
   ASSERT_EQ(run.target().tracker().tracks().size(), 2U);
   EXPECT_EQ(estimate.status, TargetStatus::kFollowed);
   EXPECT_GT(estimate.confidence, 0.9);
