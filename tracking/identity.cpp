@@ -308,9 +308,9 @@ void Identity::mixSwaps(const std::vector<Swap>& swaps) {
   }
 }
 
-/// However well looks fit the target, it may be a stranger who wears some of the same: whoever wears
-/// the same top in other trousers does not become the target by being looked at for long. Where
-/// bodies may have swapped, the odds of each garment are bounded by that, and so are all together.
+/// However well looks fit the target, it may be a stranger who wears some of the same, which bounds
+/// the odds of each garment. Where bodies may have swapped, the odds of all are less than theirs
+/// together: then only what is over the bound comes off.
 Evidence Identity::logWeight(const BodyBelief& belief) const {
   const Evidence log_colors = belief.log_views + belief.view.evidence();
   const Garments garments = belief.logGarments();
