@@ -25,6 +25,7 @@ constexpr double kDarkOffset = 12.0;
 /// Ends of the stripes over the floor [m]: about a head, three of the trunk, four of the legs.
 constexpr std::array<float, Describer::kStripes + 1> kEnds_m = {0.10F, 0.35F, 0.60F, 0.85F, 1.05F,
                                                                 1.25F, 1.45F, 1.65F, 2.00F};
+constexpr int kTrunk = 4, kHead = 7;  // The first stripe of each.
 
 int stripeOf(float height_m) {
   const auto above = std::upper_bound(kEnds_m.begin(), kEnds_m.end(), height_m);
@@ -251,10 +252,7 @@ double BodyDescriber::middleOf_m(int stripe) {
   return 0.5 * static_cast<double>(kEnds_m[i] + kEnds_m[i + 1]);
 }
 
-int BodyDescriber::garmentOf(int stripe) {
-  constexpr int kTrunk = 4, kHead = 7;
-  return (stripe >= kTrunk ? 1 : 0) + (stripe >= kHead ? 1 : 0);
-}
+int BodyDescriber::garmentOf(int stripe) { return stripe < kTrunk ? 0 : stripe < kHead ? 1 : 2; }
 
 Eigen::ArrayXf BodyDescriber::binsOf(const ColorHistogram& colors) {
   Eigen::ArrayXf bins = Eigen::ArrayXf::Zero(kBins);

@@ -56,7 +56,7 @@ double BodyBelief::wayTo(const BodyLook& look) const {
 void BodyBelief::takeLook(const Gallery& gallery, const BodyLook& look, double news) {
   if (news > kOtherView) {
     const double keep = std::exp(-gallery.params().look_correlation * news);
-    log_views = keep * (log_views + view.evidence());
+    log_views = keep * logColors();
     log_garments = keep * logGarments();
     log_tallness = keep * logTallness();
     looks += news;

@@ -47,6 +47,7 @@ struct PastBelief {
   Evidence log_place = Evidence::Zero();
   Evidence log_all = Evidence::Zero();   ///< By all but statures,
   Evidence log_view = Evidence::Zero();  ///< and of it by the view at hand.
+  /// The same for the target, garment by garment, and of statures.
   Garments log_garments = Garments::Zero(), log_view_garments = Garments::Zero();
   Tallness log_tallness = Tallness::Zero(), log_view_tallness = Tallness::Zero();
 };
@@ -88,7 +89,8 @@ struct BodyBelief {
   bool is_alive = true;
 
   Tallness logTallness() const { return log_tallness + view.weight * view.tallness; }
-  Evidence logLooks() const { return log_views + view.evidence() + log_stature; }
+  Evidence logColors() const { return log_views + view.evidence(); }
+  Evidence logLooks() const { return logColors() + log_stature; }
   Garments logGarments() const { return log_garments + view.weight * view.garments; }
   double targetShare() const { return probability[kTarget] / std::max(probability.sum(), 1e-300); }
   PastBelief past() const;

@@ -97,6 +97,7 @@ class Gallery {
 
   /// Compares a look's colours with everybody's. What is not seen says nothing.
   void compare(const Observation& seen, LookEvidence& evidence);
+  /// What a look's colours say together, bounded as GalleryParams say.
   /// @param known  What other looks say of the parts that it does not show, as LookEvidence::parts.
   LookOdds logOdds(const LookEvidence& look, const Eigen::ArrayXXd* known = nullptr) const;
   /// How much likelier looks are by a stranger who may wear some of what the target does than by

@@ -312,7 +312,7 @@ void Identity::mixSwaps(const std::vector<Swap>& swaps) {
 /// the odds of each garment. Where bodies may have swapped, the odds of all are less than theirs
 /// together: then only what is over the bound comes off.
 Evidence Identity::logWeight(const BodyBelief& belief) const {
-  const Evidence log_colors = belief.log_views + belief.view.evidence();
+  const Evidence log_colors = belief.logColors();
   const Garments garments = belief.logGarments();
   const double alike = gallery_.logAlike(garments);
   const double most = garments.sum() - alike;
