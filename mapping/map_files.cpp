@@ -34,12 +34,16 @@ constexpr std::uint8_t kFreePixel = 254, kOccupiedPixel = 0, kUnknownPixel = 205
   throw std::runtime_error(file.string() + ": " + why);
 }
 
-/// OpenCV fills what is missing of a truncated picture with anything; find it before.
-bool isTruncated(const std::string& bytes) {
+/// OpenCV fills what is missing of a truncated picture with anything, and takes any white of a PGM
+/// for 255 or 65535; find it before.
+std::string wrongWith(const std::string& bytes) {
+  const std::string truncated = "the image is truncated";
   if (bytes.rfind("\x89PNG", 0) == 0) {
-    return bytes.size() < 20 || bytes.compare(bytes.size() - 8, 4, "IEND") != 0;
+    const bool ends = bytes.size() >= 20 && bytes.compare(bytes.size() - 8, 4, "IEND") == 0;
+    return ends ? "" : truncated;
   }
-  if (bytes.rfind("P5", 0) != 0) return false;
+  const bool is_text = bytes.rfind("P2", 0) == 0;
+  if (!is_text && bytes.rfind("P5", 0) != 0) return "";
   std::size_t at = 2;
   long numbers[3] = {0, 0, 0};  // Width, height, white.
   for (long& number : numbers) {
@@ -52,15 +56,21 @@ bool isTruncated(const std::string& bytes) {
       number = 10 * number + (bytes[at] - '0');
     }
   }
+  const long white = numbers[2];
+  if (white == 0) return truncated;
+  if (white != 255 && white != 65535) {
+    return "its white is " + std::to_string(white) + ", and only 255 and 65535 can be read";
+  }
   const auto samples = static_cast<std::size_t>(numbers[0]) * static_cast<std::size_t>(numbers[1]);
-  return bytes.size() < at + 1 + samples * (numbers[2] > 255 ? 2U : 1U);
+  const std::size_t bytes_each = white > 255 ? 2 : 1;
+  return is_text || bytes.size() > at + samples * bytes_each ? "" : truncated;
 }
 
 /// @param bytes_per_pixel  What the picture takes, and what is made of it.
 cv::Mat readImage(const fs::path& file, cv::ImreadModes mode, std::size_t bytes_per_pixel) {
   const std::string bytes = readWholeFile(file);
   if (bytes.empty()) fail(file, "the image is empty (0 bytes)");
-  if (isTruncated(bytes)) fail(file, "the image is truncated");
+  if (const std::string wrong = wrongWith(bytes); !wrong.empty()) fail(file, wrong);
   checkImageMemory(file.string() + ": the image",
                    reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(),
                    bytes_per_pixel);

@@ -130,7 +130,8 @@ ColorHistogram readColors(YamlMap& map) {
     if (std::sscanf(line.c_str(), "%u %u %u %llu %c", &b, &g, &r, &count, &rest) != 4) {
       map.fail("colors", "has a line that is not 'blue green red count': '" + line + "'");
     }
-    if (std::max({b, g, r}) > 255) {
+    constexpr unsigned long long kMostPixels = 1000000000000000;
+    if (std::max({b, g, r}) > 255 || count > kMostPixels) {
       map.fail("colors", "has a colour out of range: '" + line + "'");
     }
     colors.add(
@@ -206,6 +207,10 @@ AppearanceModel readModel(YamlMap root) {
   }
   reader.begin("room");
   const ColorHistogram room = readColors(reader.map());
+  const auto pixels = static_cast<double>(room.total());
+  if (reader.map().number("pixels", pixels) != pixels) {
+    reader.map().fail("colors", "does not hold as many pixels as it says: the file is truncated");
+  }
   reader.end();
   reader.map().done();
   AppearanceModel model(std::move(params), std::move(person), room, stature, std::move(portrait));
@@ -292,6 +297,7 @@ std::string toYaml(const AppearanceModel& model) {
   }
   writePortrait(out, model.portrait());
   writer.begin("room");
+  writer.field("pixels", model.room().total());  // so that a file that was cut off is known
   writeColors(out, model.room());
   writer.end();
   out << YAML::EndMap << YAML::Newline;

@@ -64,7 +64,12 @@ SqliteFile::SqliteFile(const std::filesystem::path& file, Use use) : name_(file.
   guard(file);
   if (query("PRAGMA schema_version").step() == SqliteQuery::Row::kThere) return;
   // A file with a journal can't be read where nothing may be written, unless it is told to be
-  // final.
+  // final, which it is only if there is nothing in the journal.
+  std::error_code none;
+  if (std::filesystem::file_size(name_ + "-wal", none) > 0 && !none) {
+    throw std::runtime_error(name_ + ": it was not closed, and what is in its journal (-wal) can " +
+                             "only be read where files can be written: copy both to such a folder");
+  }
   std::string escaped;
   for (const char c : std::filesystem::absolute(file).string()) {
     if (c == '%' || c == '?' || c == '#') {

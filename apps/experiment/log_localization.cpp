@@ -82,7 +82,12 @@ OccupancyGrid mapFromLog(const std::filesystem::path& path, MapScans which, doub
     }
   }
   if (count == 0) throw std::runtime_error(path.string() + ": has no laser scans");
-  return map.grid();
+  OccupancyGrid grid = map.grid();
+  const std::vector<Occupancy>& cells = grid.cells();
+  if (std::find(cells.begin(), cells.end(), Occupancy::kFree) == cells.end()) {
+    throw std::runtime_error(path.string() + ": its scans show no free floor");
+  }
+  return grid;
 }
 
 LogLocalizationResult localizeLog(const std::filesystem::path& path, const OccupancyGrid& map,

@@ -58,24 +58,33 @@ struct CarmenLog::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
-  [[noreturn]] void fail(const char* what) const {
-    throw std::runtime_error(name + ":" + std::to_string(line_number) + ": " + what);
+  std::string at(const char* what) const {
+    return name + ":" + std::to_string(line_number) + ": " + what;
+  }
+  [[noreturn]] void fail(const char* what) const { throw std::runtime_error(at(what)); }
+  void leaveOut(const std::string& why) {
+    if (left_out++ == 0) why_left_out = why;
   }
 
+  /// False at the end, or where the file can't be read on.
   bool nextLine() {
     line.clear();
     ++line_number;
     std::array<char, 4096> part;
     while (gzgets(file, part.data(), static_cast<int>(part.size())) != nullptr) {
       line += part.data();
-      if (part.front() == '\0' || line.size() > kLongestLine) fail("this is no line of a log");
+      if (part.front() == '\0' || line.size() > kLongestLine) {
+        leaveOut(at("this is no line of a log"));
+        return false;
+      }
       if (!line.empty() && line.back() == '\n') break;
     }
     int problem = Z_OK;
     gzerror(file, &problem);
-    if (problem != Z_OK && problem != Z_STREAM_END) fail("the compressed stream is broken");
+    const bool is_broken = problem != Z_OK && problem != Z_STREAM_END;
+    if (is_broken) leaveOut(at("the compressed stream is broken"));
     rest = line;
-    return !line.empty();
+    return !line.empty() && !is_broken;
   }
 
   std::string_view word() {
@@ -88,13 +97,20 @@ struct CarmenLog::State {
     return result;
   }
 
-  double number() {
+  /// May be infinite, or none.
+  double range_m() {
     const std::string_view text = word();
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+    if (error != std::errc() || end != text.data() + text.size()) {
       fail("a number is missing or broken");
     }
+    return value;
+  }
+
+  double number() {
+    const double value = range_m();
+    if (!std::isfinite(value)) fail("a number is not finite");
     return value;
   }
 
@@ -127,9 +143,9 @@ struct CarmenLog::State {
     scan.step_rad = step_rad;
     scan.ranges_m.resize(count);
     for (float& range : scan.ranges_m) {
-      const double range_m = number();
-      range =
-          range_m >= most_m ? std::numeric_limits<float>::infinity() : static_cast<float>(range_m);
+      const double measured_m = range_m();
+      range = measured_m < most_m ? static_cast<float>(measured_m)
+                                  : std::numeric_limits<float>::infinity();
     }
     const double remissions = is_new ? number() : 0.0;
     if (remissions > kMostBeams) fail("a scan must have no more than 10000 remissions");
@@ -141,30 +157,40 @@ struct CarmenLog::State {
     return true;
   }
 
-  /// Reads on to the next scan, and goes along with the odometry; false at the end.
+  /// Takes in a line; true if it is a scan.
+  bool takeLine() {
+    const std::string_view kind = word();
+    if (kind == "ODOM") {
+      const FloorPose now = pose();
+      for (int left = 3; left > 0; --left) word();  // speeds and acceleration
+      const std::string_view time = word();
+      double time_s = 0.0;
+      std::from_chars(time.data(), time.data() + time.size(), time_s);
+      if (anchored) odometry = odometry * (anchor.inverse() * now);
+      anchor = now;
+      anchor_s = time_s;
+      anchored = has_odometry = true;
+    } else if (kind == "PARAM" && word() == "robot_frontlaser_offset") {
+      laser_ahead_m = number();
+    } else if (scanLine(kind)) {
+      jump = anchored ? anchor.inverse() * robot : FloorPose{};
+      jump_s = stamp_s - anchor_s;
+      if (!is_corrected) odometry = odometry * jump;
+      anchor = robot;
+      anchor_s = stamp_s;
+      return anchored = true;
+    }
+    return false;
+  }
+
+  /// Reads on to the next scan, and goes along with the odometry; false at the end. Lines that are
+  /// broken are left out.
   bool nextScan() {
     while (nextLine()) {
-      const std::string_view kind = word();
-      if (kind == "ODOM") {
-        const FloorPose now = pose();
-        for (int left = 3; left > 0; --left) word();  // speeds and acceleration
-        const std::string_view time = word();
-        double time_s = 0.0;
-        std::from_chars(time.data(), time.data() + time.size(), time_s);
-        if (anchored) odometry = odometry * (anchor.inverse() * now);
-        anchor = now;
-        anchor_s = time_s;
-        anchored = has_odometry = true;
-      } else if (kind == "PARAM" && word() == "robot_frontlaser_offset") {
-        laser_ahead_m = number();
-      } else if (scanLine(kind)) {
-        jump = anchored ? anchor.inverse() * robot : FloorPose{};
-        jump_s = stamp_s - anchor_s;
-        if (!is_corrected) odometry = odometry * jump;
-        anchor = robot;
-        anchor_s = stamp_s;
-        anchored = true;
-        return true;
+      try {
+        if (takeLine()) return true;
+      } catch (const std::runtime_error& error) {
+        leaveOut(error.what());
       }
     }
     return false;
@@ -185,6 +211,8 @@ struct CarmenLog::State {
   LaserScan scan;
   FloorPose laser, robot, jump;
   double stamp_s = 0.0, jump_s = 0.0;
+  long left_out = 0;         // So many lines,
+  std::string why_left_out;  // of the first.
 };
 
 // What kind of log it is shows in all of it.
@@ -193,14 +221,16 @@ CarmenLog::CarmenLog(const std::filesystem::path& file) : state_(std::make_uniqu
   std::optional<FloorPose> first;
   bool differs = false;
   int scans = 0, jumps = 0;
-  try {
-    for (; all.nextScan(); ++scans) {
-      jumps += apart(all.jump) > kSame && apart(all.jump) > kFastest * std::abs(all.jump_s);
-      const FloorPose T_robot_laser = all.robot.inverse() * all.laser;
-      if (!first) first = T_robot_laser;
-      differs |= apart(first->inverse() * T_robot_laser) > 2.0 * kSame;
-    }
-  } catch (const std::runtime_error&) {  // next() will tell of it.
+  for (; all.nextScan(); ++scans) {
+    jumps += apart(all.jump) > kSame && apart(all.jump) > kFastest * std::abs(all.jump_s);
+    const FloorPose T_robot_laser = all.robot.inverse() * all.laser;
+    if (!first) first = T_robot_laser;
+    differs |= apart(first->inverse() * T_robot_laser) > 2.0 * kSame;
+  }
+  if (!first && all.left_out > 0) throw std::runtime_error(all.why_left_out);
+  if (all.left_out > 0) {
+    lost_ = all.why_left_out + " (left out: " + std::to_string(all.left_out) +
+            (all.left_out > 1 ? " lines)" : " line)");
   }
   if (differs) {  // What differs from the reference is the raw odometry.
     reference_ = Reference::kLaser;

@@ -72,13 +72,14 @@ std::unique_ptr<LaserLog> openLaserLog(const std::filesystem::path& path,
 ///   robot_frontlaser_offset before the base.
 class CarmenLog : public LaserLog {
  public:
-  /// @throws std::runtime_error  one sentence, if the file can't be opened.
+  /// @throws std::runtime_error  one sentence, if the file can't be opened, or if lines or the
+  ///         compressed stream are broken and no scan is whole.
   explicit CarmenLog(const std::filesystem::path& file);
   ~CarmenLog() override;
 
-  /// @throws std::runtime_error  one sentence with file and line, if a line or the compressed
-  ///         stream is broken.
+  /// Lines that are broken are left out.
   bool next(LaserReading& reading) override;
+  std::string lost() const override { return lost_; }
 
   std::optional<FloorPose> T_base_scanner() const override { return T_base_scanner_; }
 
@@ -88,6 +89,7 @@ class CarmenLog : public LaserLog {
   std::unique_ptr<State> state_;
   Reference reference_ = Reference::kNone;
   FloorPose T_base_scanner_;
+  std::string lost_;
 };
 
 }  // namespace heel

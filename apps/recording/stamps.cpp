@@ -18,6 +18,8 @@ namespace heel {
 
 namespace {
 
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+
 /// A finite number that fills the whole text.
 std::optional<double> numberOf(std::string_view text) {
   double value = 0.0;
@@ -25,6 +27,18 @@ std::optional<double> numberOf(std::string_view text) {
   const auto [stop, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+/// A time in seconds, or of 13, 16 or 19 digits: milli-, micro- or nanoseconds since 1970.
+std::optional<double> stampOf(std::string_view text) {
+  const std::size_t digits = text.size();
+  if (!std::all_of(text.begin(), text.end(), isDigit) ||
+      (digits != 13 && digits != 16 && digits != 19)) {
+    return numberOf(text);
+  }
+  // Seconds and the rest apart: as one double, nanoseconds since 1970 would be rounded first.
+  const double second = std::pow(10.0, static_cast<double>(digits) - 10.0);
+  return *numberOf(text.substr(0, 10)) + *numberOf(text.substr(10)) / second;
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -43,7 +57,7 @@ void forEachLine(const std::filesystem::path& list, const std::string& form,
   std::string line;
   std::size_t taken = 0;
   for (std::size_t number = 1; std::getline(in, line); ++number) {
-    const std::string_view text = trimmed(line);
+    const std::string_view text = trimmed(number == 1 ? withoutByteOrderMark(line) : line);
     if (text.empty() || text.front() == '#') continue;
     if (!take(text)) {
       throw std::runtime_error(list.string() + ", line " + std::to_string(number) + ": '" +
@@ -64,7 +78,7 @@ std::vector<StampedFile> readStampedFiles(const std::filesystem::path& list) {
   forEachLine(list, "stamp filename", [&](std::string_view text) {
     const auto gap = text.find_first_of(" \t,");
     if (gap == std::string_view::npos) return false;
-    const auto stamp_s = numberOf(text.substr(0, gap));
+    const auto stamp_s = stampOf(text.substr(0, gap));
     const std::string_view name = trimmed(text.substr(gap + 1));
     if (!stamp_s || name.empty()) return false;
     files.push_back({*stamp_s, folder / name});
@@ -76,7 +90,7 @@ std::vector<StampedFile> readStampedFiles(const std::filesystem::path& list) {
 std::vector<double> readTimes(const std::filesystem::path& list) {
   std::vector<double> stamps_s;
   forEachLine(list, "seconds", [&](std::string_view text) {
-    const auto stamp_s = numberOf(text);
+    const auto stamp_s = stampOf(text);
     if (stamp_s) stamps_s.push_back(*stamp_s);
     return stamp_s.has_value();
   });
@@ -134,17 +148,9 @@ std::vector<std::optional<std::size_t>> nearestInTime(const std::vector<StampedF
 
 std::optional<double> stampOfName(const std::filesystem::path& file) {
   const std::string stem = file.stem().string();
-  const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
-  const bool all_digits = !stem.empty() && std::all_of(stem.begin(), stem.end(), isDigit);
-  if (all_digits && (stem.size() == 16 || stem.size() == 19)) {
-    // Seconds and the rest apart: as one double, nanoseconds since 1970 would be rounded first.
-    const double fraction = *numberOf(stem.substr(10)) / (stem.size() == 16 ? 1e6 : 1e9);
-    return *numberOf(stem.substr(0, 10)) + fraction;
-  }
-  if (stem.empty() || !isDigit(stem.front()) || stem.find('.') == std::string::npos) {
-    return std::nullopt;
-  }
-  return numberOf(stem);
+  if (stem.empty() || !isDigit(stem.front())) return std::nullopt;
+  const bool is_number = stem.find('.') == std::string::npos;  // of the file, unless it is long
+  return is_number && stem.size() < 13 ? std::nullopt : stampOf(stem);
 }
 
 std::vector<double> stampsOfFiles(const std::filesystem::path& times,
@@ -160,17 +166,17 @@ std::vector<double> stampsOfFiles(const std::filesystem::path& times,
     }
     return stamps_s;
   }
-  for (const auto& file : files) {
-    const auto stamp_s = stampOfName(file);
-    if (!stamp_s) break;
-    stamps_s.push_back(*stamp_s);
+  const auto tellsTime = [](const auto& file) { return stampOfName(file).has_value(); };
+  const auto with = std::find_if(files.begin(), files.end(), tellsTime);
+  const auto without = std::find_if_not(files.begin(), files.end(), tellsTime);
+  nominal = with == files.end();
+  if (!nominal && without != files.end()) {
+    throw std::runtime_error(without->string() + ": its name tells no time, as that of " +
+                             with->filename().string() +
+                             " does; take it away, or list the times in " + times.string());
   }
-  nominal = stamps_s.size() != files.size();
-  if (nominal) {
-    stamps_s.clear();
-    for (std::size_t i = 0; i < files.size(); ++i) {
-      stamps_s.push_back(static_cast<double>(i) / rate_hz);
-    }
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    stamps_s.push_back(nominal ? static_cast<double>(i) / rate_hz : *stampOfName(files[i]));
   }
   return stamps_s;
 }

@@ -20,11 +20,12 @@ struct StampedFile {
 };
 
 /// Reads a list of the TUM layout: lines "stamp filename", "# " comments; names count from the
-/// list's own folder.
+/// list's own folder. Stamps are seconds; whole numbers of 13, 16 or 19 digits are milli-, micro-
+/// or nanoseconds.
 /// @throws std::runtime_error  if it can't be read, holds no file, or a line is not of this form.
 std::vector<StampedFile> readStampedFiles(const std::filesystem::path& list);
 
-/// Reads a list of times, one a line in seconds (KITTI's times.txt).
+/// Reads a list of times, one a line (KITTI's times.txt).
 /// @throws std::runtime_error  as above.
 std::vector<double> readTimes(const std::filesystem::path& list);
 
@@ -43,13 +44,14 @@ std::vector<std::optional<std::size_t>> nearestInTime(const std::vector<StampedF
                                                       double limit_s);
 
 /// The time that a file's name tells: seconds with a decimal point ("1305031102.175304.png"), or
-/// 16 digits (microseconds) or 19 digits (nanoseconds). Absent for any other name.
+/// 13, 16 or 19 digits. Absent for any other name.
 std::optional<double> stampOfName(const std::filesystem::path& file);
 
 /// The times of files: from the list `times` (see readTimes) if that file exists, else from the
-/// names if all of them tell one, else at `rate_hz` from 0.
+/// names if they tell any, else at `rate_hz` from 0.
 /// @param nominal  Out: whether the rate was used.
-/// @throws std::runtime_error  if the list has not one time for each of the files.
+/// @throws std::runtime_error  if the list has not one time for each of the files, or only some
+///         names tell one.
 std::vector<double> stampsOfFiles(const std::filesystem::path& times,
                                   const std::vector<std::filesystem::path>& files, double rate_hz,
                                   bool& nominal);

@@ -185,6 +185,8 @@ TEST_F(MapServerFile, ABadImageIsNamed) {
   EXPECT_THAT(whyNot(with("image", "none.png")), HasSubstr("'none.png', which is not there"));
   EXPECT_THAT(imageIs("cut.pgm", "P5\n3 2\n255\n12345"), HasSubstr("cut.pgm: the image is trunc"));
   EXPECT_THAT(imageIs("head.pgm", "P5\n3"), HasSubstr("head.pgm: the image"));
+  EXPECT_THAT(imageIs("white.pgm", "P5\n1 1\n100\n1"), HasSubstr("white.pgm: its white is 100"));
+  EXPECT_THAT(imageIs("text.pgm", "P2\n1 1\n1000\n1"), HasSubstr("its white is 1000"));
   EXPECT_THAT(imageIs("huge.pgm", "P5\n99999999 99999999\n255\n1"), HasSubstr("truncated"));
   EXPECT_THAT(imageIs("vast.jpg", std::string("\xFF\xD8\xFF\xC0\0\x0B\x08\xFF\xFF\xFF\xFF", 11)),
               HasSubstr("vast.jpg: the image of 65535x65535 pixels asks for"));

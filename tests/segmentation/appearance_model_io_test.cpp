@@ -159,6 +159,12 @@ TEST_F(AppearanceFile, ThatIsMissingIsNamed) {
   EXPECT_THAT(complaint(), AllOf(HasSubstr("person.yaml"), HasSubstr("no such file")));
 }
 
+TEST_F(AppearanceFile, ThatWasCutOffIsRefused) {
+  saveAppearance(makeModel(), file_);
+  test::truncateBy(file_, 10);  // of the room's last colour
+  EXPECT_THAT(complaint(), AllOf(HasSubstr("person.yaml"), HasSubstr("truncated")));
+}
+
 TEST_F(AppearanceFile, OfTheFutureIsRefused) {
   saveWith("heel_appearance: 3", "heel_appearance: 4");
   EXPECT_THAT(complaint(), AllOf(HasSubstr("person.yaml"), HasSubstr("is 4, but this"),

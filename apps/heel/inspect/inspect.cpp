@@ -178,6 +178,7 @@ void inspectLaserLog(const fs::path& file) {
                 at->position.x(), at->position.y(), at->yaw_rad * kDegrees);
   }
   std::printf("  %zu of them with a pose to compare with\n", referenced);
+  if (!log->lost().empty()) warn(log->lost());
 }
 
 cv::Mat inspect(const InspectOptions& options) {

@@ -363,12 +363,20 @@ void BagRecording::makeFrame(const Waiting& first, const Waiting* second, Frame&
   frame.right_bgr.release();
   frame.depth_m.release();
   frame.cloud.reset();
+  const auto partner = [&](const auto& read) {
+    try {
+      read();
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error("with it on " + second_.topic + ": " + error.what());
+    }
+  };
   if (info_.sensor == SensorKind::kCloud) {
     readCloud(first, frame);
   } else if (info_.sensor == SensorKind::kStereo) {
     // What the rig hands on as it is must not be overwritten while the frame is in use.
     readColor(first_, first, rig_->isRectified() ? frame.image_bgr : raw_left_);
-    readColor(second_, *second, rig_->isRectified() ? frame.right_bgr : raw_right_);
+    partner(
+        [&] { readColor(second_, *second, rig_->isRectified() ? frame.right_bgr : raw_right_); });
     if (!rig_->isRectified()) {
       rig_->rectify(raw_left_, raw_right_, frame.image_bgr, frame.right_bgr);
     }
@@ -379,11 +387,11 @@ void BagRecording::makeFrame(const Waiting& first, const Waiting* second, Frame&
       cv::remap(raw_left_, frame.image_bgr, undistort_x_, undistort_y_, cv::INTER_LINEAR);
     }
     if (registration_) {
-      readDepth(*second, raw_right_);
+      partner([&] { readDepth(*second, raw_right_); });
       if (!depth_x_.empty()) undistortDepth(raw_right_, depth_x_, depth_y_, undistorted_depth_);
       registration_->apply(depth_x_.empty() ? raw_right_ : undistorted_depth_, frame.depth_m);
     } else {
-      readDepth(*second, undistort ? raw_right_ : frame.depth_m);
+      partner([&] { readDepth(*second, undistort ? raw_right_ : frame.depth_m); });
       if (undistort) undistortDepth(raw_right_, undistort_x_, undistort_y_, frame.depth_m);
     }
   }

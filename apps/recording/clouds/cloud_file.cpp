@@ -64,7 +64,8 @@ void takeLayout(const fs::path& file, const pcl::PCLPointCloud2& layout, CloudFa
   for (const auto& field : layout.fields) {
     if (field.name == "_") continue;
     facts.fields += (facts.fields.empty() ? "" : " ") + field.name;
-    if (field.name == "rgb" || field.name == "rgba") facts.color_field = field.name;
+    const bool is_color = field.name == "rgb" || field.name == "rgba";
+    if (is_color && pcl::getFieldSize(field.datatype) == 4) facts.color_field = field.name;
   }
   facts.width = layout.width;
   facts.height = layout.height;

@@ -39,6 +39,12 @@ std::string wrongWithPlaces(const pcl::PCLPointCloud2& layout) {
 }
 
 void makePlacesShort(pcl::PCLPointCloud2& cloud) {
+  for (pcl::PCLPointField& field : cloud.fields) {  // The bytes of a colour are no number.
+    const bool is_color = field.name == "rgb" || field.name == "rgba";
+    if (is_color && field.datatype == pcl::PCLPointField::INT32) {
+      field.datatype = pcl::PCLPointField::UINT32;
+    }
+  }
   for (const char* name : {"x", "y", "z", "normal_x", "normal_y", "normal_z"}) {
     const int index = pcl::getFieldIndex(cloud, name);
     if (index < 0) continue;

@@ -112,7 +112,8 @@ std::vector<fs::path> filesIn(const fs::path& folder,
   std::vector<fs::path> files;
   if (!fs::is_directory(folder)) return files;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (!entry.is_directory() && takes(entry.path())) files.push_back(entry.path());
+    const bool is_hidden = entry.path().filename().native().front() == '.';
+    if (!is_hidden && !entry.is_directory() && takes(entry.path())) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     return isBeforeByNumber(a.filename().native(), b.filename().native());

@@ -52,8 +52,8 @@ class IndexedRecording : public Recording {
 /// Whether `a` comes before `b`; digits count as a number, so that "left9" is before "left10".
 bool isBeforeByNumber(std::string_view a, std::string_view b);
 
-/// The folder's files whose path `takes` accepts, in the order of isBeforeByNumber(); none if there
-/// is no such folder.
+/// The folder's files whose path `takes` accepts, but for hidden ones, in the order of
+/// isBeforeByNumber(); none if there is no such folder.
 std::vector<std::filesystem::path> filesIn(
     const std::filesystem::path& folder,
     const std::function<bool(const std::filesystem::path&)>& takes);

@@ -4,6 +4,7 @@
 #include "tests/support/cloud_files.hpp"
 #include "tests/support/pcl_clouds.hpp"
 #include <heel/apps/recording/clouds/cloud_file.hpp>
+#include <heel/cloud/files.hpp>
 
 #include <gmock/gmock.h>
 #include <pcl/common/io.h>
@@ -82,6 +83,18 @@ TEST(CloudFile, WrittenAsPlyKeepsItsShapeAndItsColoursWhateverTheirType) {
   EXPECT_EQ(back.cloud[2].r, 40);
   EXPECT_EQ(back.cloud[3].b, 90);
   EXPECT_EQ(back.cloud[3].z, 9.0F);
+}
+
+TEST(CloudFile, WithColoursThatItCallsSignedHasTheirBytes) {
+  const TempFolder folder;
+  writeAsciiPcd(folder / "a.pcd", {pcdPoint(1, 2, 3, 10, 20, 30)});
+  std::string text = readWholeFile(folder / "a.pcd");
+  text.replace(text.find("F F F U"), 7, "F F F I");
+  writeText(folder / "a.pcd", text);
+  const CloudFile cloud = readCloud(folder / "a.pcd");
+  EXPECT_EQ(cloud.facts.color_field, "rgb");
+  EXPECT_EQ(cloud.cloud[0].r, 10);
+  EXPECT_EQ(cloud.blob.fields[3].datatype, pcl::PCLPointField::UINT32);
 }
 
 TEST(CloudFile, WithTooFewValuesInALineNamesThePoint) {

@@ -125,20 +125,34 @@ TEST(CarmenLog, ReadsItCompressedToo) {
   }
   test::truncateBy(file, 12);
   const auto log = openLaserLog(file);
-  const std::string message = test::messageOf([&] {
-    while (log->next(reading)) continue;
-  });
-  EXPECT_NE(message.find("small.log.gz"), std::string::npos) << message;
+  int scans = 0;
+  while (log->next(reading)) ++scans;
+  EXPECT_GT(scans, 0);
+  EXPECT_NE(log->lost().find("small.log.gz"), std::string::npos) << log->lost();
 }
 
-TEST(CarmenLog, SaysWhichLineIsBroken) {
+TEST(CarmenLog, LeavesOutWhatIsBrokenAndSaysSo) {
+  const test::TempFolder folder;
+  const std::string good = "FLASER 4 1 2 81.9 3.5 1 0 0 1 0 0 0.2 h 0.2\n";
+  const auto log = openLaserLog(
+      folder.write("cut.log", good + "FLASER 0 1 0 0 1 0 0 0.3 h 0.3\n" + good + "ODOM nan 0 0\n" +
+                                  "FLASER 4 inf 2 nan 3.5 1 0 0 1 0 0 0.4 h 0.4\nFLASER 4 1.0 2"));
+  LaserReading reading;
+  for (int scan = 0; scan < 3; ++scan) ASSERT_TRUE(log->next(reading));
+  EXPECT_TRUE(std::isinf(reading.scan.ranges_m[0]));
+  EXPECT_TRUE(std::isinf(reading.scan.ranges_m[2]));
+  EXPECT_FALSE(log->next(reading));
+  EXPECT_NE(log->lost().find("cut.log:2: a scan must have"), std::string::npos) << log->lost();
+  EXPECT_NE(log->lost().find("3 lines"), std::string::npos) << log->lost();
+}
+
+TEST(CarmenLog, SaysWhichLineIsBrokenWhereNoScanIsWhole) {
   const test::TempFolder folder;
   for (const char* line : {"FLASER 4 1.0 2.0 x 3.5 1 0 0 1 0 0 1 host 1\n", "FLASER 4 1.0\n",
                            "FLASER 99999999 1.0\n", "FLASER -1 1.0\n", "ODOM 1 nan 0\n",
                            "ROBOTLASER1 0 -1 2 0.5 30 0 0 2 1 1 1e300 1 0 0 1 0 0\n"}) {
-    const auto log = openLaserLog(folder.write("bad.log", std::string("# one\n") + line));
-    LaserReading reading;
-    const std::string message = test::messageOf([&] { log->next(reading); });
+    const auto file = folder.write("bad.log", std::string("# one\n") + line);
+    const std::string message = test::messageOf([&] { openLaserLog(file); });
     EXPECT_NE(message.find("bad.log:2:"), std::string::npos) << line << message;
   }
   EXPECT_NE(test::messageOf([&] { openLaserLog(folder / "none.log"); }), "");
@@ -147,9 +161,8 @@ TEST(CarmenLog, SaysWhichLineIsBroken) {
 TEST(CarmenLog, EndsAtALineThatDoesNotEnd) {
   const test::TempFolder folder;
   for (const char byte : {'1', ' ', '\0'}) {
-    const auto log = openLaserLog(folder.write("long.log", std::string(5000000, byte)));
-    LaserReading reading;
-    const std::string message = test::messageOf([&] { log->next(reading); });
+    const auto file = folder.write("long.log", std::string(5000000, byte));
+    const std::string message = test::messageOf([&] { openLaserLog(file); });
     EXPECT_NE(message.find("long.log:1: this is no line of a log"), std::string::npos) << message;
   }
   EXPECT_NE(test::messageOf([] { openLaserLog("/dev/zero"); }).find("not a file"),

@@ -26,6 +26,17 @@ TEST(StampedFiles, ReadsStampsAndNamesFromTheListsFolder) {
   EXPECT_EQ(files[1].path, folder / "rgb/c.png");
 }
 
+TEST(StampedFiles, KnowsAMarkOfAnEditorAndStampsInNanoseconds) {
+  const TempFolder folder;
+  writeText(folder / "data.csv",
+            "\xEF\xBB\xBF"
+            "1403636579763555584,a.png\n1403636579813,b.png\n");
+  const auto files = heel::readStampedFiles(folder / "data.csv");
+  ASSERT_EQ(files.size(), 2U);
+  EXPECT_EQ(files[0].stamp_s, 1403636579.763555584);
+  EXPECT_EQ(files[1].stamp_s, 1403636579.813);
+}
+
 TEST(StampedFiles, NamesTheLineThatIsWrong) {
   const TempFolder folder;
   for (const std::string line : {"0.1", "now rgb/a.png", "nan rgb/a.png", "0.1s rgb/a.png"}) {
@@ -72,9 +83,13 @@ TEST(StampsOfFiles, PrefersTheListThenTheNamesThenTheRate) {
   EXPECT_THAT(heel::stampsOfFiles(times, {"1.5.pcd", "2.5.pcd"}, 10.0, nominal),
               ElementsAre(1.5, 2.5));
   EXPECT_FALSE(nominal);
-  EXPECT_THAT(heel::stampsOfFiles(times, {"1.5.pcd", "last.pcd"}, 10.0, nominal),
+  EXPECT_THAT(heel::stampsOfFiles(times, {"first.pcd", "last.pcd"}, 10.0, nominal),
               ElementsAre(0.0, DoubleEq(0.1)));
   EXPECT_TRUE(nominal);
+  EXPECT_THAT(messageOf([&] {
+                heel::stampsOfFiles(times, {"1.5.pcd", "map.pcd"}, 10.0, nominal);
+              }),
+              HasSubstr("map.pcd: its name tells no time"));
   writeText(times, "3.0\n4.0\n");
   EXPECT_THAT(heel::stampsOfFiles(times, {"1.5.pcd", "2.5.pcd"}, 10.0, nominal),
               ElementsAre(3.0, 4.0));
