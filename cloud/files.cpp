@@ -83,11 +83,6 @@ void checkIsFile(const std::filesystem::path& file) {
   }
 }
 
-std::string_view withoutByteOrderMark(std::string_view text) {
-  constexpr std::string_view kMark = "\xEF\xBB\xBF";
-  return text.substr(0, kMark.size()) == kMark ? text.substr(kMark.size()) : text;
-}
-
 std::string readWholeFile(const fs::path& file) {
   const auto fail = [&](const std::string& why) {
     throw std::runtime_error(file.string() + " cannot be read: " + why);

@@ -38,9 +38,6 @@ void checkIsFile(const std::filesystem::path& file);
 /// @throws std::runtime_error  with one sentence that names the file and the reason.
 std::string readWholeFile(const std::filesystem::path& file);
 
-/// A text without the mark that some editors put at its beginning.
-std::string_view withoutByteOrderMark(std::string_view text);
-
 /// Writes beside the file, then gives it its name: what was there before stays until all is
 /// written.
 /// @throws std::runtime_error  with one sentence that names the file and the reason.

@@ -57,13 +57,11 @@ std::string wrongWith(const std::string& bytes) {
     }
   }
   const long white = numbers[2];
-  if (white == 0) return truncated;
-  if (white != 255 && white != 65535) {
-    return "its white is " + std::to_string(white) + ", and only 255 and 65535 can be read";
-  }
   const auto samples = static_cast<std::size_t>(numbers[0]) * static_cast<std::size_t>(numbers[1]);
-  const std::size_t bytes_each = white > 255 ? 2 : 1;
-  return is_text || bytes.size() > at + samples * bytes_each ? "" : truncated;
+  const std::size_t bytes_each = is_text ? 0 : white > 255 ? 2 : 1;
+  if (white == 0 || bytes.size() < at + 1 + samples * bytes_each) return truncated;
+  if (white == 255 || white == 65535) return "";
+  return "its white is " + std::to_string(white) + ", and only 255 and 65535 can be read";
 }
 
 /// @param bytes_per_pixel  What the picture takes, and what is made of it.

@@ -23,7 +23,7 @@ namespace heel {
 /// How far the layer sees and how long it remembers. The defaults suit a robot at walking pace
 /// indoors, with a planar laser at 10 Hz and a stereo camera.
 struct ObstacleLayerParams {
-  double size_m = 8.0;  ///< Edge of the window that is looked at, with the robot in its middle.
+  double size_m = 16.0;  ///< Edge of the window that is looked at, with the robot in its middle.
   double cell_size_m = 0.05;  ///< Edge of a cell.
 
   double min_height_m = 0.06;  ///< Points lower than this are floor.

@@ -295,6 +295,23 @@ void SearchMap::forCellsBetween(const Eigen::Vector2d& from, const Eigen::Vector
   }
 }
 
+void SearchMap::hold(const Eigen::Vector2d& place, double radius_m, double probability) {
+  if (!(probability >= 0.0 && probability <= 1.0)) {
+    throw std::invalid_argument("a probability is 0 to 1");
+  }
+  const auto isThere = [&](std::size_t c) {
+    return (floor_.center(static_cast<int>(c)) - place).norm() < radius_m;
+  };
+  double there = 0.0, elsewhere = 0.0;
+  for (std::size_t c = 0; c < belief_.size(); ++c) (isThere(c) ? there : elsewhere) += belief_[c];
+  if (!(there > kNoShare && elsewhere > kNoShare)) return;
+  for (std::size_t c = 0; c < belief_.size(); ++c) {
+    const double gain = isThere(c) ? probability / there : (1.0 - probability) / elsewhere;
+    for (double& share : shares_[c]) share *= gain;
+  }
+  sumUp();
+}
+
 void SearchMap::scan(const LaserScan& scan, const FloorPose& scanner, double elapsed_s) {
   thin(elapsed_s, [&](int cell) { return isSeenThrough(scan, scanner, floor_.center(cell)); });
 }

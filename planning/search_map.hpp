@@ -103,6 +103,9 @@ class SearchMap {
          [](const Eigen::Vector2d& place) -> std::optional<SeenTo> { return SeenTo(place); });
   }
 
+  /// Somebody is seen at a place, who is the person with a probability: so is the belief there.
+  void hold(const Eigen::Vector2d& place, double radius_m, double probability);
+
   /// The laser has scanned from here for a while: nobody is where its beams went through.
   void scan(const LaserScan& scan, const FloorPose& scanner, double elapsed_s);
 

@@ -208,7 +208,7 @@ AppearanceModel readModel(YamlMap root) {
   reader.begin("room");
   const ColorHistogram room = readColors(reader.map());
   const auto pixels = static_cast<double>(room.total());
-  if (reader.map().number("pixels", pixels) != pixels) {
+  if (reader.map().number("pixels", pixels, {0.0, 1e18}) != pixels) {
     reader.map().fail("colors", "does not hold as many pixels as it says: the file is truncated");
   }
   reader.end();

@@ -62,6 +62,9 @@ void BodyBelief::takeLook(const Gallery& gallery, const BodyLook& look, double n
     looks += news;
     view = View{look.seen.position_m, look.seen.position_m - look.eye_m, look.stamp_s, news};
   }
+  view.thing_count = std::min(view.thing_count + 1.0, View::kMostLooks);
+  view.mean[kThing] += (look.log_thing - view.mean[kThing]) / view.thing_count;
+  if (look.seen.look == nullptr) return;  // Depth or the outline tells that it is no person, say.
   view.count = std::min(view.count + 1.0, View::kMostLooks);
   const LookEvidence& parts = look.parts;
   if (known_looks.size() == 0) {
@@ -72,8 +75,7 @@ void BodyBelief::takeLook(const Gallery& gallery, const BodyLook& look, double n
   known_looks = (known_looks + parts.is_seen).min(View::kMostLooks);
   known_parts +=
       (parts.parts - known_parts).rowwise() * (parts.is_seen / known_looks.max(1.0)).transpose();
-  odds.all[kThing] = look.log_thing;
-  for (int h = 0; h < kHypotheses; ++h) {
+  for (int h = kStranger; h < kHypotheses; ++h) {
     if (std::isfinite(odds.all[h])) view.mean[h] += (odds.all[h] - view.mean[h]) / view.count;
   }
   view.garments += (odds.target - view.garments) / view.count;
@@ -100,6 +102,7 @@ void BodyBelief::mixIn(const Gallery& gallery, const PastBelief& other, double o
     view.tallness =
         mix(gallery, own.log_view_tallness, other.log_view_tallness, other_share) / view.weight;
     view.count *= 1.0 - other_share;
+    view.thing_count *= 1.0 - other_share;
   }
   const Evidence views = all - log_place - log_free - view.evidence();
   log_views = views.isFinite().select(views, 0.0);

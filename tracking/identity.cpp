@@ -274,7 +274,7 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
     const auto i = static_cast<std::size_t>(track.observation);
     // begin() has taken in where it was seen first.
     if (belief.seen_s != stamp_s) takePlace(belief, track, observations[i], stamp_s);
-    if (observations[i].look == nullptr) continue;
+    if (observations[i].look == nullptr && observations[i].log_person == 0.0) continue;
     takeLook(belief, {observations[i], parts_[i], looks_[i].all[kThing], statures_[i],
                       viewpoint.position_m, stamp_s});
   }

@@ -232,12 +232,17 @@ void Follower::lookAround(const RobotReadings& readings) {
       search_->look(then, std::min(since_look_s_, params_.watch.max_image_age_s),
                     [&, sight = things_.sight(),
                      T_then_world = then.inverse()](const Vector2d& p) -> std::optional<SeenTo> {
-                      // A body hides its own place: whose it is, is not for the search to say.
+                      // A body hides its own place: whose it is, identity says.
                       if (people_.isAnybodyAt(p, now_)) return SeenTo(p, true);
                       const auto to = sight.seenTo(T_then_world * p);
                       if (!to) return things_.firstBetween(then.position, p);
                       return SeenTo(then * *to, people_.isAnybodyAt(then * *to, now_));
                     });
+      for (const Track& track : perception_->tracks()) {
+        if (now_.target || track.observation == Track::kUnseen) continue;
+        search_->hold(track.motion.position_m(), params_.target_radius_m,
+                      perception_->identity().targetProbability(track.id));
+      }
     }
     since_look_s_ = 0.0;
   }

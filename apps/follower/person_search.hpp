@@ -41,6 +41,10 @@ class PersonSearch {
             FunctionRef<std::optional<SeenTo>(const Eigen::Vector2d&)> seenTo) {
     map_.look(camera, elapsed_s, seenTo);
   }
+  /// Somebody is seen there, who is the person with a probability.
+  void hold(const Eigen::Vector2d& place, double radius_m, double probability) {
+    map_.hold(place, radius_m, probability);
+  }
   /// Nor where the laser's beams went through.
   void scan(const LaserScan& scan, const FloorPose& scanner, double elapsed_s) {
     map_.scan(scan, scanner, elapsed_s);

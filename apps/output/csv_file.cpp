@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <heel/apps/output/csv_file.hpp>
-#include <heel/cloud/files.hpp>
 
 #include <algorithm>
 #include <array>
@@ -135,7 +134,7 @@ CsvReader::CsvReader(const std::filesystem::path& path, const std::vector<std::s
 
 bool CsvReader::readLine() {
   while (std::getline(in_, line_)) {
-    if (++line_number_ == 1) line_ = std::string(withoutByteOrderMark(line_));
+    if (++line_number_ == 1 && line_.rfind("\xEF\xBB\xBF", 0) == 0) line_.erase(0, 3);
     if (!line_.empty() && line_.back() == '\r') line_.pop_back();
     if (withoutBlanks(line_).empty()) continue;
     split(line_, fields_);

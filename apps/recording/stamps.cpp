@@ -57,7 +57,8 @@ void forEachLine(const std::filesystem::path& list, const std::string& form,
   std::string line;
   std::size_t taken = 0;
   for (std::size_t number = 1; std::getline(in, line); ++number) {
-    const std::string_view text = trimmed(number == 1 ? withoutByteOrderMark(line) : line);
+    if (number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) line.erase(0, 3);  // an editor's mark
+    const std::string_view text = trimmed(line);
     if (text.empty() || text.front() == '#') continue;
     if (!take(text)) {
       throw std::runtime_error(list.string() + ", line " + std::to_string(number) + ": '" +

@@ -293,7 +293,7 @@ TEST(SearchMap, WhoStandsInTheWayIsExpectedToStandTheLonger) {
   EXPECT_LT(map.nextView({eye, 0.0})->chance, 0.3 * at_once);
 }
 
-TEST(SearchMap, ABodyMayBeThePersonAndSoTheirPlaceKeepsItsShare) {
+TEST(SearchMap, ALookAtABodyDoesNotSayThatItIsNotThePerson) {
   const Eigen::Vector2d body(4.5, 2.1);
   std::array<double, 2> density{};
   for (const bool is_known : {false, true}) {
@@ -306,6 +306,33 @@ TEST(SearchMap, ABodyMayBeThePersonAndSoTheirPlaceKeepsItsShare) {
     density[is_known ? 1 : 0] = map.density(body);
   }
   EXPECT_GT(density[1], 10.0 * density[0]);
+}
+
+// Bug: where somebody else stood in plain view the search looked for ever, though it was known that
+// they were another.
+TEST(SearchMap, WhereSomebodyIsSeenItBelievesWhatIsBelievedOfThem) {
+  SearchMap map = threeRooms();
+  map.start(kMiddle, {0.0, 0.0});
+  map.spread(1.0);
+  const Eigen::Vector2d body(4.5, 2.1), other(3.3, 2.1);
+  const auto there = [&] {
+    double sum = 0.0;
+    for (int c = 0; c < map.floor().cells(); ++c) {
+      if ((map.floor().center(c) - body).norm() < 0.4) sum += map.belief()[static_cast<size_t>(c)];
+    }
+    return sum;
+  };
+  for (const double probability : {0.05, 0.7}) {
+    const double before = map.density(other) / (1.0 - there());
+    map.hold(body, 0.4, probability);
+    EXPECT_NEAR(there(), probability, 1e-9);
+    EXPECT_NEAR(total(map), 1.0, 1e-9);
+    EXPECT_NEAR(map.density(other) / (1.0 - there()), before, 0.02 * before)
+        << "elsewhere all is in proportion";
+  }
+  map.hold({-5.0, 0.0}, 0.4, 0.5);
+  EXPECT_NEAR(there(), 0.7, 1e-9) << "off the map";
+  EXPECT_THROW(map.hold(body, 0.4, 1.1), std::invalid_argument);
 }
 
 // Bug: whoever stood in plain view had gone, as far as the search knew, for people walk.

@@ -715,6 +715,24 @@ TEST(Identity, WhatAnotherSensorSaysCountsLikeALook) {
   EXPECT_EQ(home.identity.looks()[0].all[kThing], 3.0);
 }
 
+// Bug: a corner that the laser took for legs was followed for minutes from a metre away, for only
+// looks with colours counted, and the camera saw none of a body there.
+TEST(Identity, WhatShowsNoColoursMayBeSeenToBeNoPerson) {
+  const auto odds = [](const Home& home, int h) {
+    return home.probability(1, h) / home.probability(1, kStranger);
+  };
+  Home home;
+  home.see({{1, {1, 0}, &kRed}});
+  const double thing = odds(home, kThing), target = odds(home, kTarget);
+  home.log_person = -2.0;
+  home.see({{1, {1, 0}}}, 30);
+  EXPECT_GT(odds(home, kThing), 5.0 * thing);
+  EXPECT_NEAR(odds(home, kTarget), target, 0.05 * target) << "which tells nobody from another";
+  home.log_person = 0.0;
+  home.see({{1, {1, 0}, &kRed}});
+  EXPECT_NEAR(odds(home, kTarget), target, 0.05 * target) << "nor counts as looks at clothes";
+}
+
 TEST(Identity, WhoStandsIsNotAThingForThat) {
   Home home;
   home.see({{1, {0, 0}, &kRed}});
