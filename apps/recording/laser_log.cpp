@@ -77,13 +77,13 @@ struct CarmenLog::State {
         leaveOut(at("this is no line of a log"));
         return false;
       }
-      if (!line.empty() && line.back() == '\n') break;
+      rest = line;
+      if (line.back() == '\n') return true;
     }
     int problem = Z_OK;
     gzerror(file, &problem);
     const bool is_broken = problem != Z_OK && problem != Z_STREAM_END;
     if (is_broken) leaveOut(at("the compressed stream is broken"));
-    rest = line;
     return !line.empty() && !is_broken;
   }
 

@@ -28,7 +28,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(ObstacleLayer, IsFreeBeforeTheFirstFrame) {
   const ObstacleLayer layer;
-  EXPECT_EQ(layer.window().width(), 160);
+  EXPECT_EQ(layer.window().width(), 320);
   EXPECT_TRUE(layer.obstacles().empty());
   EXPECT_EQ(layer.distance({0.0, 0.0}), kInfinity);
 }
@@ -73,7 +73,7 @@ TEST(ObstacleLayer, MeasuresTheDistanceToTheNearestObstacle) {
     EXPECT_LE(layer.distance(p), (nearest - p).norm() + 1.42 * 0.05);
     EXPECT_GE(layer.distance(p), (nearest - p).norm() - 0.71 * 0.05);
   }
-  EXPECT_EQ(layer.distance({4.1, 0.0}), kInfinity);
+  EXPECT_EQ(layer.distance({8.1, 0.0}), kInfinity);
   EXPECT_EQ(layer.distance({kNan, 0.0}), kInfinity);
   EXPECT_EQ(layer.distance({1e300, 0.0}), kInfinity);
 }
@@ -375,17 +375,17 @@ TEST(ObstacleLayer, LeavesOutTheTargetAndKeepsOtherPeople) {
   layer.begin(0.0, pose, FloorDisc{{4.0, 1.0}, 0.4});
   for (const double x : {1.7, 1.9, 2.3}) layer.addPoints(thrice(x, 0.0, 1.0));
   layer.addPoints(thrice(2.0, 1.0, 1.0));  // somebody else, one metre to the left
-  layer.addScan(oneBeam(1.8), {});
-  layer.addScan(oneBeam(1.5), {});
+  layer.addScan(oneBeam(1.82), {});
+  layer.addScan(oneBeam(1.52), {});
   layer.addScan(oneBeam(1.0, 1.0), {});
   layer.finish();
   ASSERT_EQ(layer.obstacles().size(), 3U);
   EXPECT_TRUE(occupied(layer, 4.0, 2.0));
-  EXPECT_TRUE(occupied(layer, 3.5, 1.0));
-  EXPECT_FALSE(occupied(layer, 3.8, 1.0));
+  EXPECT_TRUE(occupied(layer, 3.52, 1.02));
+  EXPECT_FALSE(occupied(layer, 3.82, 1.02));
   // The next frame knows of no target.
-  seeScan(layer, 0.1, oneBeam(1.8), pose);
-  EXPECT_TRUE(occupied(layer, 3.8, 1.0));
+  seeScan(layer, 0.1, oneBeam(1.82), pose);
+  EXPECT_TRUE(occupied(layer, 3.82, 1.02));
 }
 
 TEST(ObstacleLayer, BeamsThatEndOnTheTargetClearTheWayToIt) {
@@ -441,7 +441,7 @@ TEST(ObstacleLayer, KeepsWhatItHoldsWhenTheWindowRolls) {
         ASSERT_EQ(after.at(GridCell{x, y}), expected) << step << ": " << x << ", " << y;
       }
     }
-    ASSERT_LT((after.center({80, 80}) - pose.position).cwiseAbs().maxCoeff(), 0.051);
+    ASSERT_LT((after.center({160, 160}) - pose.position).cwiseAbs().maxCoeff(), 0.051);
   }
 }
 
