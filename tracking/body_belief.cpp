@@ -59,12 +59,12 @@ void BodyBelief::takeLook(const Gallery& gallery, const BodyLook& look, double n
     log_views = keep * logColors();
     log_garments = keep * logGarments();
     log_tallness = keep * logTallness();
-    looks += news;
     view = View{look.seen.position_m, look.seen.position_m - look.eye_m, look.stamp_s, news};
   }
   view.thing_count = std::min(view.thing_count + 1.0, View::kMostLooks);
   view.mean[kThing] += (look.log_thing - view.mean[kThing]) / view.thing_count;
   if (look.seen.look == nullptr) return;  // Depth or the outline tells that it is no person, say.
+  if (view.count == 0.0) looks += view.weight;
   view.count = std::min(view.count + 1.0, View::kMostLooks);
   const LookEvidence& parts = look.parts;
   if (known_looks.size() == 0) {

@@ -733,6 +733,16 @@ TEST(Identity, WhatShowsNoColoursMayBeSeenToBeNoPerson) {
   EXPECT_NEAR(odds(home, kTarget), target, 0.05 * target) << "nor counts as looks at clothes";
 }
 
+TEST(Identity, NobodyIsMetWhoseClothesWereNotSeen) {
+  Home home;
+  home.see({{1, {0, 0}, &kRed}});
+  home.identity.makeTarget(1, {0, 0}, home.stamp_s);
+  home.log_person = 3.0;
+  home.walk({2, {3, 0}}, 6.0, {{1, {0, 0}, &kRed}});
+  EXPECT_GT(home.probability(2, kStranger), 0.99);
+  EXPECT_EQ(home.probability(2, kFirstOther), 0.0);
+}
+
 TEST(Identity, WhoStandsIsNotAThingForThat) {
   Home home;
   home.see({{1, {0, 0}, &kRed}});
