@@ -38,8 +38,8 @@ struct View {
   Evidence mean = Evidence::Zero();
   Garments garments = Garments::Zero();  ///< The mean of what looks say of the target's,
   Tallness tallness = Tallness::Zero();  ///< and of statures.
-  double count = 0.0;                    ///< Of looks at colours, and of all.
-  double thing_count = 0.0;
+  double count = 0.0;                    ///< Looks in the means, those that show colours;
+  double thing_count = 0.0;              ///< in the mean of a thing all looks.
   Evidence evidence() const { return weight * mean; }
 };
 

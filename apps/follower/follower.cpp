@@ -240,9 +240,8 @@ void Follower::lookAround(const RobotReadings& readings) {
                     });
       for (const Track& track : perception_->tracks()) {
         if (now_.target || track.observation == Track::kUnseen) continue;
-        const double probability = perception_->identity().targetProbability(track.id);
         search_->hold(track.motion.position_m(), params_.target_radius_m,
-                      std::min(probability, 1.0));
+                      perception_->identity().targetProbability(track.id));
       }
     }
     since_look_s_ = 0.0;

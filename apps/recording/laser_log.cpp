@@ -98,7 +98,7 @@ struct CarmenLog::State {
   }
 
   /// May be infinite, or none.
-  double range_m() {
+  double anyNumber() {
     const std::string_view text = word();
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -109,7 +109,7 @@ struct CarmenLog::State {
   }
 
   double number() {
-    const double value = range_m();
+    const double value = anyNumber();
     if (!std::isfinite(value)) fail("a number is not finite");
     return value;
   }
@@ -143,9 +143,9 @@ struct CarmenLog::State {
     scan.step_rad = step_rad;
     scan.ranges_m.resize(count);
     for (float& range : scan.ranges_m) {
-      const double measured_m = range_m();
-      range = measured_m < most_m ? static_cast<float>(measured_m)
-                                  : std::numeric_limits<float>::infinity();
+      const double range_m = anyNumber();
+      range =
+          range_m < most_m ? static_cast<float>(range_m) : std::numeric_limits<float>::infinity();
     }
     const double remissions = is_new ? number() : 0.0;
     if (remissions > kMostBeams) fail("a scan must have no more than 10000 remissions");

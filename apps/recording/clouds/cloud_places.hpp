@@ -16,7 +16,8 @@ namespace heel {
 std::string wrongWithPlaces(const pcl::PCLPointCloud2& layout);
 
 /// Makes places and normals of 64 bits ones of 32, as PCL's points have them. The points keep their
-/// size: what is left of a value is padding.
+/// size: what is left of a value is padding. A colour's four bytes that are called signed become
+/// unsigned, as PCL has them.
 void makePlacesShort(pcl::PCLPointCloud2& cloud);
 
 }  // namespace heel
