@@ -27,9 +27,11 @@ constexpr int kBearings = 32;
 
 GoalChooser::GoalChooser(const GoalChooserParams& params) : params_(params) {
   const auto& p = params;
-  if (!(p.least_standoff_m > 0.0) || !(p.standoff_m >= p.least_standoff_m) ||
-      !(p.most_standoff_m >= p.standoff_m) || !(p.radius_m > 0.0) || !(p.margin_m >= 0.0)) {
-    throw std::invalid_argument("the goal chooser's distances are out of order");
+  if (!(p.standoff_m > 0.0 && p.radius_m > 0.0 && p.margin_m >= 0.0)) {
+    throw std::invalid_argument("GoalChooserParams: a distance is not positive");
+  }
+  if (!(p.nearest_share > 0.0 && p.nearest_share <= 1.0 && p.furthest_share >= 1.0)) {
+    throw std::invalid_argument("GoalChooserParams: 1 is not between the shares");
   }
 }
 
@@ -43,11 +45,13 @@ std::optional<Vector2d> GoalChooser::choose(const MovingPerson& target, const Ve
   }
   const Vector2d person = target.position + p.lead_s * target.velocity;
   const double need = p.radius_m + p.margin_m;
+  const double nearest_m = p.nearest_share * p.standoff_m;
+  const double furthest_m = p.furthest_share * p.standoff_m;
 
   const auto costIfSeen = [&](const Vector2d& at) {
     const double off = (person - at).norm();
     const double room = clearance(at);
-    if (off < p.least_standoff_m || off > p.most_standoff_m || !(room >= need)) return kImpossible;
+    if (off < nearest_m || off > furthest_m || !(room >= need)) return kImpossible;
     double passage = 0.0;
     for (const DoorwayOnMap& d : doorways) {
       passage = std::max(passage, inPassage(d, at, p.doorway_depth_m, p.radius_m));
@@ -75,9 +79,8 @@ std::optional<Vector2d> GoalChooser::choose(const MovingPerson& target, const Ve
   };
   const Vector2d from = robot - person;
   const double first = from.norm() > 1e-6 ? std::atan2(from.y(), from.x()) : 0.0;
-  const double middle = 0.5 * (p.standoff_m + p.most_standoff_m);
-  for (const double distance : {p.standoff_m, 0.5 * (p.standoff_m + p.least_standoff_m), middle,
-                                p.most_standoff_m - 1e-9}) {
+  for (const double distance : {p.standoff_m, 0.5 * (p.standoff_m + nearest_m),
+                                0.5 * (p.standoff_m + furthest_m), furthest_m - 1e-9}) {
     for (int i = 0; i < kBearings; ++i) {
       const double bearing = first + 2.0 * M_PI * i / kBearings;
       consider(person + distance * Vector2d(std::cos(bearing), std::sin(bearing)), 0.0);

@@ -15,10 +15,9 @@ namespace heel {
 
 /// How near to be, and what makes a place bad.
 struct GoalChooserParams {
-  double standoff_m = 1.0;        ///< Distance to keep, from the person's middle to the robot's.
-  double least_standoff_m = 0.8;  ///< The robot never stands nearer to the person than this.
-  /// The robot does not stand further from the person than this, if there is a place.
-  double most_standoff_m = 1.6;
+  double standoff_m = 1.0;       ///< Distance to keep, from the person's middle to the robot's.
+  double nearest_share = 0.8;    ///< The robot never stands nearer than this share of it,
+  double furthest_share = 1.6;   ///< nor further away than this, if there is a place.
   double radius_m = 0.26;        ///< Radius of the robot.
   double margin_m = 0.08;        ///< Room that the robot needs around it.
   double lead_s = 0.4;           ///< The robot goes to where the person will be after this time.
@@ -30,7 +29,7 @@ struct GoalChooserParams {
 /// better, so that the goal does not jitter.
 class GoalChooser {
  public:
-  /// @throws std::invalid_argument  if the distances are out of order.
+  /// @throws std::invalid_argument  if a parameter is out of its range.
   explicit GoalChooser(const GoalChooserParams& params = {});
 
   /// @param target     Who to be with; nothing if that isn't finite.

@@ -45,7 +45,7 @@ FollowerParams::FollowerParams() {
   paths.bend_room_m = 0.12;  // round a corner with some room one sees further behind it
   paths.safety_m = 0.08;  // more than the local planner's margin, or it stops where the path goes
   goal.lead_s = 0.2;      // they turn often
-  goal.most_standoff_m = 1.25;  // who is followed wants company, even behind a doorway
+  goal.furthest_share = 1.25;   // who is followed wants company, even behind a doorway
   goal.doorway_depth_m = 0.95;  // somebody who comes out of it must get past the robot
   drive.margin_m = 0.06;        // the map's walls are as far off as localization is
   drive.terms.weights[static_cast<std::size_t>(DriveTerm::kView)] = 4.0;  // or the target is lost

@@ -16,8 +16,9 @@ constexpr double kHalfOfView = 2.0;  // From so much further they fill half of w
 
 GoalChooserParams wholeInView(const FollowerParams& params) {
   GoalChooserParams goal = params.goal;
-  goal.least_standoff_m = goal.standoff_m = params.whole_m;
-  goal.most_standoff_m = kHalfOfView * params.whole_m;
+  goal.standoff_m = params.whole_m;
+  goal.nearest_share = 1.0;
+  goal.furthest_share = kHalfOfView;
   return goal;
 }
 

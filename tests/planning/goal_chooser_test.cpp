@@ -105,13 +105,26 @@ TEST(GoalChooser, TakesOnlyPlacesWithRoom) {
   EXPECT_FALSE(chooser.choose(kStanding, {0, 0}, nan, kSees, {}));
 }
 
+TEST(GoalChooser, KeepsTheDistanceThatAUserSets) {
+  for (const double standoff_m : {0.6, 1.8, 2.5}) {
+    GoalChooserParams params;
+    params.standoff_m = standoff_m;
+    const auto place = GoalChooser(params).choose(kStanding, {0, 0}, kOpen, kSees, {});
+    ASSERT_TRUE(place) << standoff_m;
+    EXPECT_NEAR((*place - kStanding.position).norm(), standoff_m, 1e-6);
+  }
+}
+
 TEST(GoalChooser, RefusesBadInput) {
   GoalChooser chooser;
   MovingPerson person = kStanding;
   person.velocity.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(chooser.choose(person, {0, 0}, kOpen, kSees, {}));
   GoalChooserParams params;
-  params.most_standoff_m = 0.5;
+  params.furthest_share = 0.5;
+  EXPECT_THROW(GoalChooser{params}, std::invalid_argument);
+  params = {};
+  params.standoff_m = 0.0;
   EXPECT_THROW(GoalChooser{params}, std::invalid_argument);
 }
 
