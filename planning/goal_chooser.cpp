@@ -28,10 +28,12 @@ constexpr int kBearings = 32;
 GoalChooser::GoalChooser(const GoalChooserParams& params) : params_(params) {
   const auto& p = params;
   if (!(p.standoff_m > 0.0 && p.radius_m > 0.0 && p.margin_m >= 0.0)) {
-    throw std::invalid_argument("GoalChooserParams: a distance is not positive");
+    throw std::invalid_argument(
+        "GoalChooserParams: standoff_m and radius_m must be positive, margin_m not negative");
   }
   if (!(p.nearest_share > 0.0 && p.nearest_share <= 1.0 && p.furthest_share >= 1.0)) {
-    throw std::invalid_argument("GoalChooserParams: 1 is not between the shares");
+    throw std::invalid_argument(
+        "GoalChooserParams: nearest_share must be over 0 and at most 1, furthest_share at least 1");
   }
 }
 

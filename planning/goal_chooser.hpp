@@ -15,12 +15,12 @@ namespace heel {
 
 /// How near to be, and what makes a place bad.
 struct GoalChooserParams {
-  double standoff_m = 1.0;       ///< Distance to keep, from the person's middle to the robot's.
-  double nearest_share = 0.8;    ///< The robot never stands nearer than this share of it,
-  double furthest_share = 1.6;   ///< nor further away than this, if there is a place.
-  double radius_m = 0.26;        ///< Radius of the robot.
-  double margin_m = 0.08;        ///< Room that the robot needs around it.
-  double lead_s = 0.4;           ///< The robot goes to where the person will be after this time.
+  double standoff_m = 1.0;      ///< Distance to keep, from the person's middle to the robot's.
+  double nearest_share = 0.8;   ///< The robot never stands nearer than this share of standoff_m,
+  double furthest_share = 1.6;  ///< or further than this many times standoff_m if there is a place.
+  double radius_m = 0.26;       ///< Radius of the robot.
+  double margin_m = 0.08;       ///< Room that the robot needs around it.
+  double lead_s = 0.4;          ///< The robot goes to where the person will be after this time.
   double doorway_depth_m = 0.7;  ///< Passage reaches this far before and behind a doorway.
   double half_view_rad = 0.4;    ///< Whoever is further to a side of the way is not seen on it.
 };
