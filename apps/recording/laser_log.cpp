@@ -119,10 +119,12 @@ struct CarmenLog::State {
     return {{x, y}, wrapped(yaw)};
   }
 
-  /// A line of a scan, of either kind; false if it is another line. The rest of it is read.
+  /// A line of a scan, of the kind that came first; false if it is another. The rest of it is read.
   bool scanLine(std::string_view kind) {
     const bool is_new = kind == "ROBOTLASER1";
     if (!is_new && kind != "FLASER") return false;
+    if (scan_kind.empty()) scan_kind = kind;
+    if (kind != scan_kind) return false;
     double first_rad = -M_PI / 2.0, step_rad = 0.0, most_m = kNothing_m;
     if (is_new) {
       number();  // the laser's type
@@ -202,6 +204,7 @@ struct CarmenLog::State {
   std::string_view rest;
   long line_number = 0;
   bool is_corrected = false;
+  std::string scan_kind;  // Of the first scan; in the other form they would come again.
   FloorPose anchor;  // The pose that the next line of odometry is an increment to, and its time.
   double anchor_s = 0.0;
   bool anchored = false, has_odometry = false;

@@ -59,8 +59,9 @@ std::unique_ptr<LaserLog> openLaserLog(const std::filesystem::path& path,
                                        const BagTopics& topics = {});
 
 /// Reads a CARMEN log, plain or compressed by gzip, one scan after the other; memory does not grow.
-/// Scans are lines of FLASER (180 degrees from right to left) or ROBOTLASER1. Each has two poses,
-/// of the laser and of the robot. What they are differs from log to log, and is found in the log:
+/// Scans are lines of FLASER (180 degrees from right to left) or ROBOTLASER1, whichever comes
+/// first. Each has two poses, of the laser and of the robot. What they are differs from log to log,
+/// and is found in the log:
 ///
 /// - Where the one is at the same place from the other in all scans, that is the scanner's place,
 ///   and the pose belongs to the odometry. There is no reference; without ODOM lines the pose is

@@ -113,6 +113,17 @@ TEST(CarmenLog, ReadsScansOfItsNewerForm) {
   EXPECT_NEAR(readings[0].reference->position.y(), 2.0, 1e-12);
 }
 
+// Bug: CARMEN can log each scan in both forms; each was counted twice.
+TEST(CarmenLog, ReadsEachScanOnceOfALogThatHasBothForms) {
+  const auto readings = readingsOf(
+      "FLASER 2 1.0 2.0 1 2 0.1 1 2 0.1 0.25 host 0.25\n"
+      "ROBOTLASER1 0 -1.57 3.14 3.14 30.0 0.01 0 2 1.0 2.0 0 1 2 0.1 1 2 0.1 "
+      "0 0 0.5 0.5 9 0.25 host 0.25\n"
+      "FLASER 2 1.5 2.0 1 2 0.1 1 2 0.1 0.50 host 0.50\n");
+  ASSERT_EQ(readings.size(), 2U);
+  EXPECT_EQ(readings[1].scan.ranges_m[0], 1.5F);
+}
+
 TEST(CarmenLog, ReadsItCompressedToo) {
   const test::TempFolder folder;
   const std::string file = (folder / "small.log.gz").string();
