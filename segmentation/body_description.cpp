@@ -22,10 +22,14 @@ using Describer = BodyDescriber;
 
 constexpr double kDarkOffset = 12.0;
 
-/// Ends of the stripes over the floor [m]: about a head, three of the trunk, four of the legs.
-constexpr std::array<float, Describer::kStripes + 1> kEnds_m = {0.10F, 0.35F, 0.60F, 0.85F, 1.05F,
-                                                                1.25F, 1.45F, 1.65F, 2.00F};
-constexpr int kTrunk = 4, kHead = 7;  // The first stripe of each.
+/// Ends of the stripes over the floor [m]: four of the legs, two of the trunk, and finer ones where
+/// people end at different heights.
+constexpr std::array<float, Describer::kStripes + 1> kEnds_m = {
+    0.10F, 0.35F, 0.60F, 0.85F, 1.05F, 1.25F, 1.45F, 1.55F, 1.65F, 1.75F, 2.00F};
+constexpr int kTrunk = 4;  // The first stripe of it.
+/// A head is what is above this share of a stature: the chin's height, from R. Drillis and R.
+/// Contini, Body segment parameters, New York University, 1966.
+constexpr double kChin = 0.87;
 
 int stripeOf(float height_m) {
   const auto above = std::upper_bound(kEnds_m.begin(), kEnds_m.end(), height_m);
@@ -169,7 +173,7 @@ void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDe
     board = boardOf(view, blob) & cv::Rect(view.disparities, 0, columns, view.image_bgr.rows);
   }
   const int step =
-      std::max(1, static_cast<int>(std::sqrt(body.area() / ((kStripes + 1) * kStripePixels))));
+      std::max(1, static_cast<int>(std::sqrt(body.area() / ((kStripes - 1) * kStripePixels))));
   const cv::Rect inside =
       withoutEdge(view.disparities, view.image_bgr.cols, view.image_bgr.rows, step);
   const Eigen::Matrix3f R = view.T_base_camera.linear().cast<float>();
@@ -252,7 +256,9 @@ double BodyDescriber::middleOf_m(int stripe) {
   return 0.5 * static_cast<double>(kEnds_m[i] + kEnds_m[i + 1]);
 }
 
-int BodyDescriber::garmentOf(int stripe) { return stripe < kTrunk ? 0 : stripe < kHead ? 1 : 2; }
+int BodyDescriber::garmentOf(int stripe, double stature_m) {
+  return stripe < kTrunk ? 0 : middleOf_m(stripe) < kChin * stature_m ? 1 : 2;
+}
 
 Eigen::ArrayXf BodyDescriber::binsOf(const ColorHistogram& colors) {
   Eigen::ArrayXf bins = Eigen::ArrayXf::Zero(kBins);

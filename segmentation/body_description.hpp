@@ -58,7 +58,7 @@ class BodyDescriber {
   static constexpr int kChromaBins = 18;
   static constexpr int kBrightnessBins = 6;
   static constexpr int kBins = kChromaBins * kChromaBins * kBrightnessBins;
-  static constexpr int kStripes = 8;
+  static constexpr int kStripes = 10;
 
   /// @throws std::invalid_argument  if a parameter is out of its range.
   explicit BodyDescriber(const BodyDescriberParams& params = {});
@@ -79,7 +79,8 @@ class BodyDescriber {
                 const pcl::Indices* indices = nullptr);
 
   static double middleOf_m(int stripe);  ///< Height of a stripe's middle over the floor.
-  static int garmentOf(int stripe);      ///< 0: trousers, 1: a top, 2: hair.
+  /// What of somebody this tall a stripe shows most of: 0: trousers, 1: a top, 2: hair and face.
+  static int garmentOf(int stripe, double stature_m = 1.7);
 
   /// How counted colours spread over the bins: a stripe that has them all.
   static Eigen::ArrayXf binsOf(const ColorHistogram& colors);

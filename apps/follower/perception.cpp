@@ -41,7 +41,9 @@ TargetLooks looksOf(const AppearanceModel& model) {
   looks.room = BodyDescriber::binsOf(model.room());
   looks.anybody = BodyDescriber::clothes();
   for (int stripe = 0; stripe < BodyDescriber::kStripes; ++stripe) {
-    looks.garments.push_back(BodyDescriber::garmentOf(stripe));
+    looks.garments.push_back(model.stature()
+                                 ? BodyDescriber::garmentOf(stripe, model.stature()->height_m)
+                                 : BodyDescriber::garmentOf(stripe));
   }
   // Lamps and white balances change colours by about so much, rooms and exposures brightness.
   constexpr double kLightSigma = 0.2, kBrightnessSigma = 0.6;
