@@ -8,6 +8,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <sstream>
 #include <stdexcept>
@@ -150,11 +151,17 @@ int binOfFormat2(int bin) {
   return (red * BodyDescriber::kChromaBins + blue) * kBrightness + bin % kBrightness;
 }
 
+/// Up to format 3, four of the stripes were two.
+constexpr int kStripesOfFormat3 = 8;
+constexpr std::array<Eigen::Index, BodyDescriber::kStripes> kStripeOfFormat3 = {0, 1, 2, 3, 4,
+                                                                                5, 6, 6, 7, 7};
+
 BodyDescription readPortrait(YamlMap& map, int version) {
+  const int stripes = version <= 3 ? kStripesOfFormat3 : BodyDescriber::kStripes;
   BodyDescription portrait;
   portrait.colors.setZero(BodyDescriber::kBins, BodyDescriber::kStripes);
   Eigen::Index stripe = 0;
-  for (const std::string& text : map.texts("portrait", BodyDescriber::kStripes)) {
+  for (const std::string& text : map.texts("portrait", stripes)) {
     auto column = portrait.colors.col(stripe++);
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {
@@ -170,6 +177,12 @@ BodyDescription readPortrait(YamlMap& map, int version) {
     }
     if (column.sum() > 1.01F) {
       map.fail("portrait", "has a stripe with shares of more than 1 in all");
+    }
+  }
+  if (version <= 3) {
+    for (stripe = BodyDescriber::kStripes - 1; stripe >= 0; --stripe) {
+      portrait.colors.col(stripe) =
+          portrait.colors.col(kStripeOfFormat3[static_cast<std::size_t>(stripe)]);
     }
   }
   return portrait;

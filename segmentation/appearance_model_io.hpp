@@ -12,7 +12,7 @@
 namespace heel {
 
 /// The version of the format that is written; older ones are read.
-inline constexpr int kAppearanceFormat = 3;
+inline constexpr int kAppearanceFormat = 4;
 
 /// Writes a model as YAML, for people to read too; whole or not at all.
 /// @throws std::runtime_error  with one sentence that names the file and the reason.

@@ -37,7 +37,7 @@ class BadModel : public testing::Test {
 };
 
 TEST_F(BadModel, OfAFutureVersionIsRefused) {
-  replaceFirst("heel_appearance: 3", "heel_appearance: 99");
+  replaceFirst("heel_appearance: 4", "heel_appearance: 99");
   expectAllFail({"person.yaml", "is 99", "up to 3"});
 }
 

@@ -104,7 +104,7 @@ TEST_F(AppearanceFile, OfTheFirstFormatHasAPortraitOfItsBands) {
   ASSERT_NE(from, std::string::npos);
   ASSERT_NE(to, std::string::npos);
   old.erase(from, to + 1 - from);
-  old.replace(old.find("heel_appearance: 3"), 18, "heel_appearance: 1");
+  old.replace(old.find("heel_appearance: 4"), 18, "heel_appearance: 1");
   std::ofstream(file_) << old;
   EXPECT_TRUE((loadAppearance(file_).portrait().colors - model.portrait().colors).abs().maxCoeff() <
               1e-6F);
@@ -115,16 +115,36 @@ TEST_F(AppearanceFile, OfFormat2HasItsColoursAmongMoreBins) {
   std::string old = text();
   const std::size_t from = old.find("portrait:"), to = old.find("\nroom:");
   std::string portrait = "portrait:\n";
-  for (int stripe = 0; stripe < BodyDescriber::kStripes; ++stripe) {
+  for (int stripe = 0; stripe < 8; ++stripe) {
     portrait += "  - |\n    0 0.25\n    863 0.75\n";  // the first of 12 x 12 x 6 bins, and the last
   }
   old.replace(from, to - from, portrait);
-  old.replace(old.find("heel_appearance: 3"), 18, "heel_appearance: 2");
+  old.replace(old.find("heel_appearance: 4"), 18, "heel_appearance: 2");
   std::ofstream(file_) << old;
   const BodyDescription read = loadAppearance(file_).portrait();
   // Three bins more on each side of both colour axes, of 18.
   EXPECT_EQ(read.colors((3 * 18 + 3) * 6 + 0, 4), 0.25F);
   EXPECT_EQ(read.colors((14 * 18 + 14) * 6 + 5, 4), 0.75F);
+}
+
+TEST_F(AppearanceFile, OfFormat3HasStripesThatWereOneAlike) {
+  saveAppearance(makeModel(), file_);
+  std::string old = text();
+  const std::size_t from = old.find("portrait:"), to = old.find("\nroom:");
+  std::string portrait = "portrait:\n";
+  for (int stripe = 0; stripe < 8; ++stripe) {
+    portrait += "  - |\n    " + std::to_string(stripe) + " 1\n";
+  }
+  old.replace(from, to - from, portrait);
+  old.replace(old.find("heel_appearance: 4"), 18, "heel_appearance: 3");
+  std::ofstream(file_) << old;
+  const BodyDescription read = loadAppearance(file_).portrait();
+  ASSERT_EQ(read.colors.cols(), 10);
+  const std::vector<int> was = {0, 1, 2, 3, 4, 5, 6, 6, 7, 7};  // 1.45 to 1.65 m, and to 2 m
+  for (int stripe = 0; stripe < 10; ++stripe) {
+    EXPECT_EQ(read.colors(was[static_cast<std::size_t>(stripe)], stripe), 1.0F) << stripe;
+    EXPECT_EQ(read.colors.col(stripe).sum(), 1.0F) << stripe;
+  }
 }
 
 TEST_F(AppearanceFile, WithAPortraitThatIsNoneIsRefused) {
@@ -169,9 +189,9 @@ TEST_F(AppearanceFile, ThatWasCutOffIsRefused) {
 }
 
 TEST_F(AppearanceFile, OfTheFutureIsRefused) {
-  saveWith("heel_appearance: 3", "heel_appearance: 4");
-  EXPECT_THAT(complaint(), AllOf(HasSubstr("person.yaml"), HasSubstr("is 4, but this"),
-                                 HasSubstr("only versions up to 3")));
+  saveWith("heel_appearance: 4", "heel_appearance: 5");
+  EXPECT_THAT(complaint(), AllOf(HasSubstr("person.yaml"), HasSubstr("is 5, but this"),
+                                 HasSubstr("only versions up to 4")));
 }
 
 TEST_F(AppearanceFile, NamesAMissingField) {

@@ -130,6 +130,20 @@ TEST(BodyDescriber, MeasuresAStatureWhereWhatIsBehindIsSeenAboveTheHead) {
   EXPECT_FALSE(stageWithDoorFrame(160).describe().stature_m) << "half of it is";
 }
 
+// Bug: a head was what is over 1.65 m, so hair and face of somebody of 1.65 m were of their top.
+TEST(BodyDescriber, KnowsWhatIsTheHeadOfShortAndTallPeople) {
+  const auto headFrom = [](double stature_m) {
+    int stripe = 0;
+    while (BodyDescriber::garmentOf(stripe, stature_m) < 2) ++stripe;
+    return BodyDescriber::middleOf_m(stripe);
+  };
+  for (const double stature_m : {1.5, 1.6, 1.7, 1.8, 1.9}) {
+    EXPECT_NEAR(headFrom(stature_m), 0.87 * stature_m, 0.12) << stature_m;
+    EXPECT_GE(headFrom(stature_m), 0.87 * stature_m) << stature_m;
+  }
+  EXPECT_EQ(BodyDescriber::garmentOf(0), 0);
+}
+
 // Bug: what is higher than 2 m was not looked at, so a door leaf had no stature, or one of 2 m.
 TEST(BodyDescriber, MeasuresWhatIsTallerThanPeople) {
   Stage stage = stageWithDoorFrame(320);
