@@ -65,7 +65,7 @@ using Tallness = Eigen::Array<double, 51, 1>;
 /// The offset was learned by logistic regression on people of real recordings, see
 /// docs/results.md: another description of bodies needs another.
 /// A part whose likeness is minus this says nothing.
-inline constexpr double kLikenessOffset = 0.38;
+inline constexpr double kLikenessOffset = 0.41;
 /// Mean misfit, KL(look || person), of the looks at a person and at somebody else, over all parts
 /// and lights: what is expected before a person was looked at. Whoever usually fits better than
 /// that is not taken for them where they fit no better than others do.
