@@ -15,7 +15,7 @@ namespace heel {
 namespace {
 
 constexpr double kBoardHalfWidth_m = 0.12;  // Of BodyView::disparities: that of a trunk.
-constexpr int kStripePixels = 200;          // About so many pixels of a stripe are looked at.
+constexpr int kBodyPixels = 1800;     // About so many are looked at: 200 of a quarter of a metre.
 constexpr int kMinStripePixels = 20;  // A stripe with fewer pixels than this counts as not seen.
 
 using Describer = BodyDescriber;
@@ -172,8 +172,7 @@ void BodyDescriber::describe(const BodyView& view, const WorldBlob& blob, BodyDe
     const int columns = view.image_bgr.cols - view.disparities;
     board = boardOf(view, blob) & cv::Rect(view.disparities, 0, columns, view.image_bgr.rows);
   }
-  const int step =
-      std::max(1, static_cast<int>(std::sqrt(body.area() / ((kStripes - 1) * kStripePixels))));
+  const int step = std::max(1, static_cast<int>(std::sqrt(body.area() / kBodyPixels)));
   const cv::Rect inside =
       withoutEdge(view.disparities, view.image_bgr.cols, view.image_bgr.rows, step);
   const Eigen::Matrix3f R = view.T_base_camera.linear().cast<float>();
