@@ -38,7 +38,7 @@ class BadModel : public testing::Test {
 
 TEST_F(BadModel, OfAFutureVersionIsRefused) {
   replaceFirst("heel_appearance: 4", "heel_appearance: 99");
-  expectAllFail({"person.yaml", "is 99", "up to 3"});
+  expectAllFail({"person.yaml", "is 99", "up to 4"});
 }
 
 TEST_F(BadModel, WithAMissingFieldNamesTheField) {

@@ -83,8 +83,8 @@ TEST(Gallery, WhatIsNotSeenSaysNothing) {
 TEST(Gallery, ALookHasTheLogOddsOfItsParts) {
   Gallery gallery(looksOf(clothes(0, 1)));
   const double alike = partLogOdds(1.0), unlike = partLogOdds(0.0);
-  EXPECT_NEAR(alike, 0.38 + std::log(61.0 / 66.0) + 0.5 * std::log(6.0), 1e-12);
-  EXPECT_NEAR(unlike, 0.38 + std::log(1.0 / 66.0) + 0.5 * std::log(6.0), 1e-12);
+  EXPECT_NEAR(alike, kLikenessOffset + std::log(61.0 / 66.0) + 0.5 * std::log(6.0), 1e-12);
+  EXPECT_NEAR(unlike, kLikenessOffset + std::log(1.0 / 66.0) + 0.5 * std::log(6.0), 1e-12);
   EXPECT_NEAR(of(gallery, clothes(0, 1))[kTarget], target(2.0 * alike), 1e-5);
   EXPECT_NEAR(of(gallery, clothes(0, 5))[kTarget], target(alike + unlike), 1e-5);
   EXPECT_NEAR(of(gallery, clothes(1, 0))[kTarget], target(2.0 * unlike), 1e-5)
