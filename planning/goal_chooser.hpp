@@ -16,8 +16,8 @@ namespace heel {
 /// How near to be, and what makes a place bad.
 struct GoalChooserParams {
   double standoff_m = 1.0;      ///< Distance to keep, from the person's middle to the robot's.
-  double nearest_share = 0.8;   ///< The robot never stands nearer than this share of standoff_m,
-  double furthest_share = 1.6;  ///< or further than this many times standoff_m if there is a place.
+  double nearest_share = 0.8;   ///< The robot never stands nearer than this share of standoff_m.
+  double furthest_share = 1.6;  ///< Nor further than so many times standoff_m, if there is a place.
   double radius_m = 0.26;       ///< Radius of the robot.
   double margin_m = 0.08;       ///< Room that the robot needs around it.
   double lead_s = 0.4;          ///< The robot goes to where the person will be after this time.

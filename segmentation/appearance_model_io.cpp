@@ -153,17 +153,18 @@ int binOfFormat2(int bin) {
 
 /// Up to format 3, four of the stripes were two.
 constexpr int kStripesOfFormat3 = 8;
-constexpr std::array<Eigen::Index, BodyDescriber::kStripes> kStripeOfFormat3 = {0, 1, 2, 3, 4,
-                                                                                5, 6, 6, 7, 7};
+constexpr std::array<std::size_t, BodyDescriber::kStripes> kStripeOfFormat3 = {0, 1, 2, 3, 4,
+                                                                               5, 6, 6, 7, 7};
 
 BodyDescription readPortrait(YamlMap& map, int version) {
-  const int stripes = version <= 3 ? kStripesOfFormat3 : BodyDescriber::kStripes;
+  const bool is_older = version <= 3;
+  const std::vector<std::string> stripes =
+      map.texts("portrait", is_older ? kStripesOfFormat3 : BodyDescriber::kStripes);
   BodyDescription portrait;
   portrait.colors.setZero(BodyDescriber::kBins, BodyDescriber::kStripes);
-  Eigen::Index stripe = 0;
-  for (const std::string& text : map.texts("portrait", stripes)) {
-    auto column = portrait.colors.col(stripe++);
-    std::istringstream lines(text);
+  for (std::size_t stripe = 0; stripe < kStripeOfFormat3.size(); ++stripe) {
+    auto column = portrait.colors.col(static_cast<Eigen::Index>(stripe));
+    std::istringstream lines(stripes[is_older ? kStripeOfFormat3[stripe] : stripe]);
     for (std::string line; std::getline(lines, line);) {
       int bin = 0;
       float share = 0.0F;
@@ -177,12 +178,6 @@ BodyDescription readPortrait(YamlMap& map, int version) {
     }
     if (column.sum() > 1.01F) {
       map.fail("portrait", "has a stripe with shares of more than 1 in all");
-    }
-  }
-  if (version <= 3) {
-    for (stripe = BodyDescriber::kStripes - 1; stripe >= 0; --stripe) {
-      portrait.colors.col(stripe) =
-          portrait.colors.col(kStripeOfFormat3[static_cast<std::size_t>(stripe)]);
     }
   }
   return portrait;

@@ -80,7 +80,7 @@ class BodyDescriber {
 
   static double middleOf_m(int stripe);  ///< Height of a stripe's middle over the floor.
   /// What of somebody this tall a stripe shows most of: 0: trousers, 1: a top, 2: hair and face.
-  static int garmentOf(int stripe, double stature_m = 1.7);
+  static int garmentOf(int stripe, double stature_m);
 
   /// How counted colours spread over the bins: a stripe that has them all.
   static Eigen::ArrayXf binsOf(const ColorHistogram& colors);

@@ -40,10 +40,10 @@ TargetLooks looksOf(const AppearanceModel& model) {
   looks.target = model.portrait().colors;
   looks.room = BodyDescriber::binsOf(model.room());
   looks.anybody = BodyDescriber::clothes();
+  constexpr double kUsualStature_m = 1.7;
+  const double stature_m = model.stature() ? model.stature()->height_m : kUsualStature_m;
   for (int stripe = 0; stripe < BodyDescriber::kStripes; ++stripe) {
-    looks.garments.push_back(model.stature()
-                                 ? BodyDescriber::garmentOf(stripe, model.stature()->height_m)
-                                 : BodyDescriber::garmentOf(stripe));
+    looks.garments.push_back(BodyDescriber::garmentOf(stripe, stature_m));
   }
   // Lamps and white balances change colours by about so much, rooms and exposures brightness.
   constexpr double kLightSigma = 0.2, kBrightnessSigma = 0.6;

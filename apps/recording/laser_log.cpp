@@ -123,8 +123,7 @@ struct CarmenLog::State {
   bool scanLine(std::string_view kind) {
     const bool is_new = kind == "ROBOTLASER1";
     if (!is_new && kind != "FLASER") return false;
-    if (scan_kind.empty()) scan_kind = kind;
-    if (kind != scan_kind) return false;
+    if (!scan_kind.empty() && kind != scan_kind) return false;
     double first_rad = -M_PI / 2.0, step_rad = 0.0, most_m = kNothing_m;
     if (is_new) {
       number();  // the laser's type
@@ -156,6 +155,7 @@ struct CarmenLog::State {
     robot = pose();
     for (int left = is_new ? 5 : 0; left > 0; --left) word();  // speeds and safe distances
     stamp_s = number();
+    scan_kind = kind;
     return true;
   }
 

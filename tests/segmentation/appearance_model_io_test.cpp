@@ -46,6 +46,18 @@ class AppearanceFile : public testing::Test {
     write(changed.replace(at, what.size(), instead));
   }
 
+  /// With stripes of an older format.
+  void saveOlder(int format, const std::vector<std::string>& stripes) const {
+    saveAppearance(makeModel(), file_);
+    std::string changed = text(), portrait = "portrait:\n";
+    for (const std::string& stripe : stripes) portrait += "  - |\n    " + stripe + "\n";
+    const std::size_t from = changed.find("portrait:"), to = changed.find("\nroom:");
+    changed.replace(from, to - from, portrait);
+    const std::string now = "heel_appearance: 4";
+    write(changed.replace(changed.find(now), now.size(),
+                          "heel_appearance: " + std::to_string(format)));
+  }
+
   std::string complaint() const {
     return test::messageOf([&] { loadAppearance(file_); });
   }
@@ -111,16 +123,8 @@ TEST_F(AppearanceFile, OfTheFirstFormatHasAPortraitOfItsBands) {
 }
 
 TEST_F(AppearanceFile, OfFormat2HasItsColoursAmongMoreBins) {
-  saveAppearance(makeModel(), file_);
-  std::string old = text();
-  const std::size_t from = old.find("portrait:"), to = old.find("\nroom:");
-  std::string portrait = "portrait:\n";
-  for (int stripe = 0; stripe < 8; ++stripe) {
-    portrait += "  - |\n    0 0.25\n    863 0.75\n";  // the first of 12 x 12 x 6 bins, and the last
-  }
-  old.replace(from, to - from, portrait);
-  old.replace(old.find("heel_appearance: 4"), 18, "heel_appearance: 2");
-  std::ofstream(file_) << old;
+  // The first of 12 x 12 x 6 bins, and the last.
+  saveOlder(2, std::vector<std::string>(8, "0 0.25\n    863 0.75"));
   const BodyDescription read = loadAppearance(file_).portrait();
   // Three bins more on each side of both colour axes, of 18.
   EXPECT_EQ(read.colors((3 * 18 + 3) * 6 + 0, 4), 0.25F);
@@ -128,16 +132,7 @@ TEST_F(AppearanceFile, OfFormat2HasItsColoursAmongMoreBins) {
 }
 
 TEST_F(AppearanceFile, OfFormat3HasStripesThatWereOneAlike) {
-  saveAppearance(makeModel(), file_);
-  std::string old = text();
-  const std::size_t from = old.find("portrait:"), to = old.find("\nroom:");
-  std::string portrait = "portrait:\n";
-  for (int stripe = 0; stripe < 8; ++stripe) {
-    portrait += "  - |\n    " + std::to_string(stripe) + " 1\n";
-  }
-  old.replace(from, to - from, portrait);
-  old.replace(old.find("heel_appearance: 4"), 18, "heel_appearance: 3");
-  std::ofstream(file_) << old;
+  saveOlder(3, {"0 1", "1 1", "2 1", "3 1", "4 1", "5 1", "6 1", "7 1"});
   const BodyDescription read = loadAppearance(file_).portrait();
   ASSERT_EQ(read.colors.cols(), 10);
   const std::vector<int> was = {0, 1, 2, 3, 4, 5, 6, 6, 7, 7};  // 1.45 to 1.65 m, and to 2 m

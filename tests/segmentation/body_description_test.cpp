@@ -141,7 +141,7 @@ TEST(BodyDescriber, KnowsWhatIsTheHeadOfShortAndTallPeople) {
     EXPECT_NEAR(headFrom(stature_m), 0.87 * stature_m, 0.12) << stature_m;
     EXPECT_GE(headFrom(stature_m), 0.87 * stature_m) << stature_m;
   }
-  EXPECT_EQ(BodyDescriber::garmentOf(0), 0);
+  EXPECT_EQ(BodyDescriber::garmentOf(0, 1.7), 0);
 }
 
 // Bug: what is higher than 2 m was not looked at, so a door leaf had no stature, or one of 2 m.

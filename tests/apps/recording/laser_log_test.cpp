@@ -124,6 +124,14 @@ TEST(CarmenLog, ReadsEachScanOnceOfALogThatHasBothForms) {
   EXPECT_EQ(readings[1].scan.ranges_m[0], 1.5F);
 }
 
+TEST(CarmenLog, ABrokenScanOfTheOneFormDoesNotHideThoseOfTheOther) {
+  EXPECT_EQ(readingsOf("FLASER 2 1.0 broken\n"
+                       "ROBOTLASER1 0 -1.57 3.14 3.14 30.0 0.01 0 2 1.0 2.0 0 1 2 0.1 1 2 0.1 "
+                       "0 0 0.5 0.5 9 0.25 host 0.25\n")
+                .size(),
+            1U);
+}
+
 TEST(CarmenLog, ReadsItCompressedToo) {
   const test::TempFolder folder;
   const std::string file = (folder / "small.log.gz").string();
