@@ -17,6 +17,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <iterator>
 #include <new>
@@ -93,6 +94,9 @@ int failFor(const CLI::App& app) {
     return fail(ExitCode::kUsage, error.what());
   } catch (const cv::Exception& error) {
     return fail(ExitCode::kFault, error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail(ExitCode::kBadInput,
+                error.path1().string() + " cannot be read: " + error.code().message());
   } catch (const std::runtime_error& error) {
     return fail(ExitCode::kBadInput, error.what());
   } catch (const std::bad_alloc&) {

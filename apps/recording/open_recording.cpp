@@ -45,15 +45,11 @@ std::unique_ptr<Recording> openRecording(const fs::path& path, const RecordingPa
     throw std::invalid_argument("the part of " + path.string() +
                                 " that is read must begin at 0 s or later, and end after that");
   }
-  try {
-    if (!fs::exists(path)) throw std::runtime_error(path.string() + " does not exist");
-    if (isBag(path)) return BagRecording::open(path, params);
-    auto recording = openFiles(path, params);
-    recording->limitTo(params.span);
-    return recording;
-  } catch (const fs::filesystem_error& error) {
-    throw std::runtime_error(path.string() + " cannot be read: " + error.code().message());
-  }
+  if (!fs::exists(path)) throw std::runtime_error(path.string() + " does not exist");
+  if (isBag(path)) return BagRecording::open(path, params);
+  auto recording = openFiles(path, params);
+  recording->limitTo(params.span);
+  return recording;
 }
 
 std::string nothingReadMessage(const Recording& recording) {

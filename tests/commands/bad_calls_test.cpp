@@ -77,6 +77,11 @@ TEST(Call, OfAnUnknownVerbNamesItAndTheVerbs) {
   EXPECT_TRUE(failsWith(heel({"lern"}), {"'lern'; did you mean learn?"}));
 }
 
+TEST(Call, ThatTheFileSystemRefusesSaysWhatOfAndWhy) {
+  const std::string name(300, 'a');
+  EXPECT_TRUE(failsWith(heel({"inspect", name}), {name + " cannot be read: File name too long"}));
+}
+
 TEST(Call, WithAnUnknownOptionNamesIt) {
   EXPECT_TRUE(failsWith(heel({"learn", "somewhere", "--colour", "1"}),
                         {"--colour", "'heel learn --help'"}));
