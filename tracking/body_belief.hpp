@@ -60,6 +60,7 @@ struct BodyBelief {
   static double restRadius_m(const Observation& seen) {
     return kRest_m + 2.0 * std::sqrt(seen.covariance_m2.trace());
   }
+  static constexpr double kRests_s = 1.0;  ///< Nobody who walks stays that near for so long.
   /// Of the identities that seem sure, or that one is told, so many are wrong.
   static constexpr double kMistaken = 0.01;
 
@@ -84,9 +85,14 @@ struct BodyBelief {
   /// Means of what looks said of each part, so that one that is out of view still counts,
   Eigen::ArrayXXd known_parts;
   Eigen::ArrayXd known_looks;  ///< of so many looks.
-  double present = 1.0;        ///< Probability that whoever it is still is there.
-  double replaced = 0.0;       ///< Unless it is the target: that it was, before another came.
-  bool was_apart = false;      ///< At some time nobody else was near.
+  double present = 1.0;        ///< Probability that whoever it is still is there,
+  double in_view = 1.0;        ///< and that they are there and in the picture.
+  /// Independent looks since then that missed them, though their place was in full view; the first
+  double missed_looks = 0.0;
+  double missed_s = 0.0;                                    ///< was at that time,
+  Eigen::Vector2d missed_from_m = Eigen::Vector2d::Zero();  ///< with the camera there.
+  double replaced = 0.0;   ///< Unless it is the target: that it was, before another came.
+  bool was_apart = false;  ///< At some time nobody else was near.
   bool is_alive = true;
 
   Tallness logTallness() const { return log_tallness + view.weight * view.tallness; }
@@ -96,8 +102,20 @@ struct BodyBelief {
   double targetShare() const { return probability[kTarget] / std::max(probability.sum(), 1e-300); }
   PastBelief past() const;
 
+  /// Whoever stood for a time will for as long, one in two.
+  double stays(double stamp_s) const {
+    const double stood_s = std::max(seen_s - since_s, kRests_s);
+    return stood_s / (stood_s + std::max(stamp_s - seen_s, 0.0));
+  }
+
   /// The way [m] from the view at hand to a look, by body or camera; 0 if neither may have moved.
   double wayTo(const BodyLook& look) const;
+
+  void see(double stamp_s) {
+    seen_s = stamp_s;
+    present = in_view = 1.0;
+    missed_looks = 0.0;
+  }
 
   /// Takes in a look, of which so much is new.
   void takeLook(const Gallery& gallery, const BodyLook& look, double news);

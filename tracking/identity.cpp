@@ -15,18 +15,16 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMistaken = BodyBelief::kMistaken;
 const double kLogMistaken = std::log(kMistaken);
-constexpr double kRests_s = 1.0;        // Nobody who walks stays that near for so long.
 constexpr double kPlaceSigma_m = 0.25;  // Of where a person who is tracked is observed next.
 constexpr double kRestSigma_m =
-    0.5 * BodyBelief::kRest_m;          // Of where whoever rests is observed again.
-constexpr double kMissed = 0.1;         // Of the looks at somebody in full view.
-constexpr double kCoastMemory_s = 1.0;  // Hidden somebody may have gone elsewhere in this time.
-constexpr double kRoom_m2 = 20.0;       // Where somebody who is away may be.
-constexpr double kUnexpected = 0.02;    // Share of targets who are not where they are expected.
-constexpr double kMetLooks = 1.5;       // A stranger is met after so many independent looks.
-constexpr double kSurest = 12.0;        // Logarithm of the greatest odds of places and ways.
-constexpr double kAlone_m = 1.0;        // Nobody nearer: then a look is theirs alone.
-constexpr std::size_t kMostLeft = 16;   // Ended tracks that are remembered.
+    0.5 * BodyBelief::kRest_m;         // Of where whoever rests is observed again.
+constexpr double kMissed = 0.1;        // Of independent looks at somebody in full view.
+constexpr double kRoom_m2 = 20.0;      // Where somebody who is away may be.
+constexpr double kUnexpected = 0.02;   // Share of targets who are not where they are expected.
+constexpr double kMetLooks = 1.5;      // A stranger is met after so many independent looks.
+constexpr double kSurest = 12.0;       // Logarithm of the greatest odds of places and ways.
+constexpr double kAlone_m = 1.0;       // Nobody nearer: then a look is theirs alone.
+constexpr std::size_t kMostLeft = 16;  // Ended tracks that are remembered.
 
 /// Weights of which the greatest is 1.
 Evidence relative(const Evidence& log_weight) { return (log_weight - log_weight.maxCoeff()).exp(); }
@@ -98,9 +96,10 @@ double Identity::logLikelihood(int track_id, int observation) const {
 }
 
 /// Of somebody who is known and away, per square metre.
-double Identity::densityOf(int h, const Eigen::Vector2d& place_m, double stamp_s) const {
+double Identity::densityOf(int h, const Eigen::Vector2d& place_m, double stamp_s,
+                           const BodyBelief* but) const {
   const double anywhere = params_.newcomer_density_per_m2;
-  if (h == kTarget && target_density_) {
+  if (h == kTarget && target_density_ && but == nullptr) {
     if (const auto density = target_density_(place_m)) {
       return (1.0 - kUnexpected) * *density + kUnexpected * anywhere;
     }
@@ -121,15 +120,17 @@ double Identity::densityOf(int h, const Eigen::Vector2d& place_m, double stamp_s
 }
 
 /// What is believed of somebody who appears at a place, before a look at them.
-/// @param but  Of what else is there: it is no evidence for another thing.
+/// @param but  Whom they come instead of: what was counted of that one is no evidence for another
+///             thing, and the target may be looked for there because that one may be it.
 Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s,
-                           const ClutterCount& but) const {
-  const ClutterDensity there = clutter_.density(place_m, stamp_s, but);
+                           const BodyBelief* but) const {
+  const ClutterDensity there =
+      clutter_.density(place_m, stamp_s, but == nullptr ? ClutterCount{} : but->counted);
   Evidence weight = Evidence::Zero();
   weight[kThing] = there.things_per_m2;
   weight[kStranger] = params_.newcomer_density_per_m2;
   for (int h = kTarget; h < kHypotheses; ++h) {
-    if (h == kTarget || gallery_.isKnown(h)) weight[h] = densityOf(h, place_m, stamp_s);
+    if (h == kTarget || gallery_.isKnown(h)) weight[h] = densityOf(h, place_m, stamp_s, but);
   }
   // Where people were seen before there are more, whoever they are.
   auto people = weight.tail<kHypotheses - kStranger>();
@@ -140,7 +141,7 @@ Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s,
 /// Where it rests: that it is on its way through a place does not say that things come there, nor
 /// people.
 void Identity::count(BodyBelief& belief, double time_s, double stamp_s) {
-  if (belief.since_s > belief.born_s && stamp_s - belief.since_s < kRests_s) return;
+  if (belief.since_s > belief.born_s && stamp_s - belief.since_s < BodyBelief::kRests_s) return;
   const double thing_s = time_s * belief.probability[kThing];
   clutter_.add({belief.place_m, time_s, thing_s}, stamp_s);
   belief.counted = {belief.place_m, belief.counted.time_s + time_s,
@@ -169,17 +170,15 @@ BodyBelief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, double
   double most_per_m2 = newcomers_per_m2;
   auto same = left_.end();
   for (auto left = left_.begin(); left != left_.end(); ++left) {
-    const double stood_s = left->seen_s - left->since_s;
-    const double stays = stood_s > 0.0 ? stood_s / (stamp_s - left->since_s) : 0.0;
     const double off2 = (place_m - left->place_m).squaredNorm() / rest_m2;
-    const double per_m2 = stays * std::exp(-0.5 * off2) / (2.0 * M_PI * rest_m2);
+    const double per_m2 = left->present * std::exp(-0.5 * off2) / (2.0 * M_PI * rest_m2);
     if (per_m2 <= most_per_m2) continue;
     most_per_m2 = per_m2;
     same = left;
   }
   BodyBelief& belief = beliefs_.emplace_back();
   if (same != left_.end()) {
-    const Evidence another = priorOf(place_m, stamp_s, same->counted);
+    const Evidence another = priorOf(place_m, stamp_s, &*same);
     const Evidence log_others = logOthers(*same);
     for (BodyBelief& other : beliefs_) {  // They are together again.
       if (!same->was_apart || other.born_s > same->seen_s) continue;
@@ -192,15 +191,30 @@ BodyBelief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, double
     }
     belief.mixIn(gallery_, {another, another}, newcomers_per_m2 / (newcomers_per_m2 + most_per_m2));
     belief.is_alive = true;
-    belief.present = 1.0;
   } else {
     belief.place_m = place_m;
     belief.born_s = belief.since_s = stamp_s;
     belief.log_place = prior;
   }
   belief.track_id = track_id;
-  belief.seen_s = stamp_s;
+  belief.see(stamp_s);
   return belief;
+}
+
+/// Somebody is not seen, at a place where they may be.
+void Identity::miss(BodyBelief& belief, const Eigen::Vector2d& place_m, double stamp_s,
+                    const Viewpoint& viewpoint) {
+  const Sight sight = viewpoint.sight_of ? viewpoint.sight_of(place_m) : Sight::kUnknown;
+  if (sight == Sight::kFree) {
+    if (belief.missed_looks == 0.0) {
+      belief.missed_s = stamp_s;
+      belief.missed_from_m = viewpoint.position_m;
+    }
+    const double way_m = (viewpoint.position_m - belief.missed_from_m).norm();
+    belief.missed_looks = 1.0 + params_.newsOf(stamp_s - belief.missed_s, way_m);
+  }
+  belief.present = belief.stays(stamp_s) * std::pow(kMissed, belief.missed_looks);
+  belief.in_view = belief.present * (sight == Sight::kOutside ? kMissed : 1.0);
 }
 
 /// Where somebody is and goes.
@@ -220,7 +234,7 @@ void Identity::takePlace(BodyBelief& belief, const Track& track, const Observati
   const double missed = 1.0 - belief.present + belief.present * kMissed * news;
   if (missed > 0.0) {
     const double same = (1.0 - missed) * track.density_per_m2;
-    const Evidence prior = priorOf(seen.position_m, stamp_s, belief.counted);
+    const Evidence prior = priorOf(seen.position_m, stamp_s, &belief);
     const double other = missed * prior.exp().sum();
     const double other_share = other / (same + other);
     const double target = belief.targetShare();
@@ -232,8 +246,7 @@ void Identity::takePlace(BodyBelief& belief, const Track& track, const Observati
   belief.log_place -= belief.log_place.maxCoeff();
   belief.log_place =
       belief.log_place.isFinite().select(belief.log_place.max(-kSurest), belief.log_place);
-  belief.present = 1.0;
-  belief.seen_s = stamp_s;
+  belief.see(stamp_s);
   if (has_moved) {
     belief.place_m = seen.position_m;
     belief.since_s = stamp_s;
@@ -259,11 +272,9 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
   for (const Track& track : tracks) {
     BodyBelief* belief = find(track.id);
     if (belief == nullptr || track.observation != Track::kUnseen) continue;
-    const Sight sight =
-        viewpoint.sight_of ? viewpoint.sight_of(track.motion.position_m()) : Sight::kUnknown;
-    const bool is_gone = sight == Sight::kFree || sight == Sight::kOutside;
-    belief->present *= is_gone ? kMissed : std::exp(-std::max(dt_s, 0.0) / kCoastMemory_s);
+    miss(*belief, track.motion.position_m(), stamp_s, viewpoint);
   }
+  for (BodyBelief& left : left_) miss(left, left.place_m, stamp_s, viewpoint);
   for (const Track& track : tracks) {
     if (find(track.id) == nullptr) begin(track.id, track.motion.position_m(), stamp_s);
   }
@@ -327,7 +338,7 @@ Evidence Identity::logWeight(const BodyBelief& belief) const {
 const std::vector<BodyWeights>& Identity::weigh(bool may_be_empty) {
   weights_.resize(beliefs_.size());
   for (std::size_t j = 0; j < beliefs_.size(); ++j) {
-    const double present = may_be_empty ? beliefs_[j].present : 1.0;
+    const double present = may_be_empty ? beliefs_[j].in_view : 1.0;
     const Evidence all = relative(logWeight(beliefs_[j]));
     weights_[j] = {present * all, (1.0 - present) * all.sum()};
     for (int h = kFirstOther; h < kHypotheses; ++h) {
@@ -343,7 +354,7 @@ void Identity::weighTogether() {
   const std::vector<Evidence>& together = together_.of(weigh(false));
   double unseen_since_s = kInfinity;
   for (const BodyBelief& belief : beliefs_) {
-    if (belief.present < 1.0) unseen_since_s = std::min(unseen_since_s, belief.seen_s);
+    if (belief.in_view < 1.0) unseen_since_s = std::min(unseen_since_s, belief.seen_s);
   }
   const std::vector<Evidence>& after =
       unseen_since_s < kInfinity ? after_.of(weigh(true)) : together;
@@ -352,7 +363,7 @@ void Identity::weighTogether() {
     for (std::size_t j = 0; j < beliefs_.size(); ++j) {
       BodyBelief& belief = beliefs_[j];
       if ((belief.born_s > unseen_since_s) != is_new) continue;
-      belief.probability = is_new ? after[j] : Evidence(belief.present * together[j]);
+      belief.probability = is_new ? after[j] : Evidence(belief.in_view * together[j]);
       auto people = belief.probability.tail<kHypotheses - kTarget>();
       people = people.min(away_.tail<kHypotheses - kTarget>());
       away_ = (away_ - belief.probability).max(0.0);

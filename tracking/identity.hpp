@@ -98,10 +98,13 @@ class Identity {
   BodyBelief* find(int track_id);
   const BodyBelief* find(int track_id) const;
   BodyBelief& begin(int track_id, const Eigen::Vector2d& place_m, double stamp_s);
-  double densityOf(int h, const Eigen::Vector2d& place_m, double stamp_s) const;
+  double densityOf(int h, const Eigen::Vector2d& place_m, double stamp_s,
+                   const BodyBelief* but) const;
   Evidence priorOf(const Eigen::Vector2d& place_m, double stamp_s,
-                   const ClutterCount& but = {}) const;
+                   const BodyBelief* but = nullptr) const;
   void count(BodyBelief& belief, double time_s, double stamp_s);
+  void miss(BodyBelief& belief, const Eigen::Vector2d& place_m, double stamp_s,
+            const Viewpoint& viewpoint);
   void takePlace(BodyBelief& belief, const Track& track, const Observation& seen, double stamp_s);
   void takeLook(BodyBelief& belief, const BodyLook& look);
   void mixSwaps(const std::vector<Swap>& swaps);

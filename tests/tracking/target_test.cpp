@@ -174,12 +174,12 @@ TEST(TargetTracker, TakesAboveAProbabilityAndKeepsAboveHalfOfIt) {
   }
   for (const bool kept : {false, true}) {
     TargetParams params;
-    params.take_above = kept ? 0.6 : 0.8;
+    params.take_above = kept ? 0.6 : 0.999;
     Scene run(params);
     run.target().startAt({2, 0});
     run.sight(Sight::kHidden);
     run.see({seen(2, 0)}, 5);
-    run.see({}, 5);  // exp(-1) is left of it.
+    run.see({}, 5);  // Half is left of it.
     EXPECT_EQ(run.estimate().hasPlace(), kept);
   }
 }
@@ -479,7 +479,7 @@ TEST(TargetTracker, ConfidenceFollowsLooksTimeAndRivals) {
   EXPECT_GT(there, 0.9);
   // 0.4 s unseen, nobody near.
   const double unseen = run.see({seen(2, 3, kUnlike)}, 2).confidence;
-  EXPECT_NEAR(unseen, there * std::exp(-0.4), 0.02);
+  EXPECT_NEAR(unseen, there / 1.4, 0.02);
   // Whoever looks alike lowers the confidence of somebody who is not known yet.
   Scene alone, pair;
   alone.lookAround();
