@@ -90,9 +90,8 @@ double Identity::logLikelihood(int track_id, int observation) const {
   const Tallness before = belief->logTallness();
   const double same = gallery_.logIfAnybody(before + stature) - gallery_.logIfAnybody(before) -
                       gallery_.logIfAnybody(stature);
-  const double empty = std::max(1.0 - belief->probability.sum(), 0.0);  // somebody else's, then
-  return std::log((belief->probability * look.exp()).sum() * std::exp(same) + empty + 1e-9) -
-         look[kThing];
+  // Of a track that may be empty less is expected.
+  return std::log((belief->probability * look.exp()).sum() * std::exp(same) + 1e-9) - look[kThing];
 }
 
 /// Of somebody who is known and away, per square metre.
