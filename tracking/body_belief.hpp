@@ -87,9 +87,8 @@ struct BodyBelief {
   Eigen::ArrayXd known_looks;  ///< of so many looks.
   double present = 1.0;        ///< Probability that whoever it is still is there,
   double in_view = 1.0;        ///< and that they are there and in the picture.
-  /// Independent looks since then that missed them, though their place was in full view; the first
-  double missed_looks = 0.0;
-  double missed_s = 0.0;                                    ///< was at that time,
+  double missed_looks = 0.0;   ///< Independent ones that did not find them in full view, of which
+  double missed_s = 0.0;       ///< the first was then,
   Eigen::Vector2d missed_from_m = Eigen::Vector2d::Zero();  ///< with the camera there.
   double replaced = 0.0;   ///< Unless it is the target: that it was, before another came.
   bool was_apart = false;  ///< At some time nobody else was near.
@@ -111,6 +110,7 @@ struct BodyBelief {
   /// The way [m] from the view at hand to a look, by body or camera; 0 if neither may have moved.
   double wayTo(const BodyLook& look) const;
 
+  /// They are seen again.
   void see(double stamp_s) {
     seen_s = stamp_s;
     present = in_view = 1.0;
