@@ -189,6 +189,7 @@ void Gallery::compare(const Observation& seen, LookEvidence& evidence) {
     if (isKnown(h)) evidence.light[h] = 0.0;
   }
   evidence.parts.setZero(kHypotheses, looks_.target.cols());
+  evidence.misfits.setConstant(kHypotheses, looks_.target.cols(), -1.0);
   evidence.is_seen.setZero(looks_.target.cols());
   if (seen.look == nullptr || anybody_.size() == 0) return;
   if (seen.look->rows() != looks_.target.rows() || seen.look->cols() != looks_.target.cols()) {
@@ -203,6 +204,7 @@ void Gallery::compare(const Observation& seen, LookEvidence& evidence) {
     if (!isKnown(h)) continue;
     likeness(people_[index(h)]);
     evidence.parts.row(h) = best_parts_.transpose();
+    evidence.misfits.row(h) = best_misfit_.transpose();
     evidence.light[h] = best_light_;
   }
 }

@@ -51,6 +51,7 @@ using Garments = Eigen::Array<double, kGarments, 1>;
 struct LookEvidence {
   Eigen::ArrayXXd
       parts;  ///< Log odds over a stranger, hypotheses x parts; 0 where nothing is said.
+  Eigen::ArrayXXd misfits;            ///< KL(look || person) of each; -1 where nothing is said.
   Eigen::ArrayXd is_seen;             ///< 1 of the parts that it shows, else 0.
   Evidence light = Evidence::Zero();  ///< What the light says in which each fits best; -infinity of
                                       ///< who is nobody.
@@ -62,7 +63,7 @@ using Tallness = Eigen::Array<double, 51, 1>;
 /// A look's log odds is the sum over its parts of (likeness + kLikenessOffset), where
 /// likeness = kRarityShare * KL(look || anybody) - KL(look || person), in the light that fits best.
 /// Sure looks at a person teach how well they usually fit, which adds what kMisfit says.
-/// The offset was learned by logistic regression on people of real recordings, see
+/// The offset was learned on people of real recordings by tests/benchmarks/look_fit.cpp, see
 /// docs/results.md: another description of bodies needs another.
 /// A part whose likeness is minus this says nothing.
 inline constexpr double kLikenessOffset = 0.41;

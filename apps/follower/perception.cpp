@@ -35,6 +35,13 @@ std::vector<AppearanceBand> learnedBands(const AppearanceModel& model) {
   return bands;
 }
 
+bool isCandidate(const WorldBlob& blob, const CandidateParams& params) {
+  return blob.cells >= params.min_cells && blob.score >= params.min_score &&
+         blob.max_height_m >= params.min_height_m;
+}
+
+}  // namespace
+
 TargetLooks looksOf(const AppearanceModel& model) {
   TargetLooks looks;
   looks.target = model.portrait().colors;
@@ -66,13 +73,6 @@ TargetLooks looksOf(const AppearanceModel& model) {
   }
   return looks;
 }
-
-bool isCandidate(const WorldBlob& blob, const CandidateParams& params) {
-  return blob.cells >= params.min_cells && blob.score >= params.min_score &&
-         blob.max_height_m >= params.min_height_m;
-}
-
-}  // namespace
 
 const char* toText(Stage stage) {
   switch (stage) {

@@ -85,6 +85,9 @@ struct PerceptionStep {
   std::string reason;
 };
 
+/// What a model says of whom to look for, as the gallery wants it.
+TargetLooks looksOf(const AppearanceModel& model);
+
 /// Finds the target in one frame after the other. Value in, value out; holds the stages' memory.
 class Perception {
  public:
