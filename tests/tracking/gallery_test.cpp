@@ -204,6 +204,8 @@ TEST(Gallery, ALooksLogOddsForTheTargetAreThoseOfItsGarments) {
     EXPECT_EQ(odds.target[0] > 0.0, upper == 0);
     EXPECT_EQ(odds.target[1] > 0.0, lower == 1);
     EXPECT_EQ(odds.target[2], 0.0);
+    EXPECT_NEAR(look.misfits(kTarget, 0), misfitOf(upper == 0 ? 1.0 : 0.0), 1e-5);
+    EXPECT_EQ(look.misfits(kFirstOther, 0), -1.0) << "nobody";
     const double top = partLogOdds(upper == 0 ? 1.0 : 0.0);
     const double trousers = partLogOdds(lower == 1 ? 1.0 : 0.0);
     EXPECT_NEAR(odds.target[0] / odds.target[1], top / trousers, 1e-5);
