@@ -251,16 +251,16 @@ void Gallery::average(Person& person, const Eigen::ArrayXXf& look, double weight
   }
 }
 
-void Gallery::addLookAt(int hypothesis, const Observation& seen, double weight) {
+void Gallery::addLookAt(int hypothesis, const Observation& seen, const LookEvidence& evidence,
+                        double weight) {
   if (seen.look == nullptr || !isKnown(hypothesis)) return;
   Person& person = people_[index(hypothesis)];
-  takeApart(*seen.look);
-  likeness(person);
-  for (Eigen::Index part = 0; part < best_misfit_.size(); ++part) {
-    if (best_misfit_[part] < 0.0) continue;
+  for (Eigen::Index part = 0; part < evidence.misfits.cols(); ++part) {
+    const double misfit = evidence.misfits(hypothesis, part);
+    if (misfit < 0.0) continue;
     double& rests_on = person.misfit_weight[part];
     rests_on = std::min(rests_on + weight, kMostWeight);
-    person.misfit[part] += weight / rests_on * (best_misfit_[part] - person.misfit[part]);
+    person.misfit[part] += weight / rests_on * (misfit - person.misfit[part]);
   }
   if (seen.stature_m) {
     person.log_tallness +=

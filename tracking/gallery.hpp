@@ -114,7 +114,9 @@ class Gallery {
   double logIfAnybody(const Tallness& log_tallness) const;
 
   /// Another sure look at somebody. Of the target, what phase 1 learned keeps half of the say.
-  void addLookAt(int hypothesis, const Observation& seen, double weight);
+  /// @param evidence  What compare() said of it.
+  void addLookAt(int hypothesis, const Observation& seen, const LookEvidence& evidence,
+                 double weight);
 
   /// Puts somebody new into the gallery, in the place of `replaced` or a free one (kStranger).
   /// @return  Their hypothesis.

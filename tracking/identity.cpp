@@ -443,7 +443,8 @@ void Identity::remember(const std::vector<Track>& tracks,
       if ((is_another || is_unlike) && is_stranger && belief.looks > kMetLooks) meet(belief);
     } else if (belief.probability[best] > 1.0 - kMistaken && belief.view.count < View::kMostLooks) {
       // All looks from one side together teach what that view is worth, however long it lasts.
-      gallery_.addLookAt(best, seen, belief.view.weight / View::kMostLooks);
+      gallery_.addLookAt(best, seen, parts_[static_cast<std::size_t>(track.observation)],
+                         belief.view.weight / View::kMostLooks);
     }
   }
 }

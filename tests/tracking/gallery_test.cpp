@@ -29,6 +29,12 @@ Evidence of(Gallery& gallery, const Observation& seen) {
   return gallery.logOdds(look).all;
 }
 
+void addLookAt(Gallery& gallery, int hypothesis, const Observation& seen, double weight) {
+  LookEvidence look;
+  gallery.compare(seen, look);
+  gallery.addLookAt(hypothesis, seen, look, weight);
+}
+
 Evidence of(Gallery& gallery, const Eigen::ArrayXXf& look) {
   return of(gallery, seen(0, 0, &look));
 }
@@ -280,14 +286,14 @@ TEST(Gallery, LearnsStaturesOfTheTargetAndOfOthers) {
   const Eigen::ArrayXXf look = clothes(0, 1);
   Observation sure = seen(0, 0, &look);
   sure.stature_m = 1.8;  // Through another camera.
-  for (int i = 0; i < 100; ++i) gallery.addLookAt(kTarget, sure, 1.0);
+  for (int i = 0; i < 100; ++i) addLookAt(gallery, kTarget, sure, 1.0);
   EXPECT_GT(gallery.logLikelihood(tall)[kTarget], before + 1.0);
 }
 
 TEST(Gallery, WhatWasLearnedAtFirstKeepsHalfOfTheSay) {
   Gallery gallery(looksOf(clothes(0, 1)));
   const Eigen::ArrayXXf now = clothes(2, 3);
-  for (int i = 0; i < 1000; ++i) gallery.addLookAt(kTarget, seen(0, 0, &now), 1.0);
+  for (int i = 0; i < 1000; ++i) addLookAt(gallery, kTarget, seen(0, 0, &now), 1.0);
   const double lately = 0.5 * 30.0 / 33.0;  // It rests on 30 looks at most.
   for (const auto& [look, share] :
        {std::pair(clothes(0, 1), 1.0 - lately), std::pair(clothes(2, 3), lately),
@@ -300,7 +306,7 @@ TEST(Gallery, WhatWasLearnedAtFirstKeepsHalfOfTheSay) {
 TEST(Gallery, AFewLooksChangeThePortraitALittle) {
   Gallery gallery(looksOf(clothes(0, 1)));
   const Eigen::ArrayXXf now = clothes(2, 3);
-  gallery.addLookAt(kTarget, seen(0, 0, &now), 1.0);
+  addLookAt(gallery, kTarget, seen(0, 0, &now), 1.0);
   const double share = 0.5 * 1.0 / 4.0;
   const double usual = kMisfit + (misfitOf(0.0) - kMisfit) / 4.0;
   const double part = partLogOdds(share) + usualLogOdds(usual, misfitOf(share));
@@ -312,7 +318,7 @@ TEST(Gallery, WhoeverSharesOneGarmentIsNotTakenForSomebodyWhoUsuallyFits) {
   const Eigen::ArrayXXf own = clothes(0, 1);
   const double own_before = of(gallery, own)[kTarget];
   const double alike_before = of(gallery, clothes(0, 5))[kTarget];
-  for (int i = 0; i < 100; ++i) gallery.addLookAt(kTarget, seen(0, 0, &own), 0.1);
+  for (int i = 0; i < 100; ++i) addLookAt(gallery, kTarget, seen(0, 0, &own), 0.1);
   EXPECT_NEAR(of(gallery, own)[kTarget], own_before, 1e-5);
   EXPECT_LT(of(gallery, clothes(0, 5))[kTarget], std::min(alike_before - 0.5, -0.5));
 }
@@ -323,7 +329,7 @@ TEST(Gallery, LearnsAPartThatWasNeverSeenBefore) {
   Gallery gallery(looksOf(upper));
   const double before = of(gallery, clothes(0, 1))[kTarget];
   const Eigen::ArrayXXf whole = clothes(0, 1);
-  gallery.addLookAt(kTarget, seen(0, 0, &whole), 0.1);
+  addLookAt(gallery, kTarget, seen(0, 0, &whole), 0.1);
   EXPECT_GT(of(gallery, clothes(0, 1))[kTarget], before + 0.3);
   EXPECT_LT(of(gallery, clothes(0, 5))[kTarget], before - 0.3);
 }
@@ -332,8 +338,8 @@ TEST(Gallery, ALookThatShowsNothingTeachesNothing) {
   Gallery gallery(looksOf(clothes(0, 1)));
   const double before = of(gallery, clothes(0, 1))[kTarget];
   const Eigen::ArrayXXf nothing = Eigen::ArrayXXf::Zero(test::kColors, 2);
-  gallery.addLookAt(kTarget, seen(0, 0), 1.0);
-  gallery.addLookAt(kTarget, seen(0, 0, &nothing), 1.0);
+  addLookAt(gallery, kTarget, seen(0, 0), 1.0);
+  addLookAt(gallery, kTarget, seen(0, 0, &nothing), 1.0);
   EXPECT_EQ(of(gallery, clothes(0, 1))[kTarget], before);
 }
 
@@ -360,13 +366,13 @@ TEST(Gallery, ALookIsAveragedIntoWhoeverItIs) {
   Gallery gallery(looksOf(clothes(0, 1)));
   const int ann = gallery.meet(clothes(2, 3), 3.0);
   const Eigen::ArrayXXf now = clothes(4, 5);
-  gallery.addLookAt(ann, seen(0, 0, &now), 1.0);
+  addLookAt(gallery, ann, seen(0, 0, &now), 1.0);
   const double usual = kMisfit + (misfitOf(0.0) - kMisfit) / 4.0;
   for (const auto& [look, share] : {std::pair(now, 0.25), std::pair(clothes(2, 3), 0.75)}) {
     const double part = partLogOdds(share) + usualLogOdds(usual, misfitOf(share));
     EXPECT_NEAR(of(gallery, look)[ann], target(2.0 * part), 1e-5) << share;
   }
-  gallery.addLookAt(ann + 1, seen(0, 0, &now), 1.0);
+  addLookAt(gallery, ann + 1, seen(0, 0, &now), 1.0);
   EXPECT_FALSE(gallery.isKnown(ann + 1)) << "nobody is met by that";
 }
 
