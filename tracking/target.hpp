@@ -22,7 +22,7 @@ struct TargetParams {
   double start_distance_m = 0.5;  ///< A track this near to a given starting place is the target.
   /// Somebody is taken for the target from this probability on. If a wrong person costs c times as
   /// much as a lost one, it is c / (1 + c). Who was taken stays the target down to half of it.
-  double take_above = 0.7;
+  double take_above = 0.8;
   /// Whether the target is found by looks when no starting place was given.
   bool start_by_appearance = true;
 };

@@ -50,6 +50,7 @@ struct Simulator::State {
                                   : tbb::task_arena::automatic),
         plan(scene, false, kDrivesOver_m, scene.robot.height_m),
         walkers_plan(scene, false, kStepsOver_m),
+        hiding(scene, false, scene.robot.height_m),
         geometry(makeGeometry(scene)),
         world(geometry),
         robot(scene.robot),
@@ -84,7 +85,7 @@ struct Simulator::State {
   Scene scene;
   SimulatorOptions options;
   tbb::task_arena arena;
-  FloorPlan plan, walkers_plan;
+  FloorPlan plan, walkers_plan, hiding;
   Geometry geometry;
   RayWorld world;
   std::unique_ptr<LightMap> lights;
@@ -178,7 +179,7 @@ void Simulator::State::tick() {
     const DriveLimits& drive = scene.robot.drive;
     others.push_back({axisOf(drive, robot.pose()).nearest(walkers[i].pose().position),
                       robot_velocity, drive.radius_m + kRobotRoom_m});
-    walkers[i].step(kTicksPerStride * kTick_s, walkers_plan, others, others.back());
+    walkers[i].step(kTicksPerStride * kTick_s, walkers_plan, hiding, others, others.back());
   }
 }
 

@@ -49,7 +49,7 @@ double closing(const Vector2d& offset, const Vector2d& approach, double reach) {
   return away < reach ? std::max(-offset.dot(approach) / std::max(away, 1e-3), 0.0) : 0.0;
 }
 
-/// Whether nothing of a body's height stands between two places.
+/// Whether nothing of the plan stands between two places.
 bool isOpen(const FloorPlan& plan, const Vector2d& from, const Vector2d& to) {
   constexpr double kStep_m = 0.05;
   const double length_m = (to - from).norm();
@@ -77,8 +77,8 @@ void Walker::finishStep() {
   if (done() && person_->repeat) step_ = 0;
 }
 
-void Walker::step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& others,
-                  const Mover& robot) {
+void Walker::step(double dt_s, const FloorPlan& plan, const FloorPlan& hiding,
+                  const std::vector<Mover>& others, const Mover& robot) {
   pose_.time_s += dt_s;
   Vector2d wanted = Vector2d::Zero();
   if (!done()) {
@@ -94,7 +94,7 @@ void Walker::step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& 
         if (waited_s_ >= now.wait_s - 1e-9) finishStep();
         break;
       case PathStep::Kind::kWaitForRobot:
-        wanted = waitForRobot(dt_s, plan, robot.position);
+        wanted = waitForRobot(dt_s, hiding, robot.position);
         break;
       case PathStep::Kind::kFace: {
         const double yaw = std::atan2(way.y(), way.x());
@@ -154,15 +154,15 @@ Vector2d Walker::wayOn(double dt_s, const FloorPlan& plan) {
   return straight_on;
 }
 
-Vector2d Walker::waitForRobot(double dt_s, const FloorPlan& plan, const Vector2d& robot) {
+Vector2d Walker::waitForRobot(double dt_s, const FloorPlan& hiding, const Vector2d& robot) {
   if (!person_->sees_robot) {
     finishStep();
     return Vector2d::Zero();
   }
-  if (back_to_) return comeBack(dt_s, plan, robot);
+  if (back_to_) return comeBack(dt_s, hiding, robot);
   const PathStep& now = person_->path[step_];
   waited_s_ += dt_s;
-  if (isWithRobot(plan, robot)) {
+  if (isWithRobot(hiding, robot)) {
     finishStep();
   } else if (waited_s_ >= now.patience_s) {
     if (now.comes_back) back_to_ = walkBefore(step_);
@@ -171,14 +171,14 @@ Vector2d Walker::waitForRobot(double dt_s, const FloorPlan& plan, const Vector2d
   return Vector2d::Zero();
 }
 
-bool Walker::isWithRobot(const FloorPlan& plan, const Vector2d& robot) const {
+bool Walker::isWithRobot(const FloorPlan& hiding, const Vector2d& robot) const {
   return (robot - pose_.position).norm() <= person_->path[step_].robot_within_m &&
-         isOpen(plan, pose_.position, robot);
+         isOpen(hiding, pose_.position, robot);
 }
 
 // Corner by corner, to the beginning at most.
-Vector2d Walker::comeBack(double dt_s, const FloorPlan& plan, const Vector2d& robot) {
-  if (with_robot_s_ > 0.0 || isWithRobot(plan, robot)) {
+Vector2d Walker::comeBack(double dt_s, const FloorPlan& hiding, const Vector2d& robot) {
+  if (with_robot_s_ > 0.0 || isWithRobot(hiding, robot)) {
     with_robot_s_ += dt_s;
     if (with_robot_s_ < kMeets_s) return Vector2d::Zero();
     step_ = *back_to_;

@@ -31,10 +31,12 @@ class Walker {
   explicit Walker(const ScenePerson& person);
 
   /// Lives on for `dt_s` (a few hundredths of a second).
+  /// @param plan    Where nobody walks.
+  /// @param hiding  What is as high as the robot, and so may hide it.
   /// @param others  Everyone else, and the robot.
   /// @param robot   One of `others`: who sees it waits for it, and does not walk into it.
-  void step(double dt_s, const FloorPlan& plan, const std::vector<Mover>& others,
-            const Mover& robot);
+  void step(double dt_s, const FloorPlan& plan, const FloorPlan& hiding,
+            const std::vector<Mover>& others, const Mover& robot);
 
   const BodyPose& pose() const { return pose_; }
   Mover mover() const { return {pose_.position, velocity_, kRadius_m}; }
@@ -46,9 +48,9 @@ class Walker {
 
   void finishStep();
   Eigen::Vector2d wayOn(double dt_s, const FloorPlan& plan);
-  Eigen::Vector2d waitForRobot(double dt_s, const FloorPlan& plan, const Eigen::Vector2d& robot);
-  bool isWithRobot(const FloorPlan& plan, const Eigen::Vector2d& robot) const;
-  Eigen::Vector2d comeBack(double dt_s, const FloorPlan& plan, const Eigen::Vector2d& robot);
+  Eigen::Vector2d waitForRobot(double dt_s, const FloorPlan& hiding, const Eigen::Vector2d& robot);
+  bool isWithRobot(const FloorPlan& hiding, const Eigen::Vector2d& robot) const;
+  Eigen::Vector2d comeBack(double dt_s, const FloorPlan& hiding, const Eigen::Vector2d& robot);
   std::optional<std::size_t> walkBefore(std::size_t step) const;
   Eigen::Vector2d wayAside(const FloorPlan& plan, const Eigen::Vector2d& robot) const;
   Eigen::Vector2d chooseVelocity(const Eigen::Vector2d& wanted, const FloorPlan& plan,

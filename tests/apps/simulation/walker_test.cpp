@@ -57,6 +57,26 @@ TEST(Walker, WaitsUntilTheRobotIsNear) {
   EXPECT_TRUE(simulator.everyoneIsDone());
 }
 
+TEST(Walker, SeesTheRobotOverWhatIsLowerThanIt) {
+  for (const double high_m : {0.8, 1.8}) {
+    Scene scene = test::squareRoom();
+    scene.robot.start = {-1.0, 0.0};
+    scene.robot.height_m = 1.1;
+    FurniturePart chest;
+    chest.base = {-0.5, 0.0, 0.0};
+    chest.size_m = {0.2, 2.0, high_m};
+    scene.furniture.push_back({"chest", true, {chest}});
+    scene.people.push_back(test::standingPerson("eva", 0.0, 0.0));
+    PathStep wait;
+    wait.kind = PathStep::Kind::kWaitForRobot;
+    wait.robot_within_m = 1.2;
+    scene.people[0].path = {wait};
+    Simulator simulator(scene, {1, 0, false});
+    simulator.step(0.1);
+    EXPECT_EQ(simulator.everyoneIsDone(), high_m < 1.1);
+  }
+}
+
 /// Eva has shown herself to the robot, gone ahead, and waits for it in vain.
 Scene robotStaysBehind(bool comes_back) {
   Scene scene = test::squareRoom();
