@@ -437,10 +437,8 @@ void Identity::remember(const std::vector<Track>& tracks,
     if (!is_alone) continue;
     if (best == kStranger) {
       const bool is_another = target_sure_m && (*target_sure_m - place_m).norm() > kAlone_m;
-      const Evidence looks = belief.logLooks();
-      const bool is_unlike = looks[kTarget] - looks[kStranger] < kLogMistaken;
       const bool is_stranger = belief.probability[kStranger] > 1.0 - kMistaken;
-      if ((is_another || is_unlike) && is_stranger && belief.looks > kMetLooks) meet(belief);
+      if (is_another && is_stranger && belief.looks > kMetLooks) meet(belief);
     } else if (belief.probability[best] > 1.0 - kMistaken && belief.view.count < View::kMostLooks) {
       // All looks from one side together teach what that view is worth, however long it lasts.
       gallery_.addLookAt(best, seen, parts_[static_cast<std::size_t>(track.observation)],

@@ -727,10 +727,12 @@ TEST(Identity, WhoSatIsFoundAgainBesideTheirPlaceAndAfterManyGhosts) {
   EXPECT_GT(home.target(40), 0.7);
 }
 
+// Bug: the target, unlike themselves in bad light, was met as somebody else, whose portrait then
+// fitted them better than their own: they were not found again.
 TEST(Identity, MeetsNobodyWhoMayBeTheTarget) {
   Home home;
-  home.walk({2, {0, 4}, &kPink}, 2.0);
-  EXPECT_EQ(home.probability(2, kFirstOther), 0.0);
+  home.walk({2, {0, 4}, &kBlue}, 6.0);
+  EXPECT_GT(home.probability(2, kStranger), 0.98) << "by looks alone";
   home.see({}, 5.0);
   const Eigen::ArrayXXf look = kPink;
   EXPECT_TRUE(std::isinf([&] {
@@ -904,7 +906,8 @@ TEST(Identity, APortraitOfSomebodyNewHasNoLooksAtWhoWasOnTheirTrackBefore) {
   home.swaps = {{1, 2, 0.6}};
   home.see({{1, {12, 0}, &kBlue}, {2, {12, 0.5}, &kRed}});
   home.swaps.clear();
-  home.walk({1, {12, 0}, &kBlue}, 6.0);  // The target has gone, and somebody else goes on.
+  home.identity.makeTarget(2, {12, 0.5}, home.stamp_s);
+  home.walk({1, {12, 0}, &kBlue}, 6.0, {{2, {12, 0.5}, &kRed}});
   ASSERT_GT(home.probability(1, kFirstOther), 0.9) << "is met";
   home.sight = Sight::kOutside;
   home.see({{1, {18, 0}, nullptr, false}}, 20);
