@@ -178,17 +178,14 @@ BodyBelief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, double
   BodyBelief& belief = beliefs_.emplace_back();
   if (same != left_.end()) {
     const Evidence another = priorOf(place_m, stamp_s, &*same);
-    const Evidence log_others = logOthers(*same);
-    for (BodyBelief& other : beliefs_) {  // They are together again.
-      if (!same->was_apart || other.born_s > same->seen_s) continue;
-      other.log_free = (other.log_free - log_others).min(0.0);
-    }
+    const double gone = newcomers_per_m2 / (newcomers_per_m2 + most_per_m2);
+    part(*same, 1.0, gone);  // They are together again.
     belief = std::move(*same);
     left_.erase(same);
     for (std::optional<Absence>& last : last_) {
       if (last && last->track_id == belief.track_id) last->track_id = track_id;
     }
-    belief.mixIn(gallery_, {another, another}, newcomers_per_m2 / (newcomers_per_m2 + most_per_m2));
+    belief.mixIn(gallery_, {another, another}, gone);
     belief.is_alive = true;
   } else {
     belief.place_m = place_m;
@@ -239,6 +236,7 @@ void Identity::takePlace(BodyBelief& belief, const Track& track, const Observati
     const double target = belief.targetShare();
     const double lost = other_share * target;
     belief.replaced = (lost + (1.0 - target) * belief.replaced) / (lost + 1.0 - target);
+    part(belief, 0.0, other_share);
     belief.mixIn(gallery_, {prior, prior}, other_share);
   }
   // However long it lasts, nothing is surer than that: who sat for an hour may get up.
@@ -383,22 +381,26 @@ void Identity::endBeliefs(const std::vector<Track>& tracks) {
                  beliefs_.end());
 }
 
-/// Of each person being another than whoever this is; 0 of what is no person.
-Evidence Identity::logOthers(const BodyBelief& belief) const {
+/// Who was in view together with whoever a body was is another, as likely as that was who: which is
+/// known no more as that one has gone. But not if it was always close to somebody, whose body it
+/// may have been, too.
+/// @param before, gone  Probabilities that they have gone, until now and from now on.
+void Identity::part(const BodyBelief& belief, double before, double gone) {
+  if (!belief.was_apart) return;
   const Evidence weight = relative(logWeight(belief));
-  Evidence log_others = (1.0 - weight / weight.sum()).log();
-  log_others.head<kTarget>() = 0.0;
-  return log_others;
+  Evidence others = (1.0 - weight / weight.sum()).max(kMistaken * kMistaken);
+  others.head<kTarget>() = 1.0;
+  const auto left = [&](double share) -> Evidence { return others + share * (1.0 - others); };
+  const Evidence log_free = (left(before) / left(gone)).log();
+  for (BodyBelief& other : beliefs_) {
+    if (&other == &belief || !other.is_alive || other.born_s > belief.seen_s) continue;
+    other.log_free = (other.log_free + log_free).max(kLogMistaken).min(0.0);
+  }
 }
 
-/// A track ends. Who was in view together with its person is another, as likely as they are who:
-/// but not if it was always close to somebody, whose body it may have been, too.
+/// A track ends.
 void Identity::leave(BodyBelief& belief) {
-  const Evidence log_others = logOthers(belief);
-  for (BodyBelief& other : beliefs_) {
-    if (!belief.was_apart || !other.is_alive || other.born_s > belief.seen_s) continue;
-    other.log_free = (other.log_free + log_others).max(kLogMistaken);
-  }
+  part(belief, 0.0, 1.0);
   if (belief.seen_s <= belief.since_s) return;  // It rested nowhere.
   if (left_.size() == kMostLeft) left_.erase(left_.begin());
   left_.push_back(std::move(belief));

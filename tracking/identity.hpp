@@ -112,7 +112,7 @@ class Identity {
   const std::vector<BodyWeights>& weigh(bool may_be_empty);
   void endBeliefs(const std::vector<Track>& tracks);
   Evidence logWeight(const BodyBelief& belief) const;
-  Evidence logOthers(const BodyBelief& belief) const;
+  void part(const BodyBelief& belief, double before, double gone);
   void leave(BodyBelief& belief);
   void remember(const std::vector<Track>& tracks, const std::vector<Observation>& observations,
                 double stamp_s);

@@ -727,6 +727,24 @@ TEST(Identity, WhoSatIsFoundAgainBesideTheirPlaceAndAfterManyGhosts) {
   EXPECT_GT(home.target(40), 0.7);
 }
 
+// Bug: the target was not found for two frames, so that it might have been somebody else who was
+// there again; then a look-alike who had been seen beside them all the time was the target.
+TEST(Identity, WhoWasSeenBesideTheTargetIsNotTheTargetWhenThatOneIsMissed) {
+  Home home;
+  const Body target{1, {0, 0}, &kRed}, alike{2, {0, 4}, &kRed};
+  home.see({target, alike});
+  home.identity.makeTarget(1, {0, 0}, home.stamp_s);
+  home.walk(target, 4.0, {alike});
+  home.sight = Sight::kFree;
+  home.see({{1, {4, 0}, nullptr, false}, alike}, 2);
+  home.density_per_m2 = 0.5;  // They have gone another way than was expected.
+  home.see({{1, {4.2, 0.6}, &kRed}, alike});
+  EXPECT_LT(home.target(2), 0.02);
+  EXPECT_GT(home.target(1), 0.5);
+  home.see({{1, {4.2, 0.6}, nullptr, false}, alike}, 20);
+  EXPECT_LT(home.target(2), 0.05) << "nor when they have gone";
+}
+
 // Bug: the target, unlike themselves in bad light, was met as somebody else, whose portrait then
 // fitted them better than their own: they were not found again.
 TEST(Identity, MeetsNobodyWhoMayBeTheTarget) {
