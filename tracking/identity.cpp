@@ -381,10 +381,9 @@ void Identity::endBeliefs(const std::vector<Track>& tracks) {
                  beliefs_.end());
 }
 
-/// Who was in view together with whoever a body was is another, as likely as that was who: which is
-/// known no more as that one has gone. But not if it was always close to somebody, whose body it
-/// may have been, too.
-/// @param before, gone  Probabilities that they have gone, until now and from now on.
+/// Whoever was in view together with a body is not the person it was, also when that one has gone.
+/// This is not known beside a body that was always close to somebody, for it may have been theirs.
+/// @param before, gone  Probabilities that its person has gone, so far and from now on.
 void Identity::part(const BodyBelief& belief, double before, double gone) {
   if (!belief.was_apart) return;
   const Evidence weight = relative(logWeight(belief));
