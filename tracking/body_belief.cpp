@@ -58,7 +58,7 @@ void BodyBelief::takeLook(const Gallery& gallery, const BodyLook& look, double n
     const double keep = std::exp(-gallery.params().look_correlation * news);
     log_views = keep * logColors();
     log_garments = keep * logGarments();
-    log_tallness = keep * logTallness();
+    if (view.tallness_count > 0.0) log_tallness = keep * logTallness();
     view = View{look.seen.position_m, look.seen.position_m - look.eye_m, look.stamp_s, news};
   }
   view.thing_count = std::min(view.thing_count + 1.0, View::kMostLooks);
@@ -79,7 +79,10 @@ void BodyBelief::takeLook(const Gallery& gallery, const BodyLook& look, double n
     if (std::isfinite(odds.all[h])) view.mean[h] += (odds.all[h] - view.mean[h]) / view.count;
   }
   view.garments += (odds.target - view.garments) / view.count;
-  view.tallness += (look.tallness - view.tallness) / view.count;
+  if (look.seen.stature_m) {
+    view.tallness_count = std::min(view.tallness_count + 1.0, View::kMostLooks);
+    view.tallness += (look.tallness - view.tallness) / view.tallness_count;
+  }
   log_stature = gallery.logLikelihood(logTallness());
   if (sum.size() == 0) sum.setZero(look.seen.look->rows(), look.seen.look->cols());
   sum += *look.seen.look;
@@ -102,6 +105,7 @@ void BodyBelief::mixIn(const Gallery& gallery, const PastBelief& other, double o
     view.tallness =
         mix(gallery, own.log_view_tallness, other.log_view_tallness, other_share) / view.weight;
     view.count *= 1.0 - other_share;
+    view.tallness_count *= 1.0 - other_share;
     view.thing_count *= 1.0 - other_share;
   }
   const Evidence views = all - log_place - log_free - view.evidence();

@@ -38,7 +38,8 @@ struct View {
   Evidence mean = Evidence::Zero();
   Garments garments = Garments::Zero();  ///< The mean of what looks say of the target's,
   Tallness tallness = Tallness::Zero();  ///< and of statures.
-  double count = 0.0;                    ///< Looks in the means, those that show colours;
+  double count = 0.0;                    ///< Looks in the means, those that show colours,
+  double tallness_count = 0.0;           ///< and a stature;
   double thing_count = 0.0;              ///< in the mean of a thing all looks.
   Evidence evidence() const { return weight * mean; }
 };
@@ -100,6 +101,9 @@ struct BodyBelief {
   Garments logGarments() const { return log_garments + view.weight * view.garments; }
   double targetShare() const { return probability[kTarget] / std::max(probability.sum(), 1e-300); }
   PastBelief past() const;
+
+  /// It has moved, and rests nowhere yet.
+  bool isOnTheWay(double stamp_s) const { return since_s > born_s && stamp_s - since_s < kRests_s; }
 
   /// Whoever stood for a time will for as long, one in two.
   double stays(double stamp_s) const {

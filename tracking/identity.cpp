@@ -17,8 +17,9 @@ constexpr double kMistaken = BodyBelief::kMistaken;
 const double kLogMistaken = std::log(kMistaken);
 constexpr double kPlaceSigma_m = 0.25;  // Of where a person who is tracked is observed next.
 constexpr double kRestSigma_m =
-    0.5 * BodyBelief::kRest_m;         // Of where whoever rests is observed again.
-constexpr double kMissed = 0.1;        // Of independent looks at somebody in full view.
+    0.5 * BodyBelief::kRest_m;  // Of where whoever rests is observed again.
+// Of independent looks at somebody in full view; of people's places in rough homes, 1 in 20.
+constexpr double kMissed = 0.05;
 constexpr double kRoom_m2 = 20.0;      // Where somebody who is away may be.
 constexpr double kUnexpected = 0.02;   // Share of targets who are not where they are expected.
 constexpr double kMetLooks = 1.5;      // A stranger is met after so many independent looks.
@@ -140,7 +141,7 @@ Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s,
 /// Where it rests: that it is on its way through a place does not say that things come there, nor
 /// people.
 void Identity::count(BodyBelief& belief, double time_s, double stamp_s) {
-  if (belief.since_s > belief.born_s && stamp_s - belief.since_s < BodyBelief::kRests_s) return;
+  if (belief.isOnTheWay(stamp_s)) return;
   const double thing_s = time_s * belief.probability[kThing];
   clutter_.add({belief.place_m, time_s, thing_s}, stamp_s);
   belief.counted = {belief.place_m, belief.counted.time_s + time_s,
@@ -209,7 +210,8 @@ void Identity::miss(BodyBelief& belief, const Eigen::Vector2d& place_m, double s
     const double way_m = (viewpoint.position_m - belief.missed_from_m).norm();
     belief.missed_looks = 1.0 + params_.newsOf(stamp_s - belief.missed_s, way_m);
   }
-  belief.present = belief.stays(stamp_s) * std::pow(kMissed, belief.missed_looks);
+  const double there = belief.stays(stamp_s) * std::pow(kMissed, belief.missed_looks);
+  belief.present = there / (there + 1.0 - belief.stays(stamp_s));
   belief.in_view = belief.present * (sight == Sight::kOutside ? kMissed : 1.0);
 }
 
@@ -236,7 +238,7 @@ void Identity::takePlace(BodyBelief& belief, const Track& track, const Observati
     const double target = belief.targetShare();
     const double lost = other_share * target;
     belief.replaced = (lost + (1.0 - target) * belief.replaced) / (lost + 1.0 - target);
-    part(belief, 0.0, other_share);
+    if (belief.present < 1.0) part(belief, 0.0, other_share);
     belief.mixIn(gallery_, {prior, prior}, other_share);
   }
   // However long it lasts, nothing is surer than that: who sat for an hour may get up.
@@ -400,7 +402,7 @@ void Identity::part(const BodyBelief& belief, double before, double gone) {
 /// A track ends.
 void Identity::leave(BodyBelief& belief) {
   part(belief, 0.0, 1.0);
-  if (belief.seen_s <= belief.since_s) return;  // It rested nowhere.
+  if (belief.seen_s <= belief.since_s || belief.isOnTheWay(belief.seen_s)) return;
   if (left_.size() == kMostLeft) left_.erase(left_.begin());
   left_.push_back(std::move(belief));
   left_.back().is_alive = false;

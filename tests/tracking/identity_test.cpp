@@ -418,6 +418,7 @@ TEST(Identity, WhoIsHiddenOrTouchesAThingIsClaimedForAWhile) {
   }
 }
 
+// Of one in twenty it is said although they are there, and half leave in the first second.
 TEST(Identity, WhoLeavesThePictureOrAFreePlaceIsAway) {
   for (const Sight sight : {Sight::kOutside, Sight::kFree}) {
     Home home;
@@ -425,10 +426,11 @@ TEST(Identity, WhoLeavesThePictureOrAFreePlaceIsAway) {
     home.identity.makeTarget(1, {1, 0}, home.stamp_s);
     const double before = home.target(1);
     home.sight = sight;
-    home.see({{1, {1, 0}, nullptr, false}}, 0.1);
-    EXPECT_NEAR(home.target(1), 0.1 * before / 1.1, 1e-9);
-    EXPECT_GT(home.identity.away(), 0.9);
-    EXPECT_NEAR(home.identity.probabilities(1).sum(), 0.1 / 1.1, 1e-9) << "it may be empty";
+    home.see({{1, {1, 0}, nullptr, false}}, 1.0);
+    const double there = sight == Sight::kFree ? 0.05 / 1.05 : 0.05 * 0.5;
+    EXPECT_NEAR(home.target(1), there * before, 1e-9);
+    EXPECT_NEAR(home.identity.away(), 1.0 - there * before, 1e-9);
+    EXPECT_NEAR(home.identity.probabilities(1).sum(), there, 1e-9) << "it may be empty";
   }
 }
 
@@ -462,7 +464,7 @@ TEST(Identity, HoweverOftenSomebodyIsMissedInASecondThatIsOneLook) {
   home.see({{1, {1, 0}, &kBlue}}, 50);
   home.sight = Sight::kFree;
   for (int i = 0; i < 10; ++i) home.see({{1, {1, 0}, nullptr, false}}, 0.1);
-  EXPECT_NEAR(home.identity.probabilities(1).sum(), 0.1 * 10.0 / 11.0, 0.01);
+  EXPECT_NEAR(home.identity.probabilities(1).sum(), 0.05 * 10.0 / (0.05 * 10.0 + 1.0), 0.03);
 }
 
 TEST(Identity, WhoHasLeftAPlaceIsNotWhoComesThereLater) {
@@ -654,6 +656,22 @@ TEST(Identity, TwoInTheSameClothesAreToldApartByTheirStatures) {
   home.swaps.clear();
   home.walk({1, {2, 1}, &kRed, true, 1.6}, 3.0, {{2, {2, -1}, &kRed, true, 1.8}});
   EXPECT_GT(home.target(2), home.target(1));
+}
+
+// Bug: from a metre away no head is seen, and each look less was known of how tall somebody is.
+TEST(Identity, LooksThatShowNoStatureLeaveWhatIsKnownOfIt) {
+  TargetLooks looks = looksOf(kRed);
+  looks.stature_m = 1.8;
+  Home tall({}, looks), small({}, looks);
+  tall.walk({1, {0, 0}, &kRed, true, 1.8}, 2.0);
+  small.walk({1, {0, 0}, &kRed, true, 1.55}, 2.0);
+  const auto difference = [&] {
+    return std::log(tall.target(1) / tall.probability(1, kStranger)) -
+           std::log(small.target(1) / small.probability(1, kStranger));
+  };
+  ASSERT_GT(difference(), 5.0);
+  for (Home* home : {&tall, &small}) home->walk({1, {2, 0}, &kRed}, 10.0);
+  EXPECT_GT(difference(), 3.0) << "on the way somebody else may have come";
 }
 
 TEST(Identity, LooksThatSayNothingLeaveOpenWhetherTwoHaveSwapped) {
