@@ -97,7 +97,6 @@ struct BodyBelief {
 
   Tallness logTallness() const { return log_tallness + view.weight * view.tallness; }
   Evidence logColors() const { return log_views + view.evidence(); }
-  Evidence logLooks() const { return logColors() + log_stature; }
   Garments logGarments() const { return log_garments + view.weight * view.garments; }
   double targetShare() const { return probability[kTarget] / std::max(probability.sum(), 1e-300); }
   PastBelief past() const;

@@ -210,8 +210,9 @@ void Identity::miss(BodyBelief& belief, const Eigen::Vector2d& place_m, double s
     const double way_m = (viewpoint.position_m - belief.missed_from_m).norm();
     belief.missed_looks = 1.0 + params_.newsOf(stamp_s - belief.missed_s, way_m);
   }
-  const double there = belief.stays(stamp_s) * std::pow(kMissed, belief.missed_looks);
-  belief.present = there / (there + 1.0 - belief.stays(stamp_s));
+  const double stays = belief.stays(stamp_s);
+  const double missed = stays * std::pow(kMissed, belief.missed_looks);
+  belief.present = missed / (missed + 1.0 - stays);
   belief.in_view = belief.present * (sight == Sight::kOutside ? kMissed : 1.0);
 }
 
@@ -238,6 +239,7 @@ void Identity::takePlace(BodyBelief& belief, const Track& track, const Observati
     const double target = belief.targetShare();
     const double lost = other_share * target;
     belief.replaced = (lost + (1.0 - target) * belief.replaced) / (lost + 1.0 - target);
+    // While they are seen, what tells that they are the target still does.
     if (belief.present < 1.0) part(belief, 0.0, other_share);
     belief.mixIn(gallery_, {prior, prior}, other_share);
   }
@@ -402,6 +404,7 @@ void Identity::part(const BodyBelief& belief, double before, double gone) {
 /// A track ends.
 void Identity::leave(BodyBelief& belief) {
   part(belief, 0.0, 1.0);
+  // It rested nowhere.
   if (belief.seen_s <= belief.since_s || belief.isOnTheWay(belief.seen_s)) return;
   if (left_.size() == kMostLeft) left_.erase(left_.begin());
   left_.push_back(std::move(belief));

@@ -745,6 +745,30 @@ TEST(Identity, WhoSatIsFoundAgainBesideTheirPlaceAndAfterManyGhosts) {
   EXPECT_GT(home.target(40), 0.7);
 }
 
+// Bug: they seemed to have rested for a second where their track ended.
+TEST(Identity, WhoWalkedOutOfViewIsNotWhoAppearsThereLater) {
+  Home home;
+  home.see({{1, {0, 0}, &kRed}});
+  home.identity.makeTarget(1, {0, 0}, home.stamp_s);
+  home.walk({1, {0, 0}, &kRed}, 4.0);
+  home.see({}, 3.0);
+  home.see({{2, {4, 0}, nullptr}});
+  EXPECT_LT(home.target(2), 0.5);
+}
+
+// Bug: each step of the one, in plain view, was another proof that the other is not the target.
+TEST(Identity, WhoWasSeenBesideSomebodyMayBeTheTargetAfterAll) {
+  Home home;
+  const Body beside{2, {0, 4}, &kRed};
+  home.see({{1, {0, 0}, &kRed}, beside});
+  home.identity.makeTarget(1, {0, 0}, home.stamp_s);
+  home.walk({1, {0, 0}, &kRed}, 6.0, {beside});
+  ASSERT_GT(home.target(1), 0.95);
+  home.walk({1, {6, 0}, &kBlue}, 6.0, {beside});
+  EXPECT_LT(home.target(1), 0.05);
+  EXPECT_GT(home.target(2), 0.5);
+}
+
 // Bug: the target was not found for two frames, so that it might have been somebody else who was
 // there again; then a look-alike who had been seen beside them all the time was the target.
 TEST(Identity, WhoWasSeenBesideTheTargetIsNotTheTargetWhenThatOneIsMissed) {
