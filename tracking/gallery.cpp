@@ -122,12 +122,14 @@ void Gallery::takeApart(const Eigen::ArrayXXf& look) {
   }
 }
 
-/// Over the parts that both the look and the person show, in the light that fits best; leaves their
-/// log odds and misfits in that light, 0 and -1 where there is none, and what that light says.
-void Gallery::likeness(const Person& person) {
-  double best = -std::numeric_limits<double>::infinity();
+/// Over the parts that both the look and the portrait show, in the light that fits best; leaves
+/// their log odds and misfits in that light, 0 and -1 where there is none, and what that light says,
+/// if that fits better than what is there.
+/// @return  Their sum with the share of such looks.
+double Gallery::likeness(const Person& person, double log_share) {
+  double most = -std::numeric_limits<double>::infinity();
   for (const Tint& tint : looks_.tints) {
-    double sum = tint.log_prior;
+    double sum = log_share + tint.log_prior;
     misfit_.setConstant(person.mean.cols(), -1.0);
     parts_.setZero(person.mean.cols());
     for (std::size_t part = 0, i = 0; part < ends_.size(); i = ends_[part++]) {
@@ -150,12 +152,13 @@ void Gallery::likeness(const Person& person) {
                        std::clamp(against, 0.0, -std::log(params_.misleading_share));
       sum += parts_[column];
     }
-    if (sum <= best) continue;
-    best = sum;
-    best_light_ = tint.log_prior;
+    most = std::max(most, sum);
+    if (sum <= best_) continue;
+    best_ = sum;
     best_misfit_.swap(misfit_);
     best_parts_.swap(parts_);
   }
+  return most;
 }
 
 Tallness Gallery::logTallness(const Observation& seen) const {
@@ -202,10 +205,18 @@ void Gallery::compare(const Observation& seen, LookEvidence& evidence) {
   }
   for (int h = kTarget; h < kHypotheses; ++h) {
     if (!isKnown(h)) continue;
-    likeness(people_[index(h)]);
+    best_ = -std::numeric_limits<double>::infinity();
+    // Half of the target is what was seen lately, as that comes to rest on more.
+    const double lately =
+        h == kTarget ? 0.5 * lately_.weight / (lately_.weight + kFirstWeight) : 0.0;
+    double sum = likeness(people_[index(h)], std::log1p(-lately));
+    if (lately > 0.0) {
+      const double other = likeness(lately_, std::log(lately));
+      sum = best_ + std::log1p(std::exp(-std::abs(sum - other)));
+    }
+    evidence.light[h] = sum - best_parts_.sum();
     evidence.parts.row(h) = best_parts_.transpose();
     evidence.misfits.row(h) = best_misfit_.transpose();
-    evidence.light[h] = best_light_;
   }
 }
 
@@ -267,25 +278,11 @@ void Gallery::addLookAt(int hypothesis, const Observation& seen, const LookEvide
         weight * (logTallness(seen) - params_.look_correlation * person.log_tallness);
   }
   average(hypothesis == kTarget ? lately_ : person, *seen.look, weight);
-  if (hypothesis == kTarget) mixLately();
   refresh(person);
-}
-
-/// The target is half what phase 1 learned, from the beginning: the share of what was seen lately
-/// grows as that comes to rest on more.
-void Gallery::mixLately() {
-  Person& target = people_[kTarget];
-  const auto lately = static_cast<float>(0.5 * lately_.weight / (lately_.weight + kFirstWeight));
-  for (Eigen::Index part = 0; part < target.mean.cols(); ++part) {
-    const bool has_anchor = looks_.target.col(part).sum() > 0.5F;
-    const bool has_lately = lately_.mean.col(part).sum() > 0.5F;
-    if (has_anchor && has_lately) {
-      target.mean.col(part) =
-          (1.0F - lately) * looks_.target.col(part) + lately * lately_.mean.col(part);
-    } else if (has_lately) {
-      target.mean.col(part) = lately_.mean.col(part);
-    }
-  }
+  if (hypothesis != kTarget) return;
+  lately_.misfit = person.misfit;
+  lately_.misfit_weight = person.misfit_weight;
+  refresh(lately_);
 }
 
 bool Gallery::isFull() const {

@@ -142,8 +142,7 @@ class Gallery {
   void refresh(Person& person) const;
   static void average(Person& person, const Eigen::ArrayXXf& look, double weight);
   void takeApart(const Eigen::ArrayXXf& look);
-  void likeness(const Person& person);
-  void mixLately();
+  double likeness(const Person& person, double log_share);
 
   TargetLooks looks_;
   GalleryParams params_;
@@ -161,7 +160,7 @@ class Gallery {
   std::vector<double> entropies_;  // sum of share * log(share) of each part
   Eigen::ArrayXd misfit_, best_misfit_;
   Eigen::ArrayXd parts_, best_parts_;  // log odds
-  double best_light_ = 0.0;
+  double best_ = 0.0;
 };
 
 }  // namespace heel

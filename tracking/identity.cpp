@@ -36,8 +36,7 @@ Identity::Identity(TargetLooks looks, const IdentityParams& params, TargetDensit
     : params_(params),
       target_density_(std::move(target_density)),
       gallery_(std::move(looks), params.gallery),
-      clutter_(params.clutter),
-      last_(kHypotheses) {
+      clutter_(params.clutter) {
   if (!(params.still_look_s > 0.0 && params.look_way_m > 0.0 && params.stands_s > 0.0 &&
         params.newcomer_density_per_m2 > 0.0 && params.walk_mps > 0.0)) {
     throw std::invalid_argument("IdentityParams: a parameter is not positive");
@@ -99,24 +98,46 @@ double Identity::logLikelihood(int track_id, int observation) const {
 double Identity::densityOf(int h, const Eigen::Vector2d& place_m, double stamp_s,
                            const BodyBelief* but) const {
   const double anywhere = params_.newcomer_density_per_m2;
-  if (h == kTarget && target_density_ && but == nullptr) {
+  // Where somebody is in view the target is expected because that one may be it.
+  const bool is_taken = std::any_of(beliefs_.begin(), beliefs_.end(), [&](const BodyBelief& body) {
+    return body.present == 1.0 && (body.place_m - place_m).norm() < kAlone_m;
+  });
+  if (h == kTarget && target_density_ && but == nullptr && !is_taken) {
     if (const auto density = target_density_(place_m)) {
       return (1.0 - kUnexpected) * *density + kUnexpected * anywhere;
     }
   }
-  const auto& last = last_[static_cast<std::size_t>(h)];
-  if (!last) return anywhere;
-  // It counts if it was them and they have gone from there; else they were never seen.
-  const BodyBelief* holder = find(last->track_id);
-  const double gone = last->probability * (1.0 - (holder == nullptr ? 0.0 : holder->present));
-  const double counts = gone / std::max(gone + 1.0 - last->probability, 1e-9);
-  const double away_s = std::max(stamp_s - last->seen_s, 0.0);
-  const double away_m = (place_m - last->place_m).norm();
-  const double sigma_m = std::hypot(0.3, params_.walk_mps * away_s);
-  const double area_m2 = 2.0 * M_PI * sigma_m * sigma_m;
-  const double reach =
-      std::max(kRoom_m2 / area_m2, 1.0) * std::exp(-0.5 * away_m * away_m / (sigma_m * sigma_m));
-  return anywhere * (counts * reach + 1.0 - counts);
+  // A sighting counts if it was them, none since was, and they have gone from there.
+  double never = 1.0, gone = 0.0, reaches = 0.0;
+  for (auto sighting = sightings_.rbegin(); sighting != sightings_.rend(); ++sighting) {
+    const BodyBelief* holder = find(sighting->track_id);
+    const double was = sighting->probability[h];
+    const double counts = never * was * (1.0 - (holder == nullptr ? 0.0 : holder->present));
+    never *= 1.0 - was;
+    const double sigma_m =
+        std::hypot(0.3, params_.walk_mps * std::max(stamp_s - sighting->seen_s, 0.0));
+    const double off = (place_m - sighting->place_m).norm() / sigma_m;
+    const double area_m2 = 2.0 * M_PI * sigma_m * sigma_m;
+    gone += counts;
+    reaches += counts * std::max(kRoom_m2 / area_m2, 1.0) * std::exp(-0.5 * off * off);
+  }
+  return anywhere * (reaches + never) / std::max(gone + never, 1e-9);
+}
+
+Sighting* Identity::findSighting(int track_id) {
+  const auto found =
+      std::find_if(sightings_.begin(), sightings_.end(),
+                   [&](const Sighting& sighting) { return sighting.track_id == track_id; });
+  return found == sightings_.end() ? nullptr : &*found;
+}
+
+void Identity::sight(const BodyBelief& belief, const Eigen::Vector2d& place_m, double stamp_s) {
+  if (Sighting* before = findSighting(belief.track_id)) {
+    sightings_.erase(sightings_.begin() + (before - sightings_.data()));
+  } else if (sightings_.size() == kMostLeft) {
+    sightings_.erase(sightings_.begin());
+  }
+  sightings_.push_back({belief.track_id, place_m, stamp_s, belief.probability});
 }
 
 /// What is believed of somebody who appears at a place, before a look at them.
@@ -183,9 +204,7 @@ BodyBelief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, double
     part(*same, 1.0, gone);  // They are together again.
     belief = std::move(*same);
     left_.erase(same);
-    for (std::optional<Absence>& last : last_) {
-      if (last && last->track_id == belief.track_id) last->track_id = track_id;
-    }
+    if (Sighting* sighting = findSighting(belief.track_id)) sighting->track_id = track_id;
     belief.mixIn(gallery_, {another, another}, gone);
     belief.is_alive = true;
   } else {
@@ -242,6 +261,8 @@ void Identity::takePlace(BodyBelief& belief, const Track& track, const Observati
     // While they are seen, what tells that they are the target still does.
     if (belief.present < 1.0) part(belief, 0.0, other_share);
     belief.mixIn(gallery_, {prior, prior}, other_share);
+    Sighting* before = findSighting(belief.track_id);
+    if (before != nullptr && other_share > 0.5) before->track_id = Sighting::kNoTrack;
   }
   // However long it lasts, nothing is surer than that: who sat for an hour may get up.
   belief.log_place -= belief.log_place.maxCoeff();
@@ -266,7 +287,7 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
                     const Viewpoint& viewpoint) {
   endBeliefs(tracks);
   if (dt_s < 0.0) {  // Of another clock.
-    last_.assign(kHypotheses, std::nullopt);
+    sightings_.clear();
     left_.clear();
     clutter_.setClock(stamp_s);
   }
@@ -436,9 +457,8 @@ void Identity::remember(const std::vector<Track>& tracks,
       if (belief.probability[h] > 0.5) best = h;
     }
     if (belief.probability[kTarget] > 1.0 - kMistaken) belief.replaced = 0.0;
-    if (best != kStranger) {
-      last_[static_cast<std::size_t>(best)] =
-          Absence{place_m, stamp_s, belief.probability[best], track.id};
+    if (belief.probability.tail<kHypotheses - kTarget>().sum() > kMistaken) {
+      sight(belief, place_m, stamp_s);
     }
     if (!is_alone) continue;
     if (best == kStranger) {
@@ -460,14 +480,17 @@ void Identity::meet(BodyBelief& belief) {
   if (gallery_.isFull()) {
     double oldest_s = kInfinity;
     for (int h = kFirstOther; h < kHypotheses; ++h) {
-      const auto& last = last_[static_cast<std::size_t>(h)];
-      const double seen_s = last ? last->seen_s : -kInfinity;
+      double seen_s = -kInfinity;
+      for (const Sighting& sighting : sightings_) {
+        if (sighting.probability[h] > 0.5) seen_s = sighting.seen_s;
+      }
       if (away_[h] > 0.5 && seen_s < oldest_s) {
         oldest_s = seen_s;
         replaced = h;
       }
     }
     if (replaced == kStranger) return;
+    for (Sighting& sighting : sightings_) sighting.probability[replaced] = 0.0;
   }
   Eigen::ArrayXXf mean = belief.sum;
   for (Eigen::Index part = 0; part < mean.cols(); ++part) {
@@ -488,7 +511,8 @@ void Identity::meet(BodyBelief& belief) {
   }
   belief.log_place[h] = belief.log_place[kStranger];
   belief.log_place[kStranger] += kLogMistaken;
-  last_[static_cast<std::size_t>(h)] = Absence{belief.place_m, belief.seen_s, 1.0, belief.track_id};
+  std::swap(belief.probability[h], belief.probability[kStranger]);
+  sight(belief, belief.place_m, belief.seen_s);
   away_[h] = 0.0;
 }
 
@@ -506,8 +530,8 @@ void Identity::makeTarget(int track_id, const Eigen::Vector2d& place_m, double s
   belief->view = {};
   belief->known_looks.resize(0);
   belief->looks = 0.0;
-  last_[kTarget] = Absence{place_m, stamp_s, 1.0, track_id};
   weighTogether();
+  sight(*belief, place_m, stamp_s);
 }
 
 }  // namespace heel

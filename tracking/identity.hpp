@@ -46,12 +46,13 @@ struct IdentityParams {
 /// them; absent: not known. Then they may have walked anywhere from where they were seen last.
 using TargetDensity = std::function<std::optional<double>(const Eigen::Vector2d& place_m)>;
 
-/// Where somebody was seen last.
-struct Absence {
+/// Where somebody was seen last, and who they may be.
+struct Sighting {
+  static constexpr int kNoTrack = 0;
+  int track_id = kNoTrack;  ///< Theirs, if whoever is on it has not come in their place.
   Eigen::Vector2d place_m = Eigen::Vector2d::Zero();
   double seen_s = 0.0;
-  double probability = 0.0;  ///< That it was them,
-  int track_id = 0;          ///< who were on this track.
+  Evidence probability = Evidence::Zero();
 };
 
 /// Believes of each track of a Tracker that it is a thing, a stranger, the target or one of the
@@ -100,6 +101,8 @@ class Identity {
   BodyBelief& begin(int track_id, const Eigen::Vector2d& place_m, double stamp_s);
   double densityOf(int h, const Eigen::Vector2d& place_m, double stamp_s,
                    const BodyBelief* but) const;
+  Sighting* findSighting(int track_id);
+  void sight(const BodyBelief& belief, const Eigen::Vector2d& place_m, double stamp_s);
   Evidence priorOf(const Eigen::Vector2d& place_m, double stamp_s,
                    const BodyBelief* but = nullptr) const;
   void count(BodyBelief& belief, double time_s, double stamp_s);
@@ -128,7 +131,7 @@ class Identity {
   std::vector<LookEvidence> parts_;           // and part by part,
   std::vector<Tallness> statures_;            // and of these
   Evidence away_ = Evidence::Ones();          // of each person, that they are none of the tracks
-  std::vector<std::optional<Absence>> last_;  // where each was seen last
+  std::vector<Sighting> sightings_;           // the last one last
   std::vector<BodyWeights> weights_;
   JointMarginals together_, after_;  // see weighTogether()
 };
