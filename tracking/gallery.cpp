@@ -244,7 +244,9 @@ LookOdds Gallery::logOdds(const LookEvidence& look, const Eigen::ArrayXXd* known
 
 double Gallery::logAlike(const Garments& garments) const {
   const double share = params_.misleading_share;
-  return (1.0 - share + share * garments.min(100.0).exp()).log().max(0.0).sum();
+  const double some = (1.0 - share + share * garments.min(100.0).exp()).log().max(0.0).sum();
+  const double all = std::exp(std::min(garments.sum() - some, 100.0));
+  return std::max(some + std::log1p(share * share * (all - 1.0)), 0.0);
 }
 
 void Gallery::average(Person& person, const Eigen::ArrayXXf& look, double weight) {
@@ -277,12 +279,19 @@ void Gallery::addLookAt(int hypothesis, const Observation& seen, const LookEvide
     person.log_tallness +=
         weight * (logTallness(seen) - params_.look_correlation * person.log_tallness);
   }
-  average(hypothesis == kTarget ? lately_ : person, *seen.look, weight);
+  const bool is_target = hypothesis == kTarget;
+  average(is_target ? lately_ : person, *seen.look, weight);
+  if (is_target) {
+    // What one of its portraits does not show is as in the other.
+    for (Eigen::Index part = 0; part < person.mean.cols(); ++part) {
+      if (lately_.mean.col(part).sum() < 0.5F) lately_.mean.col(part) = looks_.target.col(part);
+      if (looks_.target.col(part).sum() < 0.5F) person.mean.col(part) = lately_.mean.col(part);
+    }
+    lately_.misfit = person.misfit;
+    lately_.misfit_weight = person.misfit_weight;
+    refresh(lately_);
+  }
   refresh(person);
-  if (hypothesis != kTarget) return;
-  lately_.misfit = person.misfit;
-  lately_.misfit_weight = person.misfit_weight;
-  refresh(lately_);
 }
 
 bool Gallery::isFull() const {
