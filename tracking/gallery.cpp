@@ -123,8 +123,8 @@ void Gallery::takeApart(const Eigen::ArrayXXf& look) {
 }
 
 /// Over the parts that both the look and the portrait show, in the light that fits best; leaves
-/// their log odds and misfits in that light, 0 and -1 where there is none, and what that light says,
-/// if that fits better than what is there.
+/// their log odds and misfits in that light, 0 and -1 where there is none, and what that light
+/// says, if that fits better than what is there.
 /// @return  Their sum with the share of such looks.
 double Gallery::likeness(const Person& person, double log_share) {
   double most = -std::numeric_limits<double>::infinity();
@@ -280,8 +280,8 @@ void Gallery::addLookAt(int hypothesis, const Observation& seen, const LookEvide
         weight * (logTallness(seen) - params_.look_correlation * person.log_tallness);
   }
   const bool is_target = hypothesis == kTarget;
-  average(is_target ? lately_ : person, *seen.look, weight);
-  if (is_target) {
+  if ((evidence.is_seen > 0.0).any()) average(is_target ? lately_ : person, *seen.look, weight);
+  if (is_target && lately_.weight > 0.0) {
     // What one of its portraits does not show is as in the other.
     for (Eigen::Index part = 0; part < person.mean.cols(); ++part) {
       if (lately_.mean.col(part).sum() < 0.5F) lately_.mean.col(part) = looks_.target.col(part);

@@ -83,8 +83,9 @@ struct LookOdds {
 struct GalleryParams {
   /// Share of looks that mislead (shade, somebody half in front, a lintel over them). It bounds
   /// what one look at colours, and one at stature, can say against anybody. As many strangers wear
-  /// the same top as somebody, or trousers, or have the same hair, each by itself: it bounds what
-  /// all looks at each can say for the target. Its square bounds what one look says for anybody.
+  /// the same top as somebody, or trousers, or have the same hair, each by itself, and its square
+  /// all of it: that bounds what all looks can say for the target. Its square bounds what one look
+  /// says for anybody.
   double misleading_share = 0.05;
   /// Looks at one person are alike: many together are worth no more than 1 / this of them.
   double look_correlation = 0.2;
@@ -101,8 +102,8 @@ class Gallery {
   /// What a look's colours say together, bounded as GalleryParams say.
   /// @param known  What other looks say of the parts that it does not show, as LookEvidence::parts.
   LookOdds logOdds(const LookEvidence& look, const Eigen::ArrayXXd* known = nullptr) const;
-  /// How much likelier looks are by a stranger who may wear some of what the target does than by
-  /// any, as a logarithm.
+  /// How much likelier looks are by a stranger who may wear some of what the target does, or all,
+  /// than by any, as a logarithm.
   /// @param garments  The log odds for the target that they have, garment by garment.
   double logAlike(const Garments& garments) const;
 
@@ -113,7 +114,8 @@ class Gallery {
   Evidence logLikelihood(const Tallness& log_tallness) const;
   double logIfAnybody(const Tallness& log_tallness) const;
 
-  /// Another sure look at somebody. Of the target, what phase 1 learned keeps half of the say.
+  /// Another sure look at somebody. The target has two portraits, phase 1's and one of what was
+  /// seen since, and a look is as likely as by both in the mean; phase 1's keeps half of the say.
   /// @param evidence  What compare() said of it.
   void addLookAt(int hypothesis, const Observation& seen, const LookEvidence& evidence,
                  double weight);

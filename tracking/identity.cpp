@@ -261,8 +261,6 @@ void Identity::takePlace(BodyBelief& belief, const Track& track, const Observati
     // While they are seen, what tells that they are the target still does.
     if (belief.present < 1.0) part(belief, 0.0, other_share);
     belief.mixIn(gallery_, {prior, prior}, other_share);
-    Sighting* before = findSighting(belief.track_id);
-    if (before != nullptr && other_share > 0.5) before->track_id = Sighting::kNoTrack;
   }
   // However long it lasts, nothing is surer than that: who sat for an hour may get up.
   belief.log_place -= belief.log_place.maxCoeff();

@@ -48,8 +48,7 @@ using TargetDensity = std::function<std::optional<double>(const Eigen::Vector2d&
 
 /// Where somebody was seen last, and who they may be.
 struct Sighting {
-  static constexpr int kNoTrack = 0;
-  int track_id = kNoTrack;  ///< Theirs, if whoever is on it has not come in their place.
+  int track_id = 0;
   Eigen::Vector2d place_m = Eigen::Vector2d::Zero();
   double seen_s = 0.0;
   Evidence probability = Evidence::Zero();
@@ -126,12 +125,12 @@ class Identity {
   Gallery gallery_;
   ClutterMap clutter_;
   std::vector<BodyBelief> beliefs_;
-  std::vector<BodyBelief> left_;              // of tracks that have ended, the last one last
-  std::vector<LookOdds> looks_;               // of the step's observations, alone,
-  std::vector<LookEvidence> parts_;           // and part by part,
-  std::vector<Tallness> statures_;            // and of these
-  Evidence away_ = Evidence::Ones();          // of each person, that they are none of the tracks
-  std::vector<Sighting> sightings_;           // the last one last
+  std::vector<BodyBelief> left_;      // of tracks that have ended, the last one last
+  std::vector<LookOdds> looks_;       // of the step's observations, alone,
+  std::vector<LookEvidence> parts_;   // and part by part,
+  std::vector<Tallness> statures_;    // and of these
+  Evidence away_ = Evidence::Ones();  // of each person, that they are none of the tracks
+  std::vector<Sighting> sightings_;   // the last one last
   std::vector<BodyWeights> weights_;
   JointMarginals together_, after_;  // see weighTogether()
 };

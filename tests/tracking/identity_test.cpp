@@ -100,12 +100,15 @@ Evidence newcomer(int others = 0) {
 
 const double kShare = GalleryParams().misleading_share;
 
-/// What looks say, if a stranger may wear some of what the target does.
+/// What looks say, if a stranger may wear some of what the target does, or all.
 Evidence likelihoods(const LookOdds& look) {
   Evidence likelihood = look.all.exp();
+  double some = 1.0;
   for (const double odds : look.target) {
-    likelihood[kStranger] *= std::max(1.0 - kShare + kShare * std::exp(odds), 1.0);
+    some *= std::max(1.0 - kShare + kShare * std::exp(odds), 1.0);
   }
+  const double all = std::exp(look.target.sum());
+  likelihood[kStranger] *= std::max(some + kShare * kShare * (all - some), 1.0);
   return likelihood;
 }
 
@@ -295,7 +298,8 @@ TEST(Identity, LooksFromOneViewCountAsTheirMean) {
 }
 
 TEST(Identity, LooksAloneNeverSayMoreThanThatSomebodyElseMayBeDressedAlike) {
-  const double most = 1.0 / (kShare * kShare);  // who wears the same top and the same trousers
+  // Who wears the same top and the same trousers, by chance or because people dress alike.
+  const double most = 0.5 / (kShare * kShare);
   Home home;
   home.walk({1, {0, 0}, &kRed}, 30.0);
   const double odds = home.target(1) / home.probability(1, kStranger);
@@ -548,7 +552,6 @@ TEST(Identity, WhoIsAwayIsExpectedNearWhereTheyWereSeen) {
   EXPECT_GT(later.target(5), 0.5);
 }
 
-// Bug: somebody who had sat for minutes and was missed for a moment seemed a thing.
 TEST(Identity, WhoIsLookedForIsExpectedWhereWhoeverLooksForThemSays) {
   const double newcomers_per_m2 = IdentityParams().newcomer_density_per_m2;
   Home home({}, looksOf(kRed), [](const Eigen::Vector2d& place_m) {
@@ -567,6 +570,40 @@ TEST(Identity, WhoIsLookedForIsExpectedWhereWhoeverLooksForThemSays) {
   EXPECT_NEAR(as_usual.target(1), by_itself.target(1), 1e-12);
 }
 
+// Bug: a look-alike who came to stand beside the target, of whom the robot was not sure, was
+// expected to be the target, since these were looked for there.
+TEST(Identity, WhoComesWhereSomebodyInViewMayBeTheTargetIsNotExpectedToBeIt) {
+  bool has_begun = false;
+  Home home({}, looksOf(kRed),
+            [&](const Eigen::Vector2d&) { return has_begun ? std::optional(5.0) : std::nullopt; });
+  const Body doubtful{1, {1, 0}, &kPink};
+  home.see({doubtful}, 10);
+  has_begun = true;
+  home.see({doubtful, {2, {1.6, 0}}, {3, {4, 0}}});
+  EXPECT_LT(home.target(2), 0.1);
+  EXPECT_GT(home.target(3), 0.4) << "there they are looked for";
+}
+
+TEST(Identity, EverybodyIsExpectedWhereSomebodyWasSeenWhoMayBeThem) {
+  Home home;
+  const Body target{1, {0, 0}, &kRed};
+  home.see({target});
+  home.identity.makeTarget(1, {0, 0}, home.stamp_s);
+  home.walk({2, {0, 4}, &kPink}, 3.0, {target});
+  ASSERT_GT(home.probability(2, kFirstOther), 0.9) << "half alike, and met";
+  home.see({}, 60.0);
+  const Eigen::ArrayXXf both = 0.5F * (kRed + kPink);
+  home.see({{3, {9, 9}, &both}}, 3);
+  const double before = home.target(3) / home.probability(3, kFirstOther);
+  ASSERT_GT(before, 0.2);
+  ASSERT_LT(before, 5.0);
+  home.see({}, 0.6);
+  home.see({{4, {9.1, 9}}});
+  EXPECT_GT(home.target(4) + home.probability(4, kFirstOther), 0.6);
+  EXPECT_NEAR(home.target(4) / home.probability(4, kFirstOther), before, 0.2 * before);
+}
+
+// Bug: somebody who had sat for minutes and was missed for a moment seemed a thing.
 TEST(Identity, WhoStoodIsExpectedWhereTheyStood) {
   for (const bool stood : {true, false}) {
     Home home;
