@@ -98,14 +98,13 @@ double Identity::logLikelihood(int track_id, int observation) const {
 double Identity::densityOf(int h, const Eigen::Vector2d& place_m, double stamp_s,
                            const BodyBelief* but) const {
   const double anywhere = params_.newcomer_density_per_m2;
-  // Where somebody is in view the target is expected because that one may be it.
-  const bool is_taken = std::any_of(beliefs_.begin(), beliefs_.end(), [&](const BodyBelief& body) {
-    return body.present == 1.0 && (body.place_m - place_m).norm() < kAlone_m;
-  });
-  if (h == kTarget && target_density_ && but == nullptr && !is_taken) {
-    if (const auto density = target_density_(place_m)) {
-      return (1.0 - kUnexpected) * *density + kUnexpected * anywhere;
-    }
+  if (h == kTarget && target_density_ && but == nullptr) {
+    // Where somebody is in view the target is expected because that one may be it.
+    const bool is_taken = std::any_of(beliefs_.begin(), beliefs_.end(), [&](const BodyBelief& b) {
+      return b.present == 1.0 && (b.place_m - place_m).norm() < kAlone_m;
+    });
+    const auto density = is_taken ? std::nullopt : target_density_(place_m);
+    if (density) return (1.0 - kUnexpected) * *density + kUnexpected * anywhere;
   }
   // A sighting counts if it was them, none since was, and they have gone from there.
   double never = 1.0, gone = 0.0, reaches = 0.0;
