@@ -25,7 +25,7 @@ constexpr double kUnexpected = 0.02;   // Share of targets who are not where the
 constexpr double kMetLooks = 1.5;      // A stranger is met after so many independent looks.
 constexpr double kSurest = 12.0;       // Logarithm of the greatest odds of places and ways.
 constexpr double kAlone_m = 1.0;       // Nobody nearer: then a look is theirs alone.
-constexpr std::size_t kMostLeft = 16;  // Ended tracks that are remembered.
+constexpr std::size_t kMostLeft = 16;  // Ended tracks, and sightings, that are remembered.
 
 /// Weights of which the greatest is 1.
 Evidence relative(const Evidence& log_weight) { return (log_weight - log_weight.maxCoeff()).exp(); }
@@ -41,6 +41,7 @@ Identity::Identity(TargetLooks looks, const IdentityParams& params, TargetDensit
         params.newcomer_density_per_m2 > 0.0 && params.walk_mps > 0.0)) {
     throw std::invalid_argument("IdentityParams: a parameter is not positive");
   }
+  sightings_.reserve(kMostLeft);
 }
 
 BodyBelief* Identity::find(int track_id) {
