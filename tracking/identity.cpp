@@ -95,33 +95,36 @@ double Identity::logLikelihood(int track_id, int observation) const {
   return std::log((belief->probability * look.exp()).sum() * std::exp(same) + 1e-9) - look[kThing];
 }
 
-/// Of somebody who is known and away, per square metre.
-double Identity::densityOf(int h, const Eigen::Vector2d& place_m, double stamp_s,
-                           const BodyBelief* but) const {
-  const double anywhere = params_.newcomer_density_per_m2;
-  if (h == kTarget && target_density_ && but == nullptr) {
-    // Where somebody is in view the target is expected because that one may be it.
-    const bool is_taken = std::any_of(beliefs_.begin(), beliefs_.end(), [&](const BodyBelief& b) {
-      return b.present == 1.0 && (b.place_m - place_m).norm() < kAlone_m;
-    });
-    const auto density = is_taken ? std::nullopt : target_density_(place_m);
-    if (density) return (1.0 - kUnexpected) * *density + kUnexpected * anywhere;
-  }
+/// Of everybody, if they are away, per square metre: by where they were seen.
+Evidence Identity::densities(const Eigen::Vector2d& place_m, double stamp_s) const {
   // A sighting counts if it was them, none since was, and they have gone from there.
-  double never = 1.0, gone = 0.0, reaches = 0.0;
+  Evidence never = Evidence::Ones(), gone = Evidence::Zero(), reaches = Evidence::Zero();
   for (auto sighting = sightings_.rbegin(); sighting != sightings_.rend(); ++sighting) {
     const BodyBelief* holder = find(sighting->track_id);
-    const double was = sighting->probability[h];
-    const double counts = never * was * (1.0 - (holder == nullptr ? 0.0 : holder->present));
-    never *= 1.0 - was;
+    const double has_gone = 1.0 - (holder == nullptr ? 0.0 : holder->present);
     const double sigma_m =
         std::hypot(0.3, params_.walk_mps * std::max(stamp_s - sighting->seen_s, 0.0));
     const double off = (place_m - sighting->place_m).norm() / sigma_m;
     const double area_m2 = 2.0 * M_PI * sigma_m * sigma_m;
+    const double reach = std::max(kRoom_m2 / area_m2, 1.0) * std::exp(-0.5 * off * off);
+    const Evidence counts = has_gone * never * sighting->probability;
+    never *= 1.0 - sighting->probability;
     gone += counts;
-    reaches += counts * std::max(kRoom_m2 / area_m2, 1.0) * std::exp(-0.5 * off * off);
+    reaches += reach * counts;
   }
-  return anywhere * (reaches + never) / std::max(gone + never, 1e-9);
+  return params_.newcomer_density_per_m2 * (reaches + never) / (gone + never).max(1e-9);
+}
+
+/// Of the target, where somebody looks for it. Where a body is in view it is expected because that
+/// one may be it, which says nothing of who else comes there.
+std::optional<double> Identity::searchDensity(const Eigen::Vector2d& place_m) const {
+  const bool is_taken = std::any_of(beliefs_.begin(), beliefs_.end(), [&](const BodyBelief& body) {
+    return body.present == 1.0 && (body.place_m - place_m).norm() < kAlone_m;
+  });
+  if (!target_density_ || is_taken) return std::nullopt;
+  const auto density = target_density_(place_m);
+  if (!density) return std::nullopt;
+  return (1.0 - kUnexpected) * *density + kUnexpected * params_.newcomer_density_per_m2;
 }
 
 Sighting* Identity::findSighting(int track_id) {
@@ -150,8 +153,11 @@ Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s,
   Evidence weight = Evidence::Zero();
   weight[kThing] = there.things_per_m2;
   weight[kStranger] = params_.newcomer_density_per_m2;
-  for (int h = kTarget; h < kHypotheses; ++h) {
-    if (h == kTarget || gallery_.isKnown(h)) weight[h] = densityOf(h, place_m, stamp_s, but);
+  const Evidence density = densities(place_m, stamp_s);
+  const auto searched = but == nullptr ? searchDensity(place_m) : std::nullopt;
+  weight[kTarget] = searched.value_or(density[kTarget]);
+  for (int h = kFirstOther; h < kHypotheses; ++h) {
+    if (gallery_.isKnown(h)) weight[h] = density[h];
   }
   // Where people were seen before there are more, whoever they are.
   auto people = weight.tail<kHypotheses - kStranger>();

@@ -98,8 +98,8 @@ class Identity {
   BodyBelief* find(int track_id);
   const BodyBelief* find(int track_id) const;
   BodyBelief& begin(int track_id, const Eigen::Vector2d& place_m, double stamp_s);
-  double densityOf(int h, const Eigen::Vector2d& place_m, double stamp_s,
-                   const BodyBelief* but) const;
+  Evidence densities(const Eigen::Vector2d& place_m, double stamp_s) const;
+  std::optional<double> searchDensity(const Eigen::Vector2d& place_m) const;
   Sighting* findSighting(int track_id);
   void sight(const BodyBelief& belief, const Eigen::Vector2d& place_m, double stamp_s);
   Evidence priorOf(const Eigen::Vector2d& place_m, double stamp_s,
