@@ -16,7 +16,7 @@ void check(const FollowerParams& p) {
   requireNotNegative("FollowerParams",
                      {p.near_m, p.far_m, p.whole_m, p.beside_m, p.makes_room_s, p.waits_aside_s,
                       p.no_frame_s, p.lost_after_s, p.walks_on_s, p.seek_radps, p.ahead_rad,
-                      p.lost_turn_radps, p.give_up_s, p.surely_person, p.beside_people_m,
+                      p.lost_turn_radps, p.give_up_s, p.avoid_above, p.beside_people_m,
                       p.target_radius_m, p.mapped_within_m, p.obstacles_every_s});
   if (p.near_m > p.far_m) {
     throw std::invalid_argument("FollowerParams: near_m must not be greater than far_m");

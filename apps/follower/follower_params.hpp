@@ -88,9 +88,9 @@ struct FollowerParams {
   double lost_turn_radps = 0.4;  ///< Speed of turning of a robot that does not know where it is.
   /// A robot that was blocked for so long is as near to its goal as it can get.
   double give_up_s = 4.0;
-  /// Whoever walks is avoided as a person if they are one with this probability; whoever rests,
-  /// unless they are none with as much.
-  double surely_person = 0.8;
+  /// Whatever may be a person with this probability is avoided as one: to touch somebody costs as
+  /// much as twenty ways around nobody.
+  double avoid_above = 0.05;
   /// Paths lead around people with so much more room than around things.
   double beside_people_m = 0.05;
   double target_radius_m = 0.45;   ///< Readings this near to the target are the target's own.

@@ -29,7 +29,7 @@ double gaitOf(const MotionState& motion, const Vector2d& place) {
 }
 
 PeopleAround::PeopleAround(const FollowerParams& params)
-    : surely_person_(params.surely_person),
+    : avoid_above_(params.avoid_above),
       walks_on_s_(params.walks_on_s),
       person_m_(params.target_radius_m),
       known_within_m_(0.5 * params.obstacles.size_m),
@@ -45,7 +45,7 @@ void PeopleAround::step(double stamp_s, const Perception& perception, const Rece
     const auto isThingThere = [&](const Track& track) {
       return track.observation != Track::kUnseen &&
              (track.motion.position_m() - place).norm() < person_m_ &&
-             perception.identity().probabilities(track.id)[kThing] > surely_person_;
+             perception.identity().probabilities(track.id)[kThing] > 1.0 - avoid_above_;
     };
     const std::vector<Track>& tracks = perception.tracks();
     return isNear(place, now.target) || std::any_of(tracks.begin(), tracks.end(), isThingThere) ||
@@ -68,10 +68,9 @@ void PeopleAround::addTracks(double stamp_s, const Perception& perception, Situa
     if (track.status == TrackStatus::kTentative) continue;
     if (isNear(track.motion.position_m(), now.target)) continue;  // their other leg, too
     const Evidence who = identity.probabilities(track.id);
-    const double person_there = who.sum() - who[kThing];
+    if (who.sum() - who[kThing] < avoid_above_) continue;
     const double rests_s = identity.restsFor_s(track.id, stamp_s);
     const bool rests = rests_s >= walks_on_s_ && !setsOff(track.motion);
-    if (person_there < (rests ? 1.0 - surely_person_ : surely_person_)) continue;
     MovingPerson& person = now.people.emplace_back();
     person.position = track.motion.position_m();
     if (rests) {

@@ -44,7 +44,7 @@ class PeopleAround {
   void addComers(const RecentSight& sight, const FloorPose& T_world_frame, Situation& now) const;
   bool isNear(const Eigen::Vector2d& place, const std::optional<MovingPerson>& person) const;
 
-  double surely_person_, walks_on_s_, person_m_, known_within_m_;
+  double avoid_above_, walks_on_s_, person_m_, known_within_m_;
   UnseenPeople unseen_;
   std::vector<FloorDisc> discs_;
 };

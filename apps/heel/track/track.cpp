@@ -84,11 +84,11 @@ void useMap(const TrackOptions& options, CameraSetup& setup, RobotPlaces& robot,
 
 /// Where people are who hide walls from the laser: as the follower takes them.
 std::vector<Eigen::Vector2d> peopleOf(const Perception& perception) {
-  static const double surely_person = FollowerParams().surely_person;
+  static const double avoid_above = FollowerParams().avoid_above;
   std::vector<Eigen::Vector2d> places;
   for (const Track& track : perception.tracks()) {
     const Evidence who = perception.identity().probabilities(track.id);
-    if (track.status == TrackStatus::kTentative || who.sum() - who[kThing] < surely_person)
+    if (track.status == TrackStatus::kTentative || who.sum() - who[kThing] < avoid_above)
       continue;
     places.push_back(track.motion.position_m());
   }
