@@ -62,7 +62,7 @@ void BodyBelief::takeLook(const Gallery& gallery, const BodyLook& look, double n
     view = View{look.seen.position_m, look.seen.position_m - look.eye_m, look.stamp_s, news};
   }
   view.thing_count = std::min(view.thing_count + 1.0, View::kMostLooks);
-  view.mean[kThing] += (look.log_thing - view.mean[kThing]) / view.thing_count;
+  view.mean[kThing] += (-look.seen.log_person - view.mean[kThing]) / view.thing_count;
   if (look.seen.look == nullptr) return;  // Depth or the outline tells that it is no person, say.
   if (view.count == 0.0) looks += view.weight;
   view.count = std::min(view.count + 1.0, View::kMostLooks);
@@ -81,7 +81,7 @@ void BodyBelief::takeLook(const Gallery& gallery, const BodyLook& look, double n
   view.garments += (odds.target - view.garments) / view.count;
   if (look.seen.stature_m) {
     view.tallness_count = std::min(view.tallness_count + 1.0, View::kMostLooks);
-    view.tallness += (look.tallness - view.tallness) / view.tallness_count;
+    view.tallness += (gallery.logTallness(look.seen) - view.tallness) / view.tallness_count;
   }
   log_stature = gallery.logLikelihood(logTallness());
   if (sum.size() == 0) sum.setZero(look.seen.look->rows(), look.seen.look->cols());

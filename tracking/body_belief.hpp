@@ -14,15 +14,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace heel {
 
 /// A look at a body, and what it says.
 struct BodyLook {
   const Observation& seen;
-  const LookEvidence& parts;  ///< By its colours, part by part,
-  double log_thing;           ///< of a thing, over a stranger,
-  const Tallness& tallness;   ///< and by its stature.
+  const LookEvidence& parts;  ///< By its colours, part by part.
   Eigen::Vector2d eye_m;      ///< Where the camera was,
   double stamp_s;             ///< and when.
 };
@@ -33,7 +32,7 @@ struct View {
       10.0;  ///< So many of the last make its mean, or are learned.
   Eigen::Vector2d place_m = Eigen::Vector2d::Zero();
   Eigen::Vector2d ray_m = Eigen::Vector2d::Zero();  ///< From the camera.
-  double since_s = 0.0;
+  double since_s = -std::numeric_limits<double>::infinity();
   double weight = 0.0;  ///< As far as it is another view than the one before; 0: there is none.
   Evidence mean = Evidence::Zero();
   Garments garments = Garments::Zero();  ///< The mean of what looks say of the target's,
@@ -103,12 +102,6 @@ struct BodyBelief {
 
   /// It has moved, and rests nowhere yet.
   bool isOnTheWay(double stamp_s) const { return since_s > born_s && stamp_s - since_s < kRests_s; }
-
-  /// Whoever stood for a time will for as long, one in two.
-  double stays(double stamp_s) const {
-    const double stood_s = std::max(seen_s - since_s, kRests_s);
-    return stood_s / (stood_s + std::max(stamp_s - seen_s, 0.0));
-  }
 
   /// The way [m] from the view at hand to a look, by body or camera; 0 if neither may have moved.
   double wayTo(const BodyLook& look) const;

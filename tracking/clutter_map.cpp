@@ -25,18 +25,9 @@ std::size_t wrapped(double cell) {
 
 std::size_t cellAt(double x, double y) { return wrapped(y) * kSize + wrapped(x); }
 
-}  // namespace
-
-ClutterMap::ClutterMap(const ClutterMapParams& params) : params_(params) {
-  if (!(params.density_per_m2 > 0.0 && params.prior_s > 0.0)) {
-    throw std::invalid_argument("ClutterMapParams: a parameter is out of its range");
-  }
-  cells_.resize(kSize * kSize);
-}
-
 /// The four cells around a place, with their bilinear weights.
 template <typename Visitor>
-void ClutterMap::forCorners(const Eigen::Vector2d& place_m, const Visitor& visit) const {
+void forCorners(const Eigen::Vector2d& place_m, const Visitor& visit) {
   const Eigen::Array2d cell = place_m.array() / kCell_m - 0.5;
   const Eigen::Array2d first = cell.floor();
   const Eigen::Array2d share = cell - first;
@@ -44,6 +35,14 @@ void ClutterMap::forCorners(const Eigen::Vector2d& place_m, const Visitor& visit
     const int dx = corner & 1, dy = corner >> 1;
     const double weight = (dx ? share.x() : 1.0 - share.x()) * (dy ? share.y() : 1.0 - share.y());
     visit(cellAt(first.x() + dx, first.y() + dy), weight);
+  }
+}
+
+}  // namespace
+
+ClutterMap::ClutterMap(const ClutterMapParams& params) : params_(params), cells_(kSize * kSize) {
+  if (!(params.density_per_m2 > 0.0 && params.prior_s > 0.0)) {
+    throw std::invalid_argument("ClutterMapParams: a parameter is out of its range");
   }
 }
 
@@ -55,9 +54,7 @@ ClutterDensity ClutterMap::density(const Eigen::Vector2d& place_m, double stamp_
   double seen_s = params_.prior_s;
   forCorners(place_m, [&](std::size_t i, double weight) {
     double its = 0.0;  // Of the body's count, what is in this cell.
-    if (but.time_s > 0.0) {
-      forCorners(but.place_m, [&](std::size_t j, double part) { its += i == j ? part : 0.0; });
-    }
+    forCorners(but.place_m, [&](std::size_t j, double part) { its += i == j ? part : 0.0; });
     thing_s += weight * std::max(cells_[i].thing_s - its * but.thing_s, 0.0);
     const double stood_s = static_cast<double>(cells_[i].person_s);
     const double stays =

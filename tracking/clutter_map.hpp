@@ -77,8 +77,6 @@ class ClutterMap {
     float seen_s = 0.0F;
     double last_s = 0.0;  // When somebody or something was observed there last.
   };
-  template <typename Visitor>
-  void forCorners(const Eigen::Vector2d& place_m, const Visitor& visit) const;
 
   ClutterMapParams params_;
   std::vector<Cell> cells_;

@@ -33,6 +33,9 @@ Tallness densityOf(double mean_m, double sigma_m) {
   return (-0.5 * ((statures_m - mean_m) / sigma_m).square()).exp() / (kRoot2Pi * sigma_m);
 }
 
+/// Whether a look, or the mean of some, shows a part.
+bool shows(const Eigen::ArrayXXf& look, Eigen::Index part) { return look.col(part).sum() > 0.5F; }
+
 double logMean(const Tallness& log_value, const Tallness& share) {
   const double most = log_value.maxCoeff();
   return most + std::log((share * (log_value - most).exp()).sum());
@@ -78,31 +81,33 @@ Gallery::Gallery(TargetLooks looks, const GalleryParams& params)
   Tint same;
   same.bins = Eigen::ArrayXi::LinSpaced(bins, 0, static_cast<int>(bins) - 1);
   looks_.tints.insert(looks_.tints.begin(), same);
-  people_[kTarget].mean = looks_.target;
-  people_[kTarget].weight = 1.0;
+  lately_.mean = people_[kTarget].portrait.mean = looks_.target;
+  people_[kTarget].portrait.weight = 1.0;
   refresh(people_[kTarget]);
 }
 
+void Gallery::refresh(Portrait& portrait) const {
+  portrait.log_shares =
+      ((portrait.mean.colwise() + kUnseenShare * anybody_) / (1.0F + kUnseenShare)).log();
+  portrait.knows.clear();
+  for (Eigen::Index part = 0; part < portrait.mean.cols(); ++part) {
+    portrait.knows.push_back(shows(portrait.mean, part));
+  }
+}
+
 void Gallery::refresh(Person& person) const {
-  const Eigen::Index parts = person.mean.cols();
   if (person.misfit.size() == 0) {
-    person.misfit.setConstant(parts, kMisfit);
-    person.misfit_weight.setConstant(parts, kFirstWeight);
+    person.misfit.setConstant(person.portrait.mean.cols(), kMisfit);
+    person.misfit_weight.setConstant(person.portrait.mean.cols(), kFirstWeight);
   }
   // Whoever usually fits worse than people do is judged as people are.
   person.rate_gain = (1.0 / person.misfit - 1.0 / kMisfit).max(0.0);
   person.log_rate_gain = (kMisfit / person.misfit).log().max(0.0);
-  person.statures = anybody_statures_ * person.log_tallness.exp();
-  if (&person == &people_[kTarget] && looks_.stature_m) {
-    person.statures = densityOf(*looks_.stature_m, kStatureSigma_m) * person.log_tallness.exp();
-  }
+  const bool is_told = &person == &people_[kTarget] && looks_.stature_m;
+  person.statures = is_told ? densityOf(*looks_.stature_m, kStatureSigma_m) : anybody_statures_;
+  person.statures *= person.log_tallness.exp();
   person.statures /= person.statures.sum();
-  person.log_shares =
-      ((person.mean.colwise() + kUnseenShare * anybody_) / (1.0F + kUnseenShare)).log();
-  person.knows.resize(static_cast<std::size_t>(parts));
-  for (Eigen::Index part = 0; part < parts; ++part) {
-    person.knows[static_cast<std::size_t>(part)] = person.mean.col(part).sum() > 0.5F;
-  }
+  refresh(person.portrait);
 }
 
 void Gallery::takeApart(const Eigen::ArrayXXf& look) {
@@ -123,19 +128,19 @@ void Gallery::takeApart(const Eigen::ArrayXXf& look) {
 }
 
 /// Over the parts that both the look and the portrait show, in the light that fits best; leaves
-/// their log odds and misfits in that light, 0 and -1 where there is none, and what that light
-/// says, if that fits better than what is there.
+/// their log odds and misfits in that light, 0 and -1 where there is none, if it fits better than
+/// what is there.
 /// @return  Their sum with the share of such looks.
-double Gallery::likeness(const Person& person, double log_share) {
+double Gallery::likeness(const Person& person, const Portrait& portrait, double log_share) {
   double most = -std::numeric_limits<double>::infinity();
   for (const Tint& tint : looks_.tints) {
     double sum = log_share + tint.log_prior;
-    misfit_.setConstant(person.mean.cols(), -1.0);
-    parts_.setZero(person.mean.cols());
+    misfit_.setConstant(portrait.mean.cols(), -1.0);
+    parts_.setZero(portrait.mean.cols());
     for (std::size_t part = 0, i = 0; part < ends_.size(); i = ends_[part++]) {
-      if (i == ends_[part] || !person.knows[part]) continue;
+      if (i == ends_[part] || !portrait.knows[part]) continue;
       const auto column = static_cast<Eigen::Index>(part);
-      const float* log_shares = person.log_shares.col(column).data();
+      const float* log_shares = portrait.log_shares.col(column).data();
       float like = 0.0F, usual = 0.0F;
       for (std::size_t n = i; n < ends_[part]; ++n) {
         const int bin = tint.bins[look_[n].bin];
@@ -186,10 +191,9 @@ double Gallery::logIfAnybody(const Tallness& log_tallness) const {
 }
 
 void Gallery::compare(const Observation& seen, LookEvidence& evidence) {
-  evidence.light.setConstant(-std::numeric_limits<double>::infinity());
-  evidence.light.head<kFirstOther>() = 0.0;
+  evidence.light.setZero();
   for (int h = kFirstOther; h < kHypotheses; ++h) {
-    if (isKnown(h)) evidence.light[h] = 0.0;
+    if (!isKnown(h)) evidence.light[h] = -std::numeric_limits<double>::infinity();
   }
   evidence.parts.setZero(kHypotheses, looks_.target.cols());
   evidence.misfits.setConstant(kHypotheses, looks_.target.cols(), -1.0);
@@ -209,9 +213,10 @@ void Gallery::compare(const Observation& seen, LookEvidence& evidence) {
     // Half of the target is what was seen lately, as that comes to rest on more.
     const double lately =
         h == kTarget ? 0.5 * lately_.weight / (lately_.weight + kFirstWeight) : 0.0;
-    double sum = likeness(people_[index(h)], std::log1p(-lately));
+    const Person& person = people_[index(h)];
+    double sum = likeness(person, person.portrait, std::log1p(-lately));
     if (lately > 0.0) {
-      const double other = likeness(lately_, std::log(lately));
+      const double other = likeness(person, lately_, std::log(lately));
       sum = best_ + std::log1p(std::exp(-std::abs(sum - other)));
     }
     evidence.light[h] = sum - best_parts_.sum();
@@ -249,18 +254,13 @@ double Gallery::logAlike(const Garments& garments) const {
   return std::max(some + std::log1p(share * share * (all - 1.0)), 0.0);
 }
 
-void Gallery::average(Person& person, const Eigen::ArrayXXf& look, double weight) {
-  if (person.weight <= 0.0) {
-    person.mean = look;
-    person.weight = weight;
-    return;
-  }
-  person.weight = std::min(person.weight + weight, kMostWeight);
-  const auto gain = static_cast<float>(weight / person.weight);
+void Gallery::average(Portrait& portrait, const Eigen::ArrayXXf& look, double weight) {
+  portrait.weight = std::min(portrait.weight + weight, kMostWeight);
+  const auto gain = static_cast<float>(weight / portrait.weight);
   for (Eigen::Index part = 0; part < look.cols(); ++part) {
-    if (look.col(part).sum() < 0.5F) continue;
-    const float keep = person.mean.col(part).sum() < 0.5F ? 0.0F : 1.0F - gain;
-    person.mean.col(part) = keep * person.mean.col(part) + (1.0F - keep) * look.col(part);
+    if (!shows(look, part)) continue;
+    const float keep = shows(portrait.mean, part) ? 1.0F - gain : 0.0F;
+    portrait.mean.col(part) = keep * portrait.mean.col(part) + (1.0F - keep) * look.col(part);
   }
 }
 
@@ -280,23 +280,17 @@ void Gallery::addLookAt(int hypothesis, const Observation& seen, const LookEvide
         weight * (logTallness(seen) - params_.look_correlation * person.log_tallness);
   }
   const bool is_target = hypothesis == kTarget;
-  if ((evidence.is_seen > 0.0).any()) average(is_target ? lately_ : person, *seen.look, weight);
-  if (is_target && lately_.weight > 0.0) {
-    // What one of its portraits does not show is as in the other.
-    for (Eigen::Index part = 0; part < person.mean.cols(); ++part) {
-      if (lately_.mean.col(part).sum() < 0.5F) lately_.mean.col(part) = looks_.target.col(part);
-      if (looks_.target.col(part).sum() < 0.5F) person.mean.col(part) = lately_.mean.col(part);
+  if ((evidence.is_seen > 0.0).any()) {
+    average(is_target ? lately_ : person.portrait, *seen.look, weight);
+  }
+  if (is_target) {
+    // What phase 1 did not show is as it was seen since.
+    for (Eigen::Index part = 0; part < looks_.target.cols(); ++part) {
+      if (!shows(looks_.target, part)) person.portrait.mean.col(part) = lately_.mean.col(part);
     }
-    lately_.misfit = person.misfit;
-    lately_.misfit_weight = person.misfit_weight;
     refresh(lately_);
   }
   refresh(person);
-}
-
-bool Gallery::isFull() const {
-  return std::all_of(people_.begin() + kFirstOther, people_.end(),
-                     [](const Person& person) { return person.weight > 0.0; });
 }
 
 int Gallery::meet(const Eigen::ArrayXXf& mean_look, double weight, int replaced,
@@ -305,12 +299,12 @@ int Gallery::meet(const Eigen::ArrayXXf& mean_look, double weight, int replaced,
   for (int h = kFirstOther; hypothesis == kStranger && h < kHypotheses; ++h) {
     if (!isKnown(h)) hypothesis = h;
   }
-  if (hypothesis < kFirstOther) return kStranger;
+  if (hypothesis < kFirstOther || anybody_.size() == 0) return kStranger;
   Person& person = people_[index(hypothesis)];
   person = {};
-  person.mean = mean_look;
+  person.portrait.mean = mean_look;
+  person.portrait.weight = weight;
   person.log_tallness = log_tallness;
-  person.weight = weight;
   refresh(person);
   return hypothesis;
 }

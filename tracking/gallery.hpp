@@ -9,11 +9,12 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <vector>
 
 namespace heel {
 
-/// How a description changes with the colour of the light.
+/// How a description changes with the light.
 struct Tint {
   Eigen::ArrayXi bins;     ///< For each bin, the one that its pixels would be in.
   double log_prior = 0.0;  ///< How usual that light is, at most 0.
@@ -121,19 +122,23 @@ class Gallery {
                  double weight);
 
   /// Puts somebody new into the gallery, in the place of `replaced` or a free one (kStranger).
-  /// @return  Their hypothesis.
+  /// @return  Their hypothesis; kStranger if there is no room, or if looks tell nothing.
   int meet(const Eigen::ArrayXXf& mean_look, double weight, int replaced = kStranger,
            const Tallness& log_tallness = Tallness::Zero());
-  bool isKnown(int hypothesis) const { return people_[index(hypothesis)].weight > 0.0; }
-  bool isFull() const;
+  bool isKnown(int hypothesis) const { return people_[index(hypothesis)].portrait.weight > 0.0; }
+  bool isFull() const { return isKnown(kHypotheses - 1); }
   const GalleryParams& params() const { return params_; }
 
  private:
+  /// The mean of looks at somebody.
+  struct Portrait {
+    Eigen::ArrayXXf mean;
+    Eigen::ArrayXXf log_shares;  // of a bin, with a little of anybody's
+    std::vector<bool> knows;     // which parts
+    double weight = 0.0;         // independent looks that it rests on
+  };
   struct Person {
-    Eigen::ArrayXXf mean;                      // of their looks
-    Eigen::ArrayXXf log_shares;                // of a bin, with a little of anybody's
-    std::vector<bool> knows;                   // which parts
-    double weight = 0.0;                       // independent looks that it rests on; 0: nobody
+    Portrait portrait;                         // of weight 0: nobody
     Tallness log_tallness = Tallness::Zero();  // by looks,
     Tallness statures = Tallness::Zero();      // and what is known by it
     // Their usual misfits, part by part, what these rest on, and how much steeper than kMisfit's a
@@ -141,16 +146,17 @@ class Gallery {
     Eigen::ArrayXd misfit, misfit_weight, rate_gain, log_rate_gain;
   };
   static std::size_t index(int hypothesis) { return static_cast<std::size_t>(hypothesis); }
+  void refresh(Portrait& portrait) const;
   void refresh(Person& person) const;
-  static void average(Person& person, const Eigen::ArrayXXf& look, double weight);
+  static void average(Portrait& portrait, const Eigen::ArrayXXf& look, double weight);
   void takeApart(const Eigen::ArrayXXf& look);
-  double likeness(const Person& person, double log_share);
+  double likeness(const Person& person, const Portrait& portrait, double log_share);
 
   TargetLooks looks_;
   GalleryParams params_;
   Eigen::ArrayXf anybody_, log_anybody_;
-  Person lately_;               // the target since phase 1
   std::vector<Person> people_;  // by hypothesis
+  Portrait lately_;             // of the target, since phase 1
   Tallness anybody_statures_ = Tallness::Zero();
   // The look at hand: bins that are not empty, part by part.
   struct Share {

@@ -59,11 +59,6 @@ Evidence Identity::probabilities(int track_id) const {
   return belief == nullptr ? Evidence(Evidence::Zero()) : belief->probability;
 }
 
-double Identity::targetProbability(int track_id) const {
-  const BodyBelief* belief = find(track_id);
-  return belief == nullptr ? 0.0 : belief->probability[kTarget];
-}
-
 double Identity::hadTarget(int track_id) const {
   const BodyBelief* belief = find(track_id);
   if (belief == nullptr) return 1.0;
@@ -235,7 +230,9 @@ void Identity::miss(BodyBelief& belief, const Eigen::Vector2d& place_m, double s
     const double way_m = (viewpoint.position_m - belief.missed_from_m).norm();
     belief.missed_looks = 1.0 + params_.newsOf(stamp_s - belief.missed_s, way_m);
   }
-  const double stays = belief.stays(stamp_s);
+  // Whoever stood for a time will for as long, one in two.
+  const double stood_s = std::max(belief.seen_s - belief.since_s, BodyBelief::kRests_s);
+  const double stays = stood_s / (stood_s + std::max(stamp_s - belief.seen_s, 0.0));
   const double missed = stays * std::pow(kMissed, belief.missed_looks);
   belief.present = missed / (missed + 1.0 - stays);
   belief.in_view = belief.present * (sight == Sight::kOutside ? kMissed : 1.0);
@@ -280,17 +277,10 @@ void Identity::takePlace(BodyBelief& belief, const Track& track, const Observati
   }
 }
 
-void Identity::takeLook(BodyBelief& belief, const BodyLook& look) {
-  const double elapsed_s = look.stamp_s - belief.view.since_s;
-  const double news = params_.newsOf(elapsed_s, belief.wayTo(look));
-  belief.takeLook(gallery_, look, belief.view.weight == 0.0 ? 1.0 : news);
-}
-
-void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& tracks,
-                    const TrackerReport& report, const std::vector<Observation>& observations,
-                    const Viewpoint& viewpoint) {
+void Identity::step(double stamp_s, const std::vector<Track>& tracks, const TrackerReport& report,
+                    const std::vector<Observation>& observations, const Viewpoint& viewpoint) {
   endBeliefs(tracks);
-  if (dt_s < 0.0) {  // Of another clock.
+  if (report.dt_s < 0.0) {  // Of another clock.
     sightings_.clear();
     left_.clear();
     clutter_.setClock(stamp_s);
@@ -312,13 +302,14 @@ void Identity::step(double stamp_s, double dt_s, const std::vector<Track>& track
     // begin() has taken in where it was seen first.
     if (belief.seen_s != stamp_s) takePlace(belief, track, observations[i], stamp_s);
     if (observations[i].look == nullptr && observations[i].log_person == 0.0) continue;
-    takeLook(belief, {observations[i], parts_[i], looks_[i].all[kThing], statures_[i],
-                      viewpoint.position_m, stamp_s});
+    const BodyLook look{observations[i], parts_[i], viewpoint.position_m, stamp_s};
+    const double elapsed_s = stamp_s - belief.view.since_s;
+    belief.takeLook(gallery_, look, params_.newsOf(elapsed_s, belief.wayTo(look)));
   }
   weighTogether();
   remember(tracks, observations, stamp_s);
 
-  const double time_s = std::clamp(dt_s, 0.0, 1.0);
+  const double time_s = std::clamp(report.dt_s, 0.0, 1.0);
   clutter_.look(viewpoint.position_m, viewpoint.sight_of, time_s);
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const ObservationUse& use = report.uses[i];
@@ -433,7 +424,6 @@ void Identity::leave(BodyBelief& belief) {
   if (belief.seen_s <= belief.since_s || belief.isOnTheWay(belief.seen_s)) return;
   if (left_.size() == kMostLeft) left_.erase(left_.begin());
   left_.push_back(std::move(belief));
-  left_.back().is_alive = false;
   left_.back().looks = 0.0;  // A portrait takes 60 KB.
   left_.back().sum.resize(0, 0);
 }
@@ -442,8 +432,7 @@ void Identity::remember(const std::vector<Track>& tracks,
                         const std::vector<Observation>& observations, double stamp_s) {
   std::optional<Eigen::Vector2d> target_sure_m;
   for (const Track& track : tracks) {
-    const bool is_seen = track.observation != Track::kUnseen;
-    if (is_seen && find(track.id)->probability[kTarget] > 1.0 - kMistaken) {
+    if (track.observation != Track::kUnseen && targetProbability(track.id) > 1.0 - kMistaken) {
       target_sure_m = track.motion.position_m();
     }
   }
@@ -456,20 +445,17 @@ void Identity::remember(const std::vector<Track>& tracks,
       return other.id != track.id && (other.motion.position_m() - place_m).norm() < kAlone_m;
     });
     belief.was_apart = belief.was_apart || is_alone;
-    int best = kStranger;
-    for (int h = kTarget; h < kHypotheses; ++h) {
-      if (belief.probability[h] > 0.5) best = h;
-    }
-    if (belief.probability[kTarget] > 1.0 - kMistaken) belief.replaced = 0.0;
+    int best = 0;
+    const bool is_sure = belief.probability.maxCoeff(&best) > 1.0 - kMistaken;
+    if (is_sure && best == kTarget) belief.replaced = 0.0;
     if (belief.probability.tail<kHypotheses - kTarget>().sum() > kMistaken) {
       sight(belief, place_m, stamp_s);
     }
-    if (!is_alone) continue;
+    if (!is_alone || !is_sure) continue;
     if (best == kStranger) {
       const bool is_another = target_sure_m && (*target_sure_m - place_m).norm() > kAlone_m;
-      const bool is_stranger = belief.probability[kStranger] > 1.0 - kMistaken;
-      if (is_another && is_stranger && belief.looks > kMetLooks) meet(belief);
-    } else if (belief.probability[best] > 1.0 - kMistaken && belief.view.count < View::kMostLooks) {
+      if (is_another && belief.looks > kMetLooks) meet(belief);
+    } else if (best >= kTarget && belief.view.count < View::kMostLooks) {
       // All looks from one side together teach what that view is worth, however long it lasts.
       gallery_.addLookAt(best, seen, parts_[static_cast<std::size_t>(track.observation)],
                          belief.view.weight / View::kMostLooks);
@@ -523,17 +509,19 @@ void Identity::meet(BodyBelief& belief) {
 void Identity::makeTarget(int track_id, const Eigen::Vector2d& place_m, double stamp_s) {
   BodyBelief* belief = find(track_id);
   if (belief == nullptr) belief = &begin(track_id, place_m, stamp_s);
-  for (double& weight : belief->log_place) weight = std::isfinite(weight) ? kLogMistaken : weight;
+  for (int h = kThing; h < kHypotheses; ++h) {
+    belief->log_place[h] = h < kTarget || gallery_.isKnown(h) ? kLogMistaken : -kInfinity;
+  }
   belief->log_place[kTarget] = 0.0;
-  belief->log_views.setZero();
+  belief->log_views = belief->log_free = belief->log_stature = Evidence::Zero();
   belief->log_garments.setZero();
-  belief->log_free.setZero();
   belief->log_tallness.setZero();
-  belief->log_stature.setZero();
   left_.clear();
   belief->view = {};
   belief->known_looks.resize(0);
   belief->looks = 0.0;
+  belief->sum.setZero();
+  belief->see(stamp_s);
   weighTogether();
   sight(*belief, place_m, stamp_s);
 }

@@ -16,7 +16,6 @@
 
 #include <functional>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace heel {
@@ -58,7 +57,7 @@ struct Sighting {
 /// others who were met. Looks, places and ways are evidence; of several tracks at one time only one
 /// can be the target, and only one each other person; each may be away.
 ///
-/// Allocates for a new track, and when somebody is met.
+/// Allocates for a new track, when one ends, and when somebody is met.
 class Identity {
  public:
   /// @throws std::invalid_argument  if a parameter is out of its range.
@@ -72,9 +71,8 @@ class Identity {
   double logLikelihood(int track_id, int observation) const;
 
   /// Takes in what the tracker made of them.
-  void step(double stamp_s, double dt_s, const std::vector<Track>& tracks,
-            const TrackerReport& report, const std::vector<Observation>& observations,
-            const Viewpoint& viewpoint);
+  void step(double stamp_s, const std::vector<Track>& tracks, const TrackerReport& report,
+            const std::vector<Observation>& observations, const Viewpoint& viewpoint);
 
   /// This track is the target, whatever was believed.
   void makeTarget(int track_id, const Eigen::Vector2d& place_m, double stamp_s);
@@ -83,7 +81,7 @@ class Identity {
   /// nobody is seen any more. Of a track that is not known, all 0.
   Evidence probabilities(int track_id) const;
   /// That the target is there now: a track that is not seen where it should be has lost somebody.
-  double targetProbability(int track_id) const;
+  double targetProbability(int track_id) const { return probabilities(track_id)[kTarget]; }
   /// That the target is who is on a track, or was, and somebody else has come in their place; 1
   /// where the track has ended.
   double hadTarget(int track_id) const;
@@ -108,7 +106,6 @@ class Identity {
   void miss(BodyBelief& belief, const Eigen::Vector2d& place_m, double stamp_s,
             const Viewpoint& viewpoint);
   void takePlace(BodyBelief& belief, const Track& track, const Observation& seen, double stamp_s);
-  void takeLook(BodyBelief& belief, const BodyLook& look);
   void mixSwaps(const std::vector<Swap>& swaps);
   void weighTogether();
   const std::vector<BodyWeights>& weigh(bool may_be_empty);

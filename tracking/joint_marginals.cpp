@@ -4,17 +4,13 @@
 #include <heel/tracking/joint_marginals.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 
 namespace heel {
 namespace {
 
-/// A person whom some body may be.
-struct Somebody {
-  int hypothesis;
-  std::size_t bit;  // in a set of people
-};
+/// A person, in a set of people.
+std::size_t bitOf(int h) { return std::size_t{1} << (h - kTarget); }
 
 /// Keeps what underflows away; only the ratios in a row count.
 void rescale(double* row, std::size_t sets) {
@@ -25,17 +21,11 @@ void rescale(double* row, std::size_t sets) {
 }  // namespace
 
 const std::vector<Evidence>& JointMarginals::of(const std::vector<BodyWeights>& bodies) {
-  std::array<Somebody, kHypotheses - kTarget> everybody;
-  std::size_t people = 0;
-  for (int h = kTarget; h < kHypotheses; ++h) {
-    const bool may_be = std::any_of(bodies.begin(), bodies.end(),
-                                    [h](const BodyWeights& body) { return body.weight[h] > 0.0; });
-    if (!may_be) continue;
-    everybody[people] = {h, std::size_t{1} << people};
-    ++people;
+  int end = kTarget;  // From here on nobody is any of the bodies.
+  for (const BodyWeights& body : bodies) {
+    for (int h = end; h < kHypotheses; ++h) end = body.weight[h] > 0.0 ? h + 1 : end;
   }
-  const auto end = everybody.begin() + people;
-  const std::size_t sets = std::size_t{1} << people;
+  const std::size_t sets = bitOf(end);
   const std::size_t count = bodies.size();
   forward_.assign((count + 1) * sets, 0.0);
   backward_.assign((count + 1) * sets, 1.0);
@@ -47,9 +37,8 @@ const std::vector<Evidence>& JointMarginals::of(const std::vector<BodyWeights>& 
     double* after = &forward_[(j + 1) * sets];
     for (std::size_t s = 0; s < sets; ++s) {
       after[s] += before[s] * (nobody + weight[kThing] + weight[kStranger]);
-      for (auto person = everybody.begin(); person != end; ++person) {
-        if ((s & person->bit) == 0)
-          after[s | person->bit] += before[s] * weight[person->hypothesis];
+      for (int h = kTarget; h < end; ++h) {
+        if ((s & bitOf(h)) == 0) after[s | bitOf(h)] += before[s] * weight[h];
       }
     }
     rescale(after, sets);
@@ -66,11 +55,11 @@ const std::vector<Evidence>& JointMarginals::of(const std::vector<BodyWeights>& 
       empty += before[s] * after[s] * nobody;
       marginal[kThing] += before[s] * after[s] * weight[kThing];
       marginal[kStranger] += before[s] * after[s] * weight[kStranger];
-      for (auto person = everybody.begin(); person != end; ++person) {
-        if ((s & person->bit) != 0) continue;
-        const double rest = weight[person->hypothesis] * after[s | person->bit];
+      for (int h = kTarget; h < end; ++h) {
+        if ((s & bitOf(h)) != 0) continue;
+        const double rest = weight[h] * after[s | bitOf(h)];
         now[s] += rest;
-        marginal[person->hypothesis] += before[s] * rest;
+        marginal[h] += before[s] * rest;
       }
     }
     rescale(now, sets);

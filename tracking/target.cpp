@@ -101,12 +101,12 @@ const TargetEstimate& TargetTracker::step(double stamp_s,
     estimate_.reason = TargetReason::kFrameSkipped;
     return estimate_;
   }
-  identity_.step(stamp_s, report.dt_s, tracker_.tracks(), report, observations, viewpoint);
+  identity_.step(stamp_s, tracker_.tracks(), report, observations, viewpoint);
   const bool had_place = estimate_.hasPlace();
   estimate_.verdict = GateVerdict::kAccepted;
   estimate_.reason = TargetReason::kSeen;
   estimate_.candidates = 0;
-  if (report.status == StepStatus::kGap && report.dt_s < 0.0) {
+  if (report.dt_s < 0.0) {
     estimate_.last_seen.reset();  // Of another clock: nobody knows how long ago that was.
   }
   if (start_m_) {
@@ -185,7 +185,6 @@ void TargetTracker::choose() {
 
 /// Says why nobody is the target.
 void TargetTracker::explainNone() {
-  estimate_.track_id = TargetEstimate::kNoTrack;
   estimate_.motion = {};
   estimate_.confidence = 0.0;
   bool somebody_in_view = false;

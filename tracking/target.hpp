@@ -11,7 +11,6 @@
 #include <Eigen/Core>
 
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace heel {

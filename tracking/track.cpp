@@ -52,18 +52,4 @@ const char* toText(TrackStatus status) {
   return "unknown";
 }
 
-const char* toText(StepStatus status) {
-  switch (status) {
-    case StepStatus::kFirst:
-      return "first frame";
-    case StepStatus::kRegular:
-      return "regular";
-    case StepStatus::kGap:
-      return "gap in time";
-    case StepStatus::kSkipped:
-      return "skipped: stamp not later than the one before";
-  }
-  return "unknown";
-}
-
 }  // namespace heel

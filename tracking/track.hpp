@@ -61,7 +61,6 @@ struct Track {
   int id = 0;  ///< Counts from 1; never used again.
   TrackStatus status = TrackStatus::kTentative;
   MotionState motion;           ///< At the newest frame's stamp.
-  double born_s = 0.0;          ///< Stamp of its first observation.
   double seen_s = 0.0;          ///< Stamp of its newest observation.
   int observation = kUnseen;    ///< Index of the observation it took in the newest frame.
   double density_per_m2 = 0.0;  ///< Of that observation's place, as the track foretold it.
@@ -77,7 +76,6 @@ enum class StepStatus {
   kGap,      ///< Later by more than `max_gap_s`, or earlier by more: all tracks were lost first.
   kSkipped,  ///< Not later, by no more than `max_gap_s`: the frame was ignored.
 };
-const char* toText(StepStatus status);
 
 /// What became of an observation.
 enum class ObservationFate {
@@ -109,7 +107,6 @@ struct TrackerReport {
   std::array<int, kGateVerdicts> verdicts = {};  ///< Observations by what the gate said.
   int updated = 0;                               ///< Observations by fate.
   int born = 0;
-  int fragments = 0;
   std::vector<ObservationUse> uses;  ///< One for each observation, in their order.
   std::vector<int> lost;             ///< Ids of confirmed tracks that ended.
   std::vector<Swap> swaps;           ///< That are not improbable.

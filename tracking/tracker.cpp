@@ -47,7 +47,7 @@ const TrackerReport& Tracker::step(double stamp_s, const std::vector<Observation
     throw std::invalid_argument("Tracker: the stamp is not finite");
   }
   report_.verdicts.fill(0);
-  report_.updated = report_.born = report_.fragments = 0;
+  report_.updated = report_.born = 0;
   report_.uses.assign(observations.size(), {});
   report_.lost.clear();
   report_.swaps.clear();
@@ -259,7 +259,7 @@ Track& Tracker::startTrack(double stamp_s, const Eigen::Vector2d& position_m,
   Track& track = tracks_.emplace_back();
   track.id = next_id_++;
   track.motion = startMotion(position_m, noise_m2, params_.start_speed_sigma_mps);
-  track.born_s = track.seen_s = stamp_s;
+  track.seen_s = stamp_s;
   return track;
 }
 
@@ -283,7 +283,6 @@ void Tracker::startTracks(double stamp_s, const std::vector<Observation>& observ
     if (body != tracks_.end()) {
       use.fate = ObservationFate::kFragment;
       use.track_id = body->id;
-      ++report_.fragments;
       continue;
     }
     Track& track = startTrack(stamp_s, o.position_m, noiseOf(o));

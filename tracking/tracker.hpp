@@ -31,7 +31,7 @@ class Tracker {
   explicit Tracker(const TrackerParams& params = {}, GeometricGate gate = {});
 
   /// Logarithm of the likelihood that an observation (an index) looks as it does if it is a track's
-  /// (an id) person, over that of anybody's.
+  /// (an id) person, over that of a thing.
   using LookLikelihood = std::function<double(int track_id, int observation)>;
 
   /// Takes in the observations made at `stamp_s`.
@@ -61,7 +61,6 @@ class Tracker {
   /// All tracks, tentative ones too, in the order of their ids.
   const std::vector<Track>& tracks() const { return tracks_; }
   const TrackerReport& report() const { return report_; }
-  const TrackerParams& params() const { return params_; }
 
  private:
   bool advanceTo(double stamp_s);

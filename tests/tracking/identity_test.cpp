@@ -62,7 +62,7 @@ class Home {
     Viewpoint viewpoint;
     viewpoint.sight_of = [this](const Eigen::Vector2d&) { return sight; };
     identity.look(observations);
-    identity.step(stamp_s, dt_s, tracks, report, observations, viewpoint);
+    identity.step(stamp_s, tracks, report, observations, viewpoint);
   }
   void see(const std::vector<Body>& bodies, int times) {
     for (int i = 0; i < times; ++i) see(bodies);
