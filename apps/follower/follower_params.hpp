@@ -88,8 +88,9 @@ struct FollowerParams {
   double lost_turn_radps = 0.4;  ///< Speed of turning of a robot that does not know where it is.
   /// A robot that was blocked for so long is as near to its goal as it can get.
   double give_up_s = 4.0;
-  /// Whatever may be a person with this probability is avoided as one: to touch somebody costs as
-  /// much as twenty ways around nobody.
+  /// Whatever rests and may be a person with this probability is avoided as one: to touch somebody
+  /// costs as much as twenty ways around nobody. Whatever walks is, if it is likelier a person than
+  /// none.
   double avoid_above = 0.05;
   /// Paths lead around people with so much more room than around things.
   double beside_people_m = 0.05;

@@ -12,6 +12,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kChiSquared99 = 9.21;  // of two degrees of freedom
+constexpr double kLikely = 0.5;         // Who walks is avoided if they are a person with this.
 constexpr double kLegs_m = 0.12;        // So far from the middle of who stands are their legs.
 
 // Whether they move, as surely as 99 of 100.
@@ -68,9 +69,9 @@ void PeopleAround::addTracks(double stamp_s, const Perception& perception, Situa
     if (track.status == TrackStatus::kTentative) continue;
     if (isNear(track.motion.position_m(), now.target)) continue;  // their other leg, too
     const Evidence who = identity.probabilities(track.id);
-    if (who.sum() - who[kThing] < avoid_above_) continue;
     const double rests_s = identity.restsFor_s(track.id, stamp_s);
     const bool rests = rests_s >= walks_on_s_ && !setsOff(track.motion);
+    if (who.sum() - who[kThing] < (rests ? avoid_above_ : kLikely)) continue;
     MovingPerson& person = now.people.emplace_back();
     person.position = track.motion.position_m();
     if (rests) {

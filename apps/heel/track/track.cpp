@@ -88,8 +88,7 @@ std::vector<Eigen::Vector2d> peopleOf(const Perception& perception) {
   std::vector<Eigen::Vector2d> places;
   for (const Track& track : perception.tracks()) {
     const Evidence who = perception.identity().probabilities(track.id);
-    if (track.status == TrackStatus::kTentative || who.sum() - who[kThing] < avoid_above)
-      continue;
+    if (track.status == TrackStatus::kTentative || who.sum() - who[kThing] < avoid_above) continue;
     places.push_back(track.motion.position_m());
   }
   return places;

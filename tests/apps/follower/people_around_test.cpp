@@ -43,8 +43,8 @@ TEST(PeopleAround, WhoMayBeAPersonIsAvoidedAsOneUntilTheyAreSurelyNone) {
   int unsure = 0, things = 0;
   for (const Track& track : perception.tracks()) {
     const double thing = perception.identity().probabilities(track.id)[kThing];
-    unsure += thing > 0.2 && thing < 0.8 ? 1 : 0;
-    things += thing > 0.8 ? 1 : 0;
+    unsure += thing > 0.2 && thing < 0.95 ? 1 : 0;
+    things += thing > 0.95 ? 1 : 0;
   }
   ASSERT_EQ(unsure, 1) << "the legs";
   ASSERT_EQ(things, 1) << "the chair";
