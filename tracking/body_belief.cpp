@@ -81,7 +81,7 @@ void BodyBelief::takeLook(const Gallery& gallery, const BodyLook& look, double n
   view.garments += (odds.target - view.garments) / view.count;
   if (look.seen.stature_m) {
     view.tallness_count = std::min(view.tallness_count + 1.0, View::kMostLooks);
-    view.tallness += (gallery.logTallness(look.seen) - view.tallness) / view.tallness_count;
+    view.tallness += (look.tallness - view.tallness) / view.tallness_count;
   }
   log_stature = gallery.logLikelihood(logTallness());
   if (sum.size() == 0) sum.setZero(look.seen.look->rows(), look.seen.look->cols());

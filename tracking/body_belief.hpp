@@ -21,7 +21,8 @@ namespace heel {
 /// A look at a body, and what it says.
 struct BodyLook {
   const Observation& seen;
-  const LookEvidence& parts;  ///< By its colours, part by part.
+  const LookEvidence& parts;  ///< By its colours, part by part,
+  const Tallness& tallness;   ///< and by its stature.
   Eigen::Vector2d eye_m;      ///< Where the camera was,
   double stamp_s;             ///< and when.
 };

@@ -302,7 +302,7 @@ void Identity::step(double stamp_s, const std::vector<Track>& tracks, const Trac
     // begin() has taken in where it was seen first.
     if (belief.seen_s != stamp_s) takePlace(belief, track, observations[i], stamp_s);
     if (observations[i].look == nullptr && observations[i].log_person == 0.0) continue;
-    const BodyLook look{observations[i], parts_[i], viewpoint.position_m, stamp_s};
+    const BodyLook look{observations[i], parts_[i], statures_[i], viewpoint.position_m, stamp_s};
     const double elapsed_s = stamp_s - belief.view.since_s;
     belief.takeLook(gallery_, look, params_.newsOf(elapsed_s, belief.wayTo(look)));
   }

@@ -68,6 +68,10 @@ double target(double log_odds, const GalleryParams& params = {}) {
          std::log1p(mislead * mislead * std::expm1(log_odds));
 }
 
+TEST(Gallery, NobodyIsMetWhereLooksTellNothing) {
+  EXPECT_EQ(Gallery().meet(clothes(0, 1), 1.0), kStranger);
+}
+
 TEST(Gallery, WhatIsNotSeenSaysNothing) {
   Gallery gallery(looksOf(clothes(0, 1)));
   const auto says_nothing = [](const Evidence& evidence) {

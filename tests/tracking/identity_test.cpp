@@ -264,6 +264,17 @@ TEST(Identity, MakesATrackTheTargetWhateverWasBelieved) {
   EXPECT_GT(home.target(9), 0.4);
 }
 
+// Bug: who was missed where the floor was seen stayed as likely away when told that they are there.
+TEST(Identity, WhoIsToldToBeTheTargetIsThere) {
+  Home home;
+  home.see({{1, {1, 0}, &kBlue}});
+  home.sight = Sight::kFree;
+  home.see({{1, {1, 0}, nullptr, false}}, 20);
+  ASSERT_LT(home.probability(1, kStranger), 0.1) << "nobody is there";
+  home.identity.makeTarget(1, {1, 0}, home.stamp_s);
+  EXPECT_GT(home.target(1), 0.9);
+}
+
 TEST(Identity, ATargetWithoutAnyLooksStaysTheTarget) {
   Home home({}, {});
   home.see({{1, {1, 0}}});

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Heel authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <heel/apps/follower/follower_params.hpp>
+#include <heel/apps/follower/wall_gate.hpp>
 #include <heel/apps/heel/commands.hpp>
 #include <heel/apps/heel/shared/arguments.hpp>
 #include <heel/apps/heel/shared/lap_clock.hpp>
@@ -82,13 +82,13 @@ void useMap(const TrackOptions& options, CameraSetup& setup, RobotPlaces& robot,
   gates.push_back(wallGate(map.walls, gate));
 }
 
-/// Where people are who hide walls from the laser: as the follower takes them.
+/// Where people likely are, who hide walls from the laser.
 std::vector<Eigen::Vector2d> peopleOf(const Perception& perception) {
-  static const double avoid_above = FollowerParams().avoid_above;
+  constexpr double kLikely = 0.5;
   std::vector<Eigen::Vector2d> places;
   for (const Track& track : perception.tracks()) {
     const Evidence who = perception.identity().probabilities(track.id);
-    if (track.status == TrackStatus::kTentative || who.sum() - who[kThing] < avoid_above) continue;
+    if (track.status == TrackStatus::kTentative || who.sum() - who[kThing] < kLikely) continue;
     places.push_back(track.motion.position_m());
   }
   return places;

@@ -52,6 +52,28 @@ TEST(PeopleAround, WhoMayBeAPersonIsAvoidedAsOneUntilTheyAreSurelyNone) {
   EXPECT_LT((now.people[0].position - legs_m).norm(), 0.3);
 }
 
+// Bug: a person who stood in a corridor became more and more a thing, and at 80 % was touched.
+TEST(PeopleAround, WhoStandsForLongIsStillAvoided) {
+  Perception perception = perceptionOfStage();
+  const Eigen::Vector2d legs_m(-2.0, 1.0);  // behind the robot
+  const LaserBodies legs = legsAt({legs_m});
+  const RecentSight sight({}, 8.0);
+  PeopleAround people{FollowerParams()};
+  Situation now;
+  now.unseen_s = 1e3;
+  double thing = 0.0;
+  for (int i = 0; i < 2000 && thing < 0.85; ++i) {
+    perception.step(ColoredStage().frame(0.1 * i), {}, &legs);
+    people.step(0.1 * i, perception, sight, {}, now);
+    if (!perception.tracks().empty()) {
+      thing = perception.identity().probabilities(perception.tracks()[0].id)[kThing];
+    }
+  }
+  ASSERT_GT(thing, 0.85);
+  ASSERT_EQ(now.people.size(), 1U);
+  EXPECT_LT((now.people[0].position - legs_m).norm(), 0.3);
+}
+
 // Bug: the camera's track of somebody was 15 cm behind where the laser saw their legs, and the
 // robot still rolled when they had walked up to it.
 TEST(PeopleAround, AreWhereTheLaserSeesThemNowToo) {
