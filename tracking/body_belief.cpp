@@ -78,7 +78,7 @@ void BodyBelief::takeLook(const Gallery& gallery, const BodyLook& look, double n
   for (int h = kStranger; h < kHypotheses; ++h) {
     if (std::isfinite(odds.all[h])) view.mean[h] += (odds.all[h] - view.mean[h]) / view.count;
   }
-  view.garments += (odds.target - view.garments) / view.count;
+  view.garments += (odds.garments - view.garments) / view.count;
   if (look.seen.stature_m) {
     view.tallness_count = std::min(view.tallness_count + 1.0, View::kMostLooks);
     view.tallness += (look.tallness - view.tallness) / view.tallness_count;

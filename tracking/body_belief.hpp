@@ -36,7 +36,7 @@ struct View {
   double since_s = -std::numeric_limits<double>::infinity();
   double weight = 0.0;  ///< As far as it is another view than the one before; 0: there is none.
   Evidence mean = Evidence::Zero();
-  Garments garments = Garments::Zero();  ///< The mean of what looks say of the target's,
+  Garments garments = Garments::Zero();  ///< The mean of what looks say of garments,
   Tallness tallness = Tallness::Zero();  ///< and of statures.
   double count = 0.0;                    ///< Looks in the means, those that show colours,
   double tallness_count = 0.0;           ///< and a stature;
@@ -49,7 +49,7 @@ struct PastBelief {
   Evidence log_place = Evidence::Zero();
   Evidence log_all = Evidence::Zero();   ///< By all but statures,
   Evidence log_view = Evidence::Zero();  ///< and of it by the view at hand.
-  /// The same for the target, garment by garment, and of statures.
+  /// The same garment by garment, and of statures.
   Garments log_garments = Garments::Zero(), log_view_garments = Garments::Zero();
   Tallness log_tallness = Tallness::Zero(), log_view_tallness = Tallness::Zero();
 };
@@ -68,7 +68,7 @@ struct BodyBelief {
   int track_id = 0;
   Evidence log_place = Evidence::Zero();     ///< By where it came from and goes.
   Evidence log_views = Evidence::Zero();     ///< By looks from all views but the present one,
-  Garments log_garments = Garments::Zero();  ///< and how that is spread over the target's garments.
+  Garments log_garments = Garments::Zero();  ///< and how that is spread over garments.
   /// By who was somebody else in view at the same time, and has left.
   Evidence log_free = Evidence::Zero();
   Evidence probability = Evidence::Zero();            ///< With who is in view now, too.

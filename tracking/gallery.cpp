@@ -81,18 +81,33 @@ Gallery::Gallery(TargetLooks looks, const GalleryParams& params)
   Tint same;
   same.bins = Eigen::ArrayXi::LinSpaced(bins, 0, static_cast<int>(bins) - 1);
   looks_.tints.insert(looks_.tints.begin(), same);
-  lately_.mean = people_[kTarget].portrait.mean = looks_.target;
-  people_[kTarget].portrait.weight = 1.0;
+  people_[kTarget].portrait = portraitOf(looks_.target, 1.0);
+  lately_ = portraitOf(looks_.target, 0.0);
   refresh(people_[kTarget]);
 }
 
-void Gallery::refresh(Portrait& portrait) const {
-  portrait.log_shares =
-      ((portrait.mean.colwise() + kUnseenShare * anybody_) / (1.0F + kUnseenShare)).log();
-  portrait.knows.clear();
-  for (Eigen::Index part = 0; part < portrait.mean.cols(); ++part) {
-    portrait.knows.push_back(shows(portrait.mean, part));
+Gallery::Portrait Gallery::portraitOf(const Eigen::ArrayXXf& mean, double weight) const {
+  Portrait portrait{mean, mean, mean, std::vector<bool>(static_cast<std::size_t>(mean.cols())),
+                    weight};
+  for (Eigen::Index part = 0; part < mean.cols(); ++part) refresh(portrait, part);
+  return portrait;
+}
+
+/// After a change of a part's mean.
+void Gallery::refresh(Portrait& portrait, Eigen::Index part) const {
+  const auto mean = portrait.mean.col(part);
+  Eigen::ArrayXf like = Eigen::ArrayXf::Zero(mean.size());
+  for (Eigen::Index bin = 0; bin < mean.size(); ++bin) {
+    if (mean[bin] <= 0.0F) continue;
+    const float share = mean[bin] / static_cast<float>(looks_.tints.size());
+    for (const Tint& tint : looks_.tints) like[tint.bins[bin]] += share;
   }
+  const auto logShares = [this](const auto& shares) {
+    return ((shares + kUnseenShare * anybody_) / (1.0F + kUnseenShare)).log();
+  };
+  portrait.log_shares.col(part) = logShares(mean);
+  portrait.log_like.col(part) = logShares(like);
+  portrait.knows[static_cast<std::size_t>(part)] = shows(portrait.mean, part);
 }
 
 void Gallery::refresh(Person& person) const {
@@ -107,7 +122,6 @@ void Gallery::refresh(Person& person) const {
   person.statures = is_told ? densityOf(*looks_.stature_m, kStatureSigma_m) : anybody_statures_;
   person.statures *= person.log_tallness.exp();
   person.statures /= person.statures.sum();
-  refresh(person.portrait);
 }
 
 void Gallery::takeApart(const Eigen::ArrayXXf& look) {
@@ -127,6 +141,21 @@ void Gallery::takeApart(const Eigen::ArrayXXf& look) {
   }
 }
 
+/// KL(a part of the look at hand || a portrait's) in a light.
+/// @param log_shares  of the portrait's part
+double Gallery::divergence(const float* log_shares, std::size_t part, const Tint& tint) const {
+  float mean = 0.0F;
+  for (std::size_t n = part == 0 ? 0 : ends_[part - 1]; n < ends_[part]; ++n) {
+    mean += look_[n].share * log_shares[tint.bins[look_[n].bin]];
+  }
+  return entropies_[part] - static_cast<double>(mean);
+}
+
+/// Of a part of the look at hand, in a light.
+double Gallery::logOdds(double misfit, std::size_t part, const Tint& tint) const {
+  return kLikenessOffset + kRarityShare * divergence(log_anybody_.data(), part, tint) - misfit;
+}
+
 /// Over the parts that both the look and the portrait show, in the light that fits best; leaves
 /// their log odds and misfits in that light, 0 and -1 where there is none, if it fits better than
 /// what is there.
@@ -140,26 +169,20 @@ double Gallery::likeness(const Person& person, const Portrait& portrait, double 
     for (std::size_t part = 0, i = 0; part < ends_.size(); i = ends_[part++]) {
       if (i == ends_[part] || !portrait.knows[part]) continue;
       const auto column = static_cast<Eigen::Index>(part);
-      const float* log_shares = portrait.log_shares.col(column).data();
-      float like = 0.0F, usual = 0.0F;
-      for (std::size_t n = i; n < ends_[part]; ++n) {
-        const int bin = tint.bins[look_[n].bin];
-        like += look_[n].share * log_shares[bin];
-        usual += look_[n].share * log_anybody_[bin];
-      }
-      const double entropy = entropies_[part];
-      const double misfit = misfit_[column] = std::max(entropy - static_cast<double>(like), 0.0);
-      const double likeness = kRarityShare * (entropy - static_cast<double>(usual)) - misfit;
+      const double misfit = misfit_[column] =
+          std::max(divergence(portrait.log_shares.col(column).data(), part, tint), 0.0);
       // Only against them: things of their colours may fit as well.
       const double against =
           kMisfitShape * (misfit * person.rate_gain[column] - person.log_rate_gain[column]);
-      parts_[column] = kLikenessOffset + likeness -
+      parts_[column] = logOdds(misfit, part, tint) -
                        std::clamp(against, 0.0, -std::log(params_.misleading_share));
       sum += parts_[column];
     }
     most = std::max(most, sum);
     if (sum <= best_) continue;
     best_ = sum;
+    best_portrait_ = &portrait;
+    best_tint_ = &tint;
     best_misfit_.swap(misfit_);
     best_parts_.swap(parts_);
   }
@@ -222,46 +245,53 @@ void Gallery::compare(const Observation& seen, LookEvidence& evidence) {
     evidence.light[h] = sum - best_parts_.sum();
     evidence.parts.row(h) = best_parts_.transpose();
     evidence.misfits.row(h) = best_misfit_.transpose();
+    if (h != kTarget) continue;
+    for (Eigen::Index part = 0; part < best_parts_.size(); ++part) {
+      if (best_misfit_[part] < 0.0) continue;
+      const auto i = static_cast<std::size_t>(part);
+      const float* log_like = best_portrait_->log_like.col(part).data();
+      const double misfit = std::max(divergence(log_like, i, *best_tint_), 0.0);
+      evidence.parts(kStranger, part) = logOdds(misfit, i, *best_tint_);
+    }
   }
 }
 
 LookOdds Gallery::logOdds(const LookEvidence& look, const Eigen::ArrayXXd* known) const {
   LookOdds odds{look.light};
   if (!(look.is_seen > 0.0).any()) return odds;
-  for (int h = kTarget; h < kHypotheses; ++h) {
-    if (!std::isfinite(look.light[h])) continue;
-    Garments garments = Garments::Zero();
+  const auto garmentsOf = [&](int h) {
+    Eigen::Array<double, kGarments, 1> garments = Eigen::Array<double, kGarments, 1>::Zero();
     for (Eigen::Index part = 0; part < look.parts.cols(); ++part) {
       garments[looks_.garments[static_cast<std::size_t>(part)]] +=
           look.is_seen[part] > 0.0 || known == nullptr ? look.parts(h, part) : (*known)(h, part);
     }
-    const double sum = look.light[h] + garments.sum();
-    // Fewer looks are like somebody by chance than are unlike themselves.
-    const double mislead = params_.misleading_share, alike = mislead * mislead;
+    return garments;
+  };
+  const double mislead = params_.misleading_share, alike = mislead * mislead;
+  // Fewer looks are like somebody by chance than are unlike themselves.
+  const auto bounded = [&](double sum) {
     const double ratio = std::exp(std::min(sum, 100.0));
-    odds.all[h] = std::log(((1.0 - mislead) * ratio + mislead) / (1.0 - alike + alike * ratio));
-    if (h != kTarget) continue;
+    return std::log(((1.0 - mislead) * ratio + mislead) / (1.0 - alike + alike * ratio));
+  };
+  for (int h = kTarget; h < kHypotheses; ++h) {
+    if (std::isfinite(look.light[h])) odds.all[h] = bounded(look.light[h] + garmentsOf(h).sum());
+  }
+  for (const auto& [column, h] : {std::pair(kOwn, kTarget), {kLike, kStranger}}) {
+    const auto garments = garmentsOf(h);
+    const double sum = look.light[kTarget] + garments.sum();
     constexpr double kNothing = 1e-6;  // Nearer to 0 the share is the slope there.
-    odds.target = garments * (std::abs(sum) > kNothing ? odds.all[h] / sum : 1.0 - mislead - alike);
+    odds.garments.col(column) =
+        garments * (std::abs(sum) > kNothing ? bounded(sum) / sum : 1.0 - mislead - alike);
   }
   return odds;
 }
 
 double Gallery::logAlike(const Garments& garments) const {
   const double share = params_.misleading_share;
-  const double some = (1.0 - share + share * garments.min(100.0).exp()).log().max(0.0).sum();
-  const double all = std::exp(std::min(garments.sum() - some, 100.0));
+  const auto like = garments.col(kLike);
+  const double some = (1.0 - share + share * like.min(100.0).exp()).log().max(0.0).sum();
+  const double all = std::exp(std::min(like.sum() - some, 100.0));
   return std::max(some + std::log1p(share * share * (all - 1.0)), 0.0);
-}
-
-void Gallery::average(Portrait& portrait, const Eigen::ArrayXXf& look, double weight) {
-  portrait.weight = std::min(portrait.weight + weight, kMostWeight);
-  const auto gain = static_cast<float>(weight / portrait.weight);
-  for (Eigen::Index part = 0; part < look.cols(); ++part) {
-    if (!shows(look, part)) continue;
-    const float keep = shows(portrait.mean, part) ? 1.0F - gain : 0.0F;
-    portrait.mean.col(part) = keep * portrait.mean.col(part) + (1.0F - keep) * look.col(part);
-  }
 }
 
 void Gallery::addLookAt(int hypothesis, const Observation& seen, const LookEvidence& evidence,
@@ -279,18 +309,22 @@ void Gallery::addLookAt(int hypothesis, const Observation& seen, const LookEvide
     person.log_tallness +=
         weight * (logTallness(seen) - params_.look_correlation * person.log_tallness);
   }
-  const bool is_target = hypothesis == kTarget;
-  if ((evidence.is_seen > 0.0).any()) {
-    average(is_target ? lately_ : person.portrait, *seen.look, weight);
-  }
-  if (is_target) {
-    // What phase 1 did not show is as it was seen since.
-    for (Eigen::Index part = 0; part < looks_.target.cols(); ++part) {
-      if (!shows(looks_.target, part)) person.portrait.mean.col(part) = lately_.mean.col(part);
-    }
-    refresh(lately_);
-  }
   refresh(person);
+  if (!(evidence.is_seen > 0.0).any()) return;
+  Portrait& portrait = hypothesis == kTarget ? lately_ : person.portrait;
+  portrait.weight = std::min(portrait.weight + weight, kMostWeight);
+  const auto gain = static_cast<float>(weight / portrait.weight);
+  for (Eigen::Index part = 0; part < seen.look->cols(); ++part) {
+    if (!shows(*seen.look, part)) continue;
+    const float keep = shows(portrait.mean, part) ? 1.0F - gain : 0.0F;
+    portrait.mean.col(part) = keep * portrait.mean.col(part) + (1.0F - keep) * seen.look->col(part);
+    refresh(portrait, part);
+    // What phase 1 did not show is as it was seen since.
+    if (hypothesis == kTarget && !shows(looks_.target, part)) {
+      person.portrait.mean.col(part) = portrait.mean.col(part);
+      refresh(person.portrait, part);
+    }
+  }
 }
 
 int Gallery::meet(const Eigen::ArrayXXf& mean_look, double weight, int replaced,
@@ -302,8 +336,7 @@ int Gallery::meet(const Eigen::ArrayXXf& mean_look, double weight, int replaced,
   if (hypothesis < kFirstOther || anybody_.size() == 0) return kStranger;
   Person& person = people_[index(hypothesis)];
   person = {};
-  person.portrait.mean = mean_look;
-  person.portrait.weight = weight;
+  person.portrait = portraitOf(mean_look, weight);
   person.log_tallness = log_tallness;
   refresh(person);
   return hypothesis;

@@ -46,12 +46,15 @@ using Evidence = Eigen::Array<double, kHypotheses, 1>;
 
 /// What strangers may share with somebody, each by itself: trousers, a top, hair.
 inline constexpr int kGarments = 3;
-using Garments = Eigen::Array<double, kGarments, 1>;
+/// A row a garment: log odds over any stranger of the target, and of a stranger who wears its like.
+using Garments = Eigen::Array<double, kGarments, 2>;
+inline constexpr int kOwn = 0, kLike = 1;
 
 /// What a look's colours say, part by part.
 struct LookEvidence {
-  Eigen::ArrayXXd
-      parts;  ///< Log odds over a stranger, hypotheses x parts; 0 where nothing is said.
+  /// Log odds over any stranger, hypotheses x parts; 0 where nothing is said. A stranger's are
+  /// those of one who wears what the target's clothes are like in any light.
+  Eigen::ArrayXXd parts;
   Eigen::ArrayXXd misfits;            ///< KL(look || person) of each; -1 where nothing is said.
   Eigen::ArrayXd is_seen;             ///< 1 of the parts that it shows, else 0.
   Evidence light = Evidence::Zero();  ///< What the light says in which each fits best; -infinity of
@@ -77,8 +80,8 @@ inline constexpr double kRarityShare = 0.5;
 
 /// What a look's colours say together: logarithms of the likelihood over a stranger's.
 struct LookOdds {
-  Evidence all = Evidence::Zero();     ///< -infinity where there is nobody.
-  Garments target = Garments::Zero();  ///< Garment by garment.
+  Evidence all = Evidence::Zero();       ///< -infinity where there is nobody.
+  Garments garments = Garments::Zero();  ///< Garment by garment.
 };
 
 struct GalleryParams {
@@ -103,9 +106,8 @@ class Gallery {
   /// What a look's colours say together, bounded as GalleryParams say.
   /// @param known  What other looks say of the parts that it does not show, as LookEvidence::parts.
   LookOdds logOdds(const LookEvidence& look, const Eigen::ArrayXXd* known = nullptr) const;
-  /// How much likelier looks are by a stranger who may wear some of what the target does, or all,
-  /// than by any, as a logarithm.
-  /// @param garments  The log odds for the target that they have, garment by garment.
+  /// How much likelier looks are by a stranger who may wear the like of some of what the target
+  /// does, or all, than by any, as a logarithm.
   double logAlike(const Garments& garments) const;
 
   /// What a look says of stature; 0 where it says nothing.
@@ -133,7 +135,8 @@ class Gallery {
   /// The mean of looks at somebody.
   struct Portrait {
     Eigen::ArrayXXf mean;
-    Eigen::ArrayXXf log_shares;  // of a bin, with a little of anybody's
+    Eigen::ArrayXXf log_shares;  // of a bin, with a little of anybody's,
+    Eigen::ArrayXXf log_like;    // and of the mean in all lights
     std::vector<bool> knows;     // which parts
     double weight = 0.0;         // independent looks that it rests on
   };
@@ -146,10 +149,12 @@ class Gallery {
     Eigen::ArrayXd misfit, misfit_weight, rate_gain, log_rate_gain;
   };
   static std::size_t index(int hypothesis) { return static_cast<std::size_t>(hypothesis); }
-  void refresh(Portrait& portrait) const;
+  Portrait portraitOf(const Eigen::ArrayXXf& mean, double weight) const;
+  void refresh(Portrait& portrait, Eigen::Index part) const;
   void refresh(Person& person) const;
-  static void average(Portrait& portrait, const Eigen::ArrayXXf& look, double weight);
   void takeApart(const Eigen::ArrayXXf& look);
+  double divergence(const float* log_shares, std::size_t part, const Tint& tint) const;
+  double logOdds(double misfit, std::size_t part, const Tint& tint) const;
   double likeness(const Person& person, const Portrait& portrait, double log_share);
 
   TargetLooks looks_;
@@ -168,6 +173,8 @@ class Gallery {
   std::vector<double> entropies_;  // sum of share * log(share) of each part
   Eigen::ArrayXd misfit_, best_misfit_;
   Eigen::ArrayXd parts_, best_parts_;  // log odds
+  const Portrait* best_portrait_ = nullptr;
+  const Tint* best_tint_ = nullptr;
   double best_ = 0.0;
 };
 

@@ -343,7 +343,7 @@ Evidence Identity::logWeight(const BodyBelief& belief) const {
   const Evidence log_colors = belief.logColors();
   const Garments garments = belief.logGarments();
   const double alike = gallery_.logAlike(garments);
-  const double most = garments.sum() - alike;
+  const double most = garments.col(kOwn).sum() - alike;
   Evidence log_weight = belief.log_place + belief.log_free + log_colors + belief.log_stature;
   log_weight[kStranger] +=
       std::clamp(log_colors[kTarget] - log_colors[kStranger] - most, 0.0, alike);

@@ -67,7 +67,10 @@ FollowSample sampleOf(const FollowStep& step, const Follower& follower) {
   sample.command = step.velocity;
   sample.state = step.state();
   sample.reason = step.reason;
-  if (follower.perception() != nullptr) sample.target_status = toText(follower.target().status);
+  if (follower.perception() != nullptr) {
+    sample.target_status = toText(follower.target().status);
+    sample.confidence = follower.target().confidence;
+  }
   if (step.perception != nullptr && !step.perception->mask.empty()) {
     sample.candidate_share =
         step.perception->color_pixels / static_cast<double>(step.perception->mask.total());

@@ -72,6 +72,7 @@ CsvWriter followCsv(const OutputPath& file) {
            "state",
            "reason",
            "target_status",
+           "confidence",
            "x_m",
            "y_m",
            "yaw_rad",
@@ -107,6 +108,7 @@ void addPose(CsvWriter& csv, const FloorPose& pose) {
 void addRows(CsvWriter& csv, const FollowLog& log) {
   for (const FollowSample& s : log.samples) {
     csv.number(s.stamp_s, 3).text(s.state).text(s.reason).text(s.target_status);
+    csv.number(s.confidence, 3);
     addPose(csv, s.robot_true);
     addPose(csv, s.robot_estimated);
     csv.number(s.position_sigma_m, 4).flag(s.is_localized);

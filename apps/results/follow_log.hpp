@@ -38,6 +38,7 @@ struct FollowSample {
   std::string state;  ///< The plan's active action: "learn", "follow", "face", "seek", ...
   std::string reason;
   std::string target_status;                       ///< For instance "followed", "lost".
+  double confidence = kNotKnown;                   ///< TargetEstimate::confidence.
   std::optional<Eigen::Vector2d> person_true;      ///< Absent while they are not in the scene.
   std::optional<Eigen::Vector2d> target_estimate;  ///< Absent while the target is lost.
   std::vector<Eigen::Vector2d> others_true;

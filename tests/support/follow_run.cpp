@@ -189,6 +189,7 @@ FollowLog flatRun() {
     if (t > -10.0) s.person_true = person;
     s.target_estimate = estimate;
     s.target_status = estimate ? "followed" : "lost";
+    s.confidence = estimate ? 0.97 : 0.12;
     s.others_true = {other_way.after(std::fmod(std::max(0.0, t) * 0.6, other_way.length()))};
     if (s.person_true) s.person_distance_m = (person - robot.position).norm();
     s.clearance_m = 0.55 + 0.3 * std::sin(0.21 * t) + 0.1 * std::sin(1.7 * t);

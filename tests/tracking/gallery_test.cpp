@@ -195,7 +195,9 @@ TEST(Gallery, StrangersMayWearEachGarmentByItselfOrAll) {
   params.misleading_share = 0.1;
   const Gallery gallery(looksOf(clothes(0, 1)), params);
   const auto alike = [&](double trousers, double top, double hair) {
-    return gallery.logAlike(Garments(trousers, top, hair));
+    Garments garments = Garments::Constant(7.0);  // What the target's own are does not matter.
+    garments.col(kLike) << trousers, top, hair;
+    return gallery.logAlike(garments);
   };
   EXPECT_EQ(alike(0.0, 0.0, 0.0), 0.0);
   EXPECT_NEAR(alike(std::log(11.0), 0.0, 0.0), std::log(0.99 * 2.0 + 0.01 * 11.0), 1e-12);
@@ -211,15 +213,33 @@ TEST(Gallery, ALooksLogOddsForTheTargetAreThoseOfItsGarments) {
     const Eigen::ArrayXXf colors = clothes(upper, lower);
     gallery.compare(seen(0, 0, &colors), look);
     const LookOdds odds = gallery.logOdds(look);
-    EXPECT_NEAR(odds.target.sum(), odds.all[kTarget], 1e-9);
-    EXPECT_EQ(odds.target[0] > 0.0, upper == 0);
-    EXPECT_EQ(odds.target[1] > 0.0, lower == 1);
-    EXPECT_EQ(odds.target[2], 0.0);
+    const auto own = odds.garments.col(kOwn);
+    EXPECT_NEAR(own.sum(), odds.all[kTarget], 1e-9);
+    EXPECT_EQ(own[0] > 0.0, upper == 0);
+    EXPECT_EQ(own[1] > 0.0, lower == 1);
+    EXPECT_EQ(own[2], 0.0);
+    EXPECT_TRUE(odds.garments.col(kLike).isApprox(own)) << "in one light";
     EXPECT_NEAR(look.misfits(kTarget, 0), misfitOf(upper == 0 ? 1.0 : 0.0), 1e-5);
     EXPECT_EQ(look.misfits(kFirstOther, 0), -1.0) << "nobody";
     const double top = partLogOdds(upper == 0 ? 1.0 : 0.0);
     const double trousers = partLogOdds(lower == 1 ? 1.0 : 0.0);
-    EXPECT_NEAR(odds.target[0] / odds.target[1], top / trousers, 1e-5);
+    EXPECT_NEAR(own[0] / own[1], top / trousers, 1e-5);
+  }
+}
+
+TEST(Gallery, AStrangerMayWearWhatTheTargetsClothesAreLikeInAnyLight) {
+  TargetLooks looks = looksOf(clothes(0, 1));
+  Tint lamp;  // In its light colours 0 and 1 are taken for 3 and 4.
+  lamp.bins.resize(test::kColors);
+  lamp.bins << 3, 4, 2, 3, 4, 5;
+  looks.tints = {lamp};
+  Gallery gallery(looks);
+  LookEvidence look;
+  for (const auto& [colors, share] : {std::pair(clothes(0, 1), 1.0), {clothes(3, 4), 0.0}}) {
+    gallery.compare(seen(0, 0, &colors), look);
+    const Garments garments = gallery.logOdds(look).garments;
+    EXPECT_NEAR(garments.col(kOwn).sum(), target(2.0 * partLogOdds(share)), 1e-5);
+    EXPECT_NEAR(garments.col(kLike).sum(), target(2.0 * partLogOdds(0.5)), 1e-5);
   }
 }
 

@@ -100,14 +100,14 @@ Evidence newcomer(int others = 0) {
 
 const double kShare = GalleryParams().misleading_share;
 
-/// What looks say, if a stranger may wear some of what the target does, or all.
+/// What looks say, if a stranger may wear the like of some of what the target does, or all.
 Evidence likelihoods(const LookOdds& look) {
   Evidence likelihood = look.all.exp();
   double some = 1.0;
-  for (const double odds : look.target) {
+  for (const double odds : look.garments.col(kLike)) {
     some *= std::max(1.0 - kShare + kShare * std::exp(odds), 1.0);
   }
-  const double all = std::exp(look.target.sum());
+  const double all = std::exp(look.garments.col(kLike).sum());
   likelihood[kStranger] *= std::max(some + kShare * kShare * (all - some), 1.0);
   return likelihood;
 }

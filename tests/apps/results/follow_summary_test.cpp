@@ -190,12 +190,13 @@ TEST(FollowFiles, HoldTheRunAndAreTheSameOnEveryRun) {
         "contacts_by_people", "wrong_person_s", "near_others_s", "min_clearance_m"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
-  heel::CsvReader csv(folder / "a/follow.csv", {"stamp_s", "x_m", "localized"});
+  heel::CsvReader csv(folder / "a/follow.csv", {"stamp_s", "x_m", "localized", "confidence"});
   std::size_t rows = 0;
   while (csv.next()) {
     EXPECT_NEAR(csv.number(0), log.samples[rows].stamp_s, 1e-3);
     EXPECT_NEAR(csv.number(1), log.samples[rows].robot_true.position.x(), 1e-4);
     EXPECT_TRUE(csv.flag(2));
+    EXPECT_NEAR(csv.number(3), log.samples[rows].confidence, 1e-3);
     ++rows;
   }
   EXPECT_EQ(rows, log.samples.size());
