@@ -87,9 +87,9 @@ struct LookOdds {
 struct GalleryParams {
   /// Share of looks that mislead (shade, somebody half in front, a lintel over them). It bounds
   /// what one look at colours, and one at stature, can say against anybody. As many strangers wear
-  /// the same top as somebody, or trousers, or have the same hair, each by itself, and its square
-  /// all of it: that bounds what all looks can say for the target. Its square bounds what one look
-  /// says for anybody.
+  /// the like of somebody's top, or trousers, or have such hair, each by itself, and its square all
+  /// of it: that bounds what all looks can say for the target. Its square bounds what one look says
+  /// for anybody.
   double misleading_share = 0.05;
   /// Looks at one person are alike: many together are worth no more than 1 / this of them.
   double look_correlation = 0.2;
