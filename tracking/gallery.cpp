@@ -96,7 +96,8 @@ Gallery::Portrait Gallery::portraitOf(const Eigen::ArrayXXf& mean, double weight
 /// After a change of a part's mean.
 void Gallery::refresh(Portrait& portrait, Eigen::Index part) const {
   const auto mean = portrait.mean.col(part);
-  Eigen::ArrayXf like = Eigen::ArrayXf::Zero(mean.size());
+  auto like = portrait.log_like.col(part);
+  like.setZero();
   for (Eigen::Index bin = 0; bin < mean.size(); ++bin) {
     if (mean[bin] <= 0.0F) continue;
     const float share = mean[bin] / static_cast<float>(looks_.tints.size());
@@ -106,7 +107,7 @@ void Gallery::refresh(Portrait& portrait, Eigen::Index part) const {
     return ((shares + kUnseenShare * anybody_) / (1.0F + kUnseenShare)).log();
   };
   portrait.log_shares.col(part) = logShares(mean);
-  portrait.log_like.col(part) = logShares(like);
+  like = logShares(like);
   portrait.knows[static_cast<std::size_t>(part)] = shows(portrait.mean, part);
 }
 
@@ -181,10 +182,16 @@ double Gallery::likeness(const Person& person, const Portrait& portrait, double 
     most = std::max(most, sum);
     if (sum <= best_) continue;
     best_ = sum;
-    best_portrait_ = &portrait;
-    best_tint_ = &tint;
     best_misfit_.swap(misfit_);
     best_parts_.swap(parts_);
+    if (&person != &people_[kTarget]) continue;
+    best_like_.setZero(best_parts_.size());
+    for (Eigen::Index part = 0; part < best_like_.size(); ++part) {
+      if (best_misfit_[part] < 0.0) continue;
+      const auto i = static_cast<std::size_t>(part);
+      const double misfit = divergence(portrait.log_like.col(part).data(), i, tint);
+      best_like_[part] = logOdds(std::max(misfit, 0.0), i, tint);
+    }
   }
   return most;
 }
@@ -245,43 +252,33 @@ void Gallery::compare(const Observation& seen, LookEvidence& evidence) {
     evidence.light[h] = sum - best_parts_.sum();
     evidence.parts.row(h) = best_parts_.transpose();
     evidence.misfits.row(h) = best_misfit_.transpose();
-    if (h != kTarget) continue;
-    for (Eigen::Index part = 0; part < best_parts_.size(); ++part) {
-      if (best_misfit_[part] < 0.0) continue;
-      const auto i = static_cast<std::size_t>(part);
-      const float* log_like = best_portrait_->log_like.col(part).data();
-      const double misfit = std::max(divergence(log_like, i, *best_tint_), 0.0);
-      evidence.parts(kStranger, part) = logOdds(misfit, i, *best_tint_);
-    }
+    if (h == kTarget) evidence.parts.row(kStranger) = best_like_.transpose();
   }
 }
 
 LookOdds Gallery::logOdds(const LookEvidence& look, const Eigen::ArrayXXd* known) const {
   LookOdds odds{look.light};
   if (!(look.is_seen > 0.0).any()) return odds;
-  const auto garmentsOf = [&](int h) {
+  for (int h = kStranger; h < kHypotheses; ++h) {
+    const double light =
+        look.light[std::max<int>(h, kTarget)];  // The like is seen in the target's.
+    if (!std::isfinite(light)) continue;
     Eigen::Array<double, kGarments, 1> garments = Eigen::Array<double, kGarments, 1>::Zero();
     for (Eigen::Index part = 0; part < look.parts.cols(); ++part) {
       garments[looks_.garments[static_cast<std::size_t>(part)]] +=
           look.is_seen[part] > 0.0 || known == nullptr ? look.parts(h, part) : (*known)(h, part);
     }
-    return garments;
-  };
-  const double mislead = params_.misleading_share, alike = mislead * mislead;
-  // Fewer looks are like somebody by chance than are unlike themselves.
-  const auto bounded = [&](double sum) {
+    const double sum = light + garments.sum();
+    // Fewer looks are like somebody by chance than are unlike themselves.
+    const double mislead = params_.misleading_share, alike = mislead * mislead;
     const double ratio = std::exp(std::min(sum, 100.0));
-    return std::log(((1.0 - mislead) * ratio + mislead) / (1.0 - alike + alike * ratio));
-  };
-  for (int h = kTarget; h < kHypotheses; ++h) {
-    if (std::isfinite(look.light[h])) odds.all[h] = bounded(look.light[h] + garmentsOf(h).sum());
-  }
-  for (const auto& [column, h] : {std::pair(kOwn, kTarget), {kLike, kStranger}}) {
-    const auto garments = garmentsOf(h);
-    const double sum = look.light[kTarget] + garments.sum();
+    const double bounded =
+        std::log(((1.0 - mislead) * ratio + mislead) / (1.0 - alike + alike * ratio));
+    if (h != kStranger) odds.all[h] = bounded;
+    if (h > kTarget) continue;
     constexpr double kNothing = 1e-6;  // Nearer to 0 the share is the slope there.
-    odds.garments.col(column) =
-        garments * (std::abs(sum) > kNothing ? bounded(sum) / sum : 1.0 - mislead - alike);
+    odds.garments.col(h == kTarget ? kOwn : kLike) =
+        garments * (std::abs(sum) > kNothing ? bounded / sum : 1.0 - mislead - alike);
   }
   return odds;
 }

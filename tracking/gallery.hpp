@@ -172,9 +172,7 @@ class Gallery {
   std::vector<std::size_t> ends_;  // of the parts in look_
   std::vector<double> entropies_;  // sum of share * log(share) of each part
   Eigen::ArrayXd misfit_, best_misfit_;
-  Eigen::ArrayXd parts_, best_parts_;  // log odds
-  const Portrait* best_portrait_ = nullptr;
-  const Tint* best_tint_ = nullptr;
+  Eigen::ArrayXd parts_, best_parts_, best_like_;  // log odds
   double best_ = 0.0;
 };
 
