@@ -19,12 +19,14 @@ Evidence mix(const Evidence& own, const Evidence& other, double other_share) {
                            : own;
 }
 
-/// Each garment is the target's or is not.
-Garments mix(const Garments& own, const Garments& other, double other_share) {
-  const auto isTargets = [](const Garments& odds) { return 1.0 / (1.0 + (-odds).exp()); };
-  return (((1.0 - other_share) * isTargets(own) + other_share * isTargets(other)) /
-          ((1.0 - other_share) * isTargets(-own) + other_share * isTargets(-other)))
-      .log();
+/// The same, each garment by itself, too: it is somebody's or is not.
+LookOdds mix(const LookOdds& own, const LookOdds& other, double other_share) {
+  const auto isTheirs = [](const LookOdds& odds) { return 1.0 / (1.0 + (-odds).exp()); };
+  LookOdds mixed = (((1.0 - other_share) * isTheirs(own) + other_share * isTheirs(other)) /
+                    ((1.0 - other_share) * isTheirs(-own) + other_share * isTheirs(-other)))
+                       .log();
+  setSums(mixed, mix(Evidence(own.rowwise().sum()), Evidence(other.rowwise().sum()), other_share));
+  return mixed;
 }
 
 Tallness mix(const Gallery& gallery, const Tallness& own, const Tallness& other,
@@ -37,13 +39,10 @@ Tallness mix(const Gallery& gallery, const Tallness& own, const Tallness& other,
 }  // namespace
 
 PastBelief BodyBelief::past() const {
-  return {log_place,
-          log_place + log_free + log_views + view.evidence(),
-          view.evidence(),
-          logGarments(),
-          view.weight * view.garments,
-          logTallness(),
-          view.weight * view.tallness};
+  const LookOdds log_looks = logLooks();
+  return {log_place,     log_place + log_free + log_looks.rowwise().sum(),
+          log_looks,     view.evidence(),
+          logTallness(), view.weight * view.tallness};
 }
 
 double BodyBelief::wayTo(const BodyLook& look) const {
@@ -56,13 +55,13 @@ double BodyBelief::wayTo(const BodyLook& look) const {
 void BodyBelief::takeLook(const Gallery& gallery, const BodyLook& look, double news) {
   if (news > kOtherView) {
     const double keep = std::exp(-gallery.params().look_correlation * news);
-    log_views = keep * logColors();
-    log_garments = keep * logGarments();
+    log_views = keep * logLooks();
     if (view.tallness_count > 0.0) log_tallness = keep * logTallness();
     view = View{look.seen.position_m, look.seen.position_m - look.eye_m, look.stamp_s, news};
   }
   view.thing_count = std::min(view.thing_count + 1.0, View::kMostLooks);
-  view.mean[kThing] += (-look.seen.log_person - view.mean[kThing]) / view.thing_count;
+  double& thing = view.mean(kThing, kGarments);
+  thing += (-look.seen.log_person - thing) / view.thing_count;
   if (look.seen.look == nullptr) return;  // Depth or the outline tells that it is no person, say.
   if (view.count == 0.0) looks += view.weight;
   view.count = std::min(view.count + 1.0, View::kMostLooks);
@@ -71,14 +70,12 @@ void BodyBelief::takeLook(const Gallery& gallery, const BodyLook& look, double n
     known_parts.setZero(kHypotheses, parts.is_seen.size());
     known_looks.setZero(parts.is_seen.size());
   }
-  LookOdds odds = gallery.logOdds(parts, &known_parts);
+  const LookOdds odds = gallery.logOdds(parts, &known_parts);
   known_looks = (known_looks + parts.is_seen).min(View::kMostLooks);
   known_parts +=
       (parts.parts - known_parts).rowwise() * (parts.is_seen / known_looks.max(1.0)).transpose();
-  for (int h = kStranger; h < kHypotheses; ++h) {
-    if (std::isfinite(odds.all[h])) view.mean[h] += (odds.all[h] - view.mean[h]) / view.count;
-  }
-  view.garments += (odds.garments - view.garments) / view.count;
+  auto people = view.mean.bottomRows<kHypotheses - kStranger>();
+  people += (odds.bottomRows<kHypotheses - kStranger>() - people) / view.count;
   if (look.seen.stature_m) {
     view.tallness_count = std::min(view.tallness_count + 1.0, View::kMostLooks);
     view.tallness += (look.tallness - view.tallness) / view.tallness_count;
@@ -100,18 +97,15 @@ void BodyBelief::mixIn(const Gallery& gallery, const PastBelief& other, double o
   log_free *= 1.0 - other_share;
   if (view.weight > 0.0) {
     view.mean = mix(own.log_view, other.log_view, other_share) / view.weight;
-    view.mean -= view.mean[kStranger];
-    view.garments = mix(own.log_view_garments, other.log_view_garments, other_share) / view.weight;
+    view.mean.col(kGarments) -= view.mean.row(kStranger).sum();
     view.tallness =
         mix(gallery, own.log_view_tallness, other.log_view_tallness, other_share) / view.weight;
     view.count *= 1.0 - other_share;
     view.tallness_count *= 1.0 - other_share;
     view.thing_count *= 1.0 - other_share;
   }
-  const Evidence views = all - log_place - log_free - view.evidence();
-  log_views = views.isFinite().select(views, 0.0);
-  log_garments =
-      mix(own.log_garments, other.log_garments, other_share) - view.weight * view.garments;
+  log_views = mix(own.log_looks, other.log_looks, other_share) - view.evidence();
+  setSums(log_views, all - log_place - log_free - view.evidence().rowwise().sum());
   log_tallness =
       mix(gallery, own.log_tallness, other.log_tallness, other_share) - view.weight * view.tallness;
   log_stature = gallery.logLikelihood(logTallness());

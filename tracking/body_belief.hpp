@@ -35,22 +35,20 @@ struct View {
   Eigen::Vector2d ray_m = Eigen::Vector2d::Zero();  ///< From the camera.
   double since_s = -std::numeric_limits<double>::infinity();
   double weight = 0.0;  ///< As far as it is another view than the one before; 0: there is none.
-  Evidence mean = Evidence::Zero();
-  Garments garments = Garments::Zero();  ///< The mean of what looks say of garments,
+  LookOdds mean = LookOdds::Zero();      ///< Of what looks say of colours,
   Tallness tallness = Tallness::Zero();  ///< and of statures.
   double count = 0.0;                    ///< Looks in the means, those that show colours,
   double tallness_count = 0.0;           ///< and a stature;
   double thing_count = 0.0;              ///< in the mean of a thing all looks.
-  Evidence evidence() const { return weight * mean; }
+  LookOdds evidence() const { return weight * mean; }
 };
 
 /// What is believed of a body before it is seen again.
 struct PastBelief {
   Evidence log_place = Evidence::Zero();
-  Evidence log_all = Evidence::Zero();   ///< By all but statures,
-  Evidence log_view = Evidence::Zero();  ///< and of it by the view at hand.
-  /// The same garment by garment, and of statures.
-  Garments log_garments = Garments::Zero(), log_view_garments = Garments::Zero();
+  Evidence log_all = Evidence::Zero();  ///< By all but statures,
+  /// of it by looks, and of these by the view at hand; the same of statures.
+  LookOdds log_looks = LookOdds::Zero(), log_view = LookOdds::Zero();
   Tallness log_tallness = Tallness::Zero(), log_view_tallness = Tallness::Zero();
 };
 
@@ -66,17 +64,18 @@ struct BodyBelief {
   static constexpr double kMistaken = 0.01;
 
   int track_id = 0;
-  Evidence log_place = Evidence::Zero();     ///< By where it came from and goes.
-  Evidence log_views = Evidence::Zero();     ///< By looks from all views but the present one,
-  Garments log_garments = Garments::Zero();  ///< and how that is spread over garments.
+  Evidence log_place = Evidence::Zero();  ///< By where it came from and goes.
+  LookOdds log_views = LookOdds::Zero();  ///< By looks from all views but the present one.
   /// By who was somebody else in view at the same time, and has left.
   Evidence log_free = Evidence::Zero();
   Evidence probability = Evidence::Zero();            ///< With who is in view now, too.
+  Evidence seen_as = Evidence::Zero();                ///< The same, when it was seen last.
   Eigen::Vector2d place_m = Eigen::Vector2d::Zero();  ///< Where it rests, or was lately,
   double since_s = 0.0;                               ///< since then;
   ClutterCount counted;                               ///< of it there, in that time.
   double born_s = 0.0;                                ///< Seen first,
-  double seen_s = 0.0;                                ///< and last.
+  double seen_s = 0.0;                                ///< and last,
+  Eigen::Vector2d seen_m = Eigen::Vector2d::Zero();   ///< there.
   View view;
   double looks = 0.0;   ///< Independent ones, and the sum of all, since it was surely
   Eigen::ArrayXXf sum;  ///< the same body.
@@ -96,19 +95,21 @@ struct BodyBelief {
   bool is_alive = true;
 
   Tallness logTallness() const { return log_tallness + view.weight * view.tallness; }
-  Evidence logColors() const { return log_views + view.evidence(); }
-  Garments logGarments() const { return log_garments + view.weight * view.garments; }
+  LookOdds logLooks() const { return log_views + view.evidence(); }
   double targetShare() const { return probability[kTarget] / std::max(probability.sum(), 1e-300); }
   PastBelief past() const;
 
   /// It has moved, and rests nowhere yet.
   bool isOnTheWay(double stamp_s) const { return since_s > born_s && stamp_s - since_s < kRests_s; }
+  /// Where it was seen last it was more than once, and not on its way.
+  bool hasRested() const { return seen_s > since_s && !isOnTheWay(seen_s); }
 
   /// The way [m] from the view at hand to a look, by body or camera; 0 if neither may have moved.
   double wayTo(const BodyLook& look) const;
 
   /// They are seen again.
-  void see(double stamp_s) {
+  void see(const Eigen::Vector2d& at_m, double stamp_s) {
+    seen_m = at_m;
     seen_s = stamp_s;
     present = in_view = 1.0;
     missed_looks = 0.0;

@@ -116,84 +116,70 @@ void Gallery::refresh(Person& person) const {
     person.misfit.setConstant(person.portrait.mean.cols(), kMisfit);
     person.misfit_weight.setConstant(person.portrait.mean.cols(), kFirstWeight);
   }
-  // Whoever usually fits worse than people do is judged as people are.
-  person.rate_gain = (1.0 / person.misfit - 1.0 / kMisfit).max(0.0);
-  person.log_rate_gain = (kMisfit / person.misfit).log().max(0.0);
   const bool is_told = &person == &people_[kTarget] && looks_.stature_m;
   person.statures = is_told ? densityOf(*looks_.stature_m, kStatureSigma_m) : anybody_statures_;
   person.statures *= person.log_tallness.exp();
   person.statures /= person.statures.sum();
 }
 
-void Gallery::takeApart(const Eigen::ArrayXXf& look) {
+/// @param is_seen  Is set to 1 of the parts that the look shows.
+void Gallery::takeApart(const Eigen::ArrayXXf& look, Eigen::ArrayXd& is_seen) {
   look_.clear();
   ends_.clear();
   entropies_.clear();
   for (Eigen::Index part = 0; part < look.cols(); ++part) {
     double entropy = 0.0;
+    const std::size_t begin = look_.size();
     for (Eigen::Index bin = 0; bin < look.rows(); ++bin) {
       const float share = look(bin, part);
       if (share <= 0.0F) continue;
       look_.push_back({static_cast<int>(bin), share});
       entropy += static_cast<double>(share * std::log(share));
     }
+    if (look_.size() > begin) is_seen[part] = 1.0;
     ends_.push_back(look_.size());
     entropies_.push_back(entropy);
   }
 }
 
-/// KL(a part of the look at hand || a portrait's) in a light.
-/// @param log_shares  of the portrait's part
-double Gallery::divergence(const float* log_shares, std::size_t part, const Tint& tint) const {
-  float mean = 0.0F;
-  for (std::size_t n = part == 0 ? 0 : ends_[part - 1]; n < ends_[part]; ++n) {
-    mean += look_[n].share * log_shares[tint.bins[look_[n].bin]];
+/// A part of the look at hand in a light.
+/// @param log_shares  The portrait's, or those of its like.
+Gallery::PartFit Gallery::fitOf(const Fit& fit, const Eigen::ArrayXXf& log_shares,
+                                std::size_t part) const {
+  const std::size_t begin = part == 0 ? 0 : ends_[part - 1];
+  if (begin == ends_[part] || !fit.portrait->knows[part]) return {};
+  const auto person = log_shares.col(static_cast<Eigen::Index>(part));
+  float mean = 0.0F, anybody = 0.0F;
+  for (std::size_t n = begin; n < ends_[part]; ++n) {
+    const int bin = fit.tint->bins[look_[n].bin];
+    mean += look_[n].share * person[bin];
+    anybody += look_[n].share * log_anybody_[bin];
   }
-  return entropies_[part] - static_cast<double>(mean);
+  const double misfit = std::max(entropies_[part] - mean, 0.0);
+  return {misfit, kLikenessOffset + kRarityShare * (entropies_[part] - anybody) - misfit};
 }
 
-/// Of a part of the look at hand, in a light.
-double Gallery::logOdds(double misfit, std::size_t part, const Tint& tint) const {
-  return kLikenessOffset + kRarityShare * divergence(log_anybody_.data(), part, tint) - misfit;
+/// What a misfit says against somebody who usually has another. Whoever usually fits worse than
+/// people do is judged as people are; and it is never for them: things of their colours may fit.
+double Gallery::against(const Person& person, double misfit, std::size_t part) const {
+  const double usual = std::min(person.misfit[static_cast<Eigen::Index>(part)], kMisfit);
+  const double odds = misfit * (1.0 / usual - 1.0 / kMisfit) - std::log(kMisfit / usual);
+  return std::clamp(kMisfitShape * odds, 0.0, -std::log(params_.misleading_share));
 }
 
-/// Over the parts that both the look and the portrait show, in the light that fits best; leaves
-/// their log odds and misfits in that light, 0 and -1 where there is none, if it fits better than
-/// what is there.
-/// @return  Their sum with the share of such looks.
-double Gallery::likeness(const Person& person, const Portrait& portrait, double log_share) {
-  double most = -std::numeric_limits<double>::infinity();
+/// In the light that fits best.
+Gallery::Fit Gallery::bestFit(const Person& person, const Portrait& portrait,
+                              double log_share) const {
+  Fit best;
   for (const Tint& tint : looks_.tints) {
-    double sum = log_share + tint.log_prior;
-    misfit_.setConstant(portrait.mean.cols(), -1.0);
-    parts_.setZero(portrait.mean.cols());
-    for (std::size_t part = 0, i = 0; part < ends_.size(); i = ends_[part++]) {
-      if (i == ends_[part] || !portrait.knows[part]) continue;
-      const auto column = static_cast<Eigen::Index>(part);
-      const double misfit = misfit_[column] =
-          std::max(divergence(portrait.log_shares.col(column).data(), part, tint), 0.0);
-      // Only against them: things of their colours may fit as well.
-      const double against =
-          kMisfitShape * (misfit * person.rate_gain[column] - person.log_rate_gain[column]);
-      parts_[column] = logOdds(misfit, part, tint) -
-                       std::clamp(against, 0.0, -std::log(params_.misleading_share));
-      sum += parts_[column];
+    Fit fit{&portrait, &tint, log_share + tint.log_prior};
+    for (std::size_t part = 0; part < ends_.size(); ++part) {
+      const PartFit its = fitOf(fit, portrait.log_shares, part);
+      fit.log_odds += its.log_odds - against(person, its.misfit, part);
     }
-    most = std::max(most, sum);
-    if (sum <= best_) continue;
-    best_ = sum;
-    best_misfit_.swap(misfit_);
-    best_parts_.swap(parts_);
-    if (&person != &people_[kTarget]) continue;
-    best_like_.setZero(best_parts_.size());
-    for (Eigen::Index part = 0; part < best_like_.size(); ++part) {
-      if (best_misfit_[part] < 0.0) continue;
-      const auto i = static_cast<std::size_t>(part);
-      const double misfit = divergence(portrait.log_like.col(part).data(), i, tint);
-      best_like_[part] = logOdds(std::max(misfit, 0.0), i, tint);
-    }
+    if (fit.log_odds > best.log_odds) best = fit;
   }
-  return most;
+  return best;
 }
 
 Tallness Gallery::logTallness(const Observation& seen) const {
@@ -222,9 +208,6 @@ double Gallery::logIfAnybody(const Tallness& log_tallness) const {
 
 void Gallery::compare(const Observation& seen, LookEvidence& evidence) {
   evidence.light.setZero();
-  for (int h = kFirstOther; h < kHypotheses; ++h) {
-    if (!isKnown(h)) evidence.light[h] = -std::numeric_limits<double>::infinity();
-  }
   evidence.parts.setZero(kHypotheses, looks_.target.cols());
   evidence.misfits.setConstant(kHypotheses, looks_.target.cols(), -1.0);
   evidence.is_seen.setZero(looks_.target.cols());
@@ -232,60 +215,61 @@ void Gallery::compare(const Observation& seen, LookEvidence& evidence) {
   if (seen.look->rows() != looks_.target.rows() || seen.look->cols() != looks_.target.cols()) {
     throw std::invalid_argument("Gallery: a look needs the target's bins and parts");
   }
-  takeApart(*seen.look);
-  if (look_.empty()) return;
-  for (std::size_t part = 0, i = 0; part < ends_.size(); i = ends_[part++]) {
-    evidence.is_seen[static_cast<Eigen::Index>(part)] = i < ends_[part] ? 1.0 : 0.0;
-  }
+  takeApart(*seen.look, evidence.is_seen);
   for (int h = kTarget; h < kHypotheses; ++h) {
     if (!isKnown(h)) continue;
-    best_ = -std::numeric_limits<double>::infinity();
     // Half of the target is what was seen lately, as that comes to rest on more.
     const double lately =
         h == kTarget ? 0.5 * lately_.weight / (lately_.weight + kFirstWeight) : 0.0;
     const Person& person = people_[index(h)];
-    double sum = likeness(person, person.portrait, std::log1p(-lately));
+    Fit fit = bestFit(person, person.portrait, std::log1p(-lately));
+    evidence.light[h] = fit.log_odds;
     if (lately > 0.0) {
-      const double other = likeness(person, lately_, std::log(lately));
-      sum = best_ + std::log1p(std::exp(-std::abs(sum - other)));
+      const Fit other = bestFit(person, lately_, std::log(lately));
+      evidence.light[h] += std::log1p(std::exp(other.log_odds - fit.log_odds));
+      if (other.log_odds > fit.log_odds) fit = other;
     }
-    evidence.light[h] = sum - best_parts_.sum();
-    evidence.parts.row(h) = best_parts_.transpose();
-    evidence.misfits.row(h) = best_misfit_.transpose();
-    if (h == kTarget) evidence.parts.row(kStranger) = best_like_.transpose();
+    for (std::size_t part = 0; part < ends_.size(); ++part) {
+      const auto column = static_cast<Eigen::Index>(part);
+      const PartFit its = fitOf(fit, fit.portrait->log_shares, part);
+      evidence.parts(h, column) = its.log_odds - against(person, its.misfit, part);
+      evidence.misfits(h, column) = its.misfit;
+      if (h != kTarget) continue;
+      evidence.parts(kStranger, column) = fitOf(fit, fit.portrait->log_like, part).log_odds;
+    }
+    evidence.light[h] -= evidence.parts.row(h).sum();
   }
 }
 
 LookOdds Gallery::logOdds(const LookEvidence& look, const Eigen::ArrayXXd* known) const {
-  LookOdds odds{look.light};
+  LookOdds odds = LookOdds::Zero();
   if (!(look.is_seen > 0.0).any()) return odds;
+  Evidence sums = Evidence::Zero();
   for (int h = kStranger; h < kHypotheses; ++h) {
-    const double light =
-        look.light[std::max<int>(h, kTarget)];  // The like is seen in the target's.
-    if (!std::isfinite(light)) continue;
-    Eigen::Array<double, kGarments, 1> garments = Eigen::Array<double, kGarments, 1>::Zero();
+    const int who = std::max<int>(h, kTarget);  // The like is seen in the target's light.
+    if (!isKnown(who)) continue;
+    auto garments = odds.row(h).head<kGarments>();
     for (Eigen::Index part = 0; part < look.parts.cols(); ++part) {
       garments[looks_.garments[static_cast<std::size_t>(part)]] +=
           look.is_seen[part] > 0.0 || known == nullptr ? look.parts(h, part) : (*known)(h, part);
     }
-    const double sum = light + garments.sum();
+    const double sum = look.light[who] + garments.sum();
     // Fewer looks are like somebody by chance than are unlike themselves.
     const double mislead = params_.misleading_share, alike = mislead * mislead;
     const double ratio = std::exp(std::min(sum, 100.0));
     const double bounded =
         std::log(((1.0 - mislead) * ratio + mislead) / (1.0 - alike + alike * ratio));
-    if (h != kStranger) odds.all[h] = bounded;
-    if (h > kTarget) continue;
     constexpr double kNothing = 1e-6;  // Nearer to 0 the share is the slope there.
-    odds.garments.col(h == kTarget ? kOwn : kLike) =
-        garments * (std::abs(sum) > kNothing ? bounded / sum : 1.0 - mislead - alike);
+    garments *= std::abs(sum) > kNothing ? bounded / sum : 1.0 - mislead - alike;
+    if (h != kStranger) sums[h] = bounded;
   }
+  setSums(odds, sums);
   return odds;
 }
 
-double Gallery::logAlike(const Garments& garments) const {
+double Gallery::logAlike(const LookOdds& odds) const {
   const double share = params_.misleading_share;
-  const auto like = garments.col(kLike);
+  const auto like = odds.row(kStranger).head<kGarments>();
   const double some = (1.0 - share + share * like.min(100.0).exp()).log().max(0.0).sum();
   const double all = std::exp(std::min(like.sum() - some, 100.0));
   return std::max(some + std::log1p(share * share * (all - 1.0)), 0.0);

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -46,9 +47,15 @@ using Evidence = Eigen::Array<double, kHypotheses, 1>;
 
 /// What strangers may share with somebody, each by itself: trousers, a top, hair.
 inline constexpr int kGarments = 3;
-/// A row a garment: log odds over any stranger of the target, and of a stranger who wears its like.
-using Garments = Eigen::Array<double, kGarments, 2>;
-inline constexpr int kOwn = 0, kLike = 1;
+/// What looks say: a row a hypothesis, log odds over any stranger by each garment, and in the last
+/// column by all else. A stranger's garments are those of one who wears the like of the target's;
+/// their last column takes that off again.
+using LookOdds = Eigen::Array<double, kHypotheses, kGarments + 1>;
+/// Makes a row's sum this, by its last column.
+template <typename Sums>
+void setSums(LookOdds& odds, const Sums& sums) {
+  odds.col(kGarments) = sums - odds.leftCols<kGarments>().rowwise().sum();
+}
 
 /// What a look's colours say, part by part.
 struct LookEvidence {
@@ -57,8 +64,7 @@ struct LookEvidence {
   Eigen::ArrayXXd parts;
   Eigen::ArrayXXd misfits;            ///< KL(look || person) of each; -1 where nothing is said.
   Eigen::ArrayXd is_seen;             ///< 1 of the parts that it shows, else 0.
-  Evidence light = Evidence::Zero();  ///< What the light says in which each fits best; -infinity of
-                                      ///< who is nobody.
+  Evidence light = Evidence::Zero();  ///< What the light says in which each fits best.
 };
 
 /// Logarithm of the likelihood of looks at one body by its stature, in steps of 2 cm from 1.2 m.
@@ -77,12 +83,6 @@ inline constexpr double kLikenessOffset = 0.41;
 inline constexpr double kMisfit = 0.97, kOthersMisfit = 2.0;
 /// How much of a rare colour's evidence counts: whoever wears a rare colour wears much of it.
 inline constexpr double kRarityShare = 0.5;
-
-/// What a look's colours say together: logarithms of the likelihood over a stranger's.
-struct LookOdds {
-  Evidence all = Evidence::Zero();       ///< -infinity where there is nobody.
-  Garments garments = Garments::Zero();  ///< Garment by garment.
-};
 
 struct GalleryParams {
   /// Share of looks that mislead (shade, somebody half in front, a lintel over them). It bounds
@@ -103,12 +103,12 @@ class Gallery {
 
   /// Compares a look's colours with everybody's. What is not seen says nothing.
   void compare(const Observation& seen, LookEvidence& evidence);
-  /// What a look's colours say together, bounded as GalleryParams say.
+  /// What a look's colours say together, bounded as GalleryParams say; 0 of who is nobody.
   /// @param known  What other looks say of the parts that it does not show, as LookEvidence::parts.
   LookOdds logOdds(const LookEvidence& look, const Eigen::ArrayXXd* known = nullptr) const;
   /// How much likelier looks are by a stranger who may wear the like of some of what the target
   /// does, or all, than by any, as a logarithm.
-  double logAlike(const Garments& garments) const;
+  double logAlike(const LookOdds& odds) const;
 
   /// What a look says of stature; 0 where it says nothing.
   Tallness logTallness(const Observation& seen) const;
@@ -144,18 +144,28 @@ class Gallery {
     Portrait portrait;                         // of weight 0: nobody
     Tallness log_tallness = Tallness::Zero();  // by looks,
     Tallness statures = Tallness::Zero();      // and what is known by it
-    // Their usual misfits, part by part, what these rest on, and how much steeper than kMisfit's a
-    // gamma distribution with such a mean falls, if it does.
-    Eigen::ArrayXd misfit, misfit_weight, rate_gain, log_rate_gain;
+    // Their usual misfits, part by part, and what these rest on.
+    Eigen::ArrayXd misfit, misfit_weight;
+  };
+  /// A portrait in a light, and the log odds of the look at hand, with the share of such looks.
+  struct Fit {
+    const Portrait* portrait = nullptr;
+    const Tint* tint = nullptr;
+    double log_odds = -std::numeric_limits<double>::infinity();
+  };
+  /// Of a part; as it is where the part is not shown.
+  struct PartFit {
+    double misfit = -1.0;
+    double log_odds = 0.0;
   };
   static std::size_t index(int hypothesis) { return static_cast<std::size_t>(hypothesis); }
   Portrait portraitOf(const Eigen::ArrayXXf& mean, double weight) const;
   void refresh(Portrait& portrait, Eigen::Index part) const;
   void refresh(Person& person) const;
-  void takeApart(const Eigen::ArrayXXf& look);
-  double divergence(const float* log_shares, std::size_t part, const Tint& tint) const;
-  double logOdds(double misfit, std::size_t part, const Tint& tint) const;
-  double likeness(const Person& person, const Portrait& portrait, double log_share);
+  void takeApart(const Eigen::ArrayXXf& look, Eigen::ArrayXd& is_seen);
+  Fit bestFit(const Person& person, const Portrait& portrait, double log_share) const;
+  PartFit fitOf(const Fit& fit, const Eigen::ArrayXXf& log_shares, std::size_t part) const;
+  double against(const Person& person, double misfit, std::size_t part) const;
 
   TargetLooks looks_;
   GalleryParams params_;
@@ -171,9 +181,6 @@ class Gallery {
   std::vector<Share> look_;
   std::vector<std::size_t> ends_;  // of the parts in look_
   std::vector<double> entropies_;  // sum of share * log(share) of each part
-  Eigen::ArrayXd misfit_, best_misfit_;
-  Eigen::ArrayXd parts_, best_parts_, best_like_;  // log odds
-  double best_ = 0.0;
 };
 
 }  // namespace heel

@@ -25,7 +25,7 @@ constexpr double kUnexpected = 0.02;   // Share of targets who are not where the
 constexpr double kMetLooks = 1.5;      // A stranger is met after so many independent looks.
 constexpr double kSurest = 12.0;       // Logarithm of the greatest odds of places and ways.
 constexpr double kAlone_m = 1.0;       // Nobody nearer: then a look is theirs alone.
-constexpr std::size_t kMostLeft = 16;  // Ended tracks, and sightings, that are remembered.
+constexpr std::size_t kMostLeft = 32;  // Ended tracks that are remembered.
 
 /// Weights of which the greatest is 1.
 Evidence relative(const Evidence& log_weight) { return (log_weight - log_weight.maxCoeff()).exp(); }
@@ -41,7 +41,7 @@ Identity::Identity(TargetLooks looks, const IdentityParams& params, TargetDensit
         params.newcomer_density_per_m2 > 0.0 && params.walk_mps > 0.0)) {
     throw std::invalid_argument("IdentityParams: a parameter is not positive");
   }
-  sightings_.reserve(kMostLeft);
+  left_.reserve(kMostLeft);
 }
 
 BodyBelief* Identity::find(int track_id) {
@@ -73,7 +73,7 @@ void Identity::look(const std::vector<Observation>& observations) {
   for (std::size_t i = 0; i < observations.size(); ++i) {
     gallery_.compare(observations[i], parts_[i]);
     looks_[i] = gallery_.logOdds(parts_[i]);
-    looks_[i].all[kThing] -= observations[i].log_person;
+    looks_[i](kThing, kGarments) -= observations[i].log_person;
     statures_[i] = gallery_.logTallness(observations[i]);
   }
 }
@@ -81,7 +81,7 @@ void Identity::look(const std::vector<Observation>& observations) {
 double Identity::logLikelihood(int track_id, int observation) const {
   const BodyBelief* belief = find(track_id);
   if (belief == nullptr) return 0.0;
-  const Evidence& look = looks_[static_cast<std::size_t>(observation)].all;
+  const Evidence look = looks_[static_cast<std::size_t>(observation)].rowwise().sum();
   const Tallness& stature = statures_[static_cast<std::size_t>(observation)];
   const Tallness before = belief->logTallness();
   const double same = gallery_.logIfAnybody(before + stature) - gallery_.logIfAnybody(before) -
@@ -92,21 +92,20 @@ double Identity::logLikelihood(int track_id, int observation) const {
 
 /// Of everybody, if they are away, per square metre: by where they were seen.
 Evidence Identity::densities(const Eigen::Vector2d& place_m, double stamp_s) const {
-  // A sighting counts if it was them, none since was, and they have gone from there.
+  // Where somebody was seen counts if it was them, none seen since was, and they have gone.
   Evidence never = Evidence::Ones(), gone = Evidence::Zero(), reaches = Evidence::Zero();
-  for (auto sighting = sightings_.rbegin(); sighting != sightings_.rend(); ++sighting) {
-    const BodyBelief* holder = find(sighting->track_id);
-    const double has_gone = 1.0 - (holder == nullptr ? 0.0 : holder->present);
-    const double sigma_m =
-        std::hypot(0.3, params_.walk_mps * std::max(stamp_s - sighting->seen_s, 0.0));
-    const double off = (place_m - sighting->place_m).norm() / sigma_m;
+  const auto take = [&](const BodyBelief& body) {
+    const double sigma_m = std::hypot(0.3, params_.walk_mps * std::max(stamp_s - body.seen_s, 0.0));
+    const double off = (place_m - body.seen_m).norm() / sigma_m;
     const double area_m2 = 2.0 * M_PI * sigma_m * sigma_m;
     const double reach = std::max(kRoom_m2 / area_m2, 1.0) * std::exp(-0.5 * off * off);
-    const Evidence counts = has_gone * never * sighting->probability;
-    never *= 1.0 - sighting->probability;
+    const Evidence counts = (1.0 - body.present) * never * body.seen_as;
+    never *= 1.0 - body.seen_as;
     gone += counts;
     reaches += reach * counts;
-  }
+  };
+  std::for_each(beliefs_.begin(), beliefs_.end(), take);
+  std::for_each(left_.rbegin(), left_.rend(), take);
   return params_.newcomer_density_per_m2 * (reaches + never) / (gone + never).max(1e-9);
 }
 
@@ -120,22 +119,6 @@ std::optional<double> Identity::searchDensity(const Eigen::Vector2d& place_m) co
   const auto density = target_density_(place_m);
   if (!density) return std::nullopt;
   return (1.0 - kUnexpected) * *density + kUnexpected * params_.newcomer_density_per_m2;
-}
-
-Sighting* Identity::findSighting(int track_id) {
-  const auto found =
-      std::find_if(sightings_.begin(), sightings_.end(),
-                   [&](const Sighting& sighting) { return sighting.track_id == track_id; });
-  return found == sightings_.end() ? nullptr : &*found;
-}
-
-void Identity::sight(const BodyBelief& belief, const Eigen::Vector2d& place_m, double stamp_s) {
-  if (Sighting* before = findSighting(belief.track_id)) {
-    sightings_.erase(sightings_.begin() + (before - sightings_.data()));
-  } else if (sightings_.size() == kMostLeft) {
-    sightings_.erase(sightings_.begin());
-  }
-  sightings_.push_back({belief.track_id, place_m, stamp_s, belief.probability});
 }
 
 /// What is believed of somebody who appears at a place, before a look at them.
@@ -157,7 +140,7 @@ Evidence Identity::priorOf(const Eigen::Vector2d& place_m, double stamp_s,
   // Where people were seen before there are more, whoever they are.
   auto people = weight.tail<kHypotheses - kStranger>();
   people *= 1.0 + there.people_per_m2 / people.sum();
-  return weight.max(1e-12).log() + (weight > 0.0).select(Evidence::Zero(), -kInfinity);
+  return weight.max(1e-12).log();
 }
 
 /// Where it rests: that it is on its way through a place does not say that things come there, nor
@@ -194,7 +177,7 @@ BodyBelief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, double
   for (auto left = left_.begin(); left != left_.end(); ++left) {
     const double off2 = (place_m - left->place_m).squaredNorm() / rest_m2;
     const double per_m2 = left->present * std::exp(-0.5 * off2) / (2.0 * M_PI * rest_m2);
-    if (per_m2 <= most_per_m2) continue;
+    if (per_m2 <= most_per_m2 || !left->hasRested()) continue;
     most_per_m2 = per_m2;
     same = left;
   }
@@ -205,7 +188,6 @@ BodyBelief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, double
     part(*same, 1.0, gone);  // They are together again.
     belief = std::move(*same);
     left_.erase(same);
-    if (Sighting* sighting = findSighting(belief.track_id)) sighting->track_id = track_id;
     belief.mixIn(gallery_, {another, another}, gone);
     belief.is_alive = true;
   } else {
@@ -214,7 +196,7 @@ BodyBelief& Identity::begin(int track_id, const Eigen::Vector2d& place_m, double
     belief.log_place = prior;
   }
   belief.track_id = track_id;
-  belief.see(stamp_s);
+  belief.see(place_m, stamp_s);
   return belief;
 }
 
@@ -266,10 +248,8 @@ void Identity::takePlace(BodyBelief& belief, const Track& track, const Observati
     belief.mixIn(gallery_, {prior, prior}, other_share);
   }
   // However long it lasts, nothing is surer than that: who sat for an hour may get up.
-  belief.log_place -= belief.log_place.maxCoeff();
-  belief.log_place =
-      belief.log_place.isFinite().select(belief.log_place.max(-kSurest), belief.log_place);
-  belief.see(stamp_s);
+  belief.log_place = (belief.log_place - belief.log_place.maxCoeff()).max(-kSurest);
+  belief.see(track.motion.position_m(), stamp_s);
   if (has_moved) {
     belief.place_m = seen.position_m;
     belief.since_s = stamp_s;
@@ -281,8 +261,8 @@ void Identity::step(double stamp_s, const std::vector<Track>& tracks, const Trac
                     const std::vector<Observation>& observations, const Viewpoint& viewpoint) {
   endBeliefs(tracks);
   if (report.dt_s < 0.0) {  // Of another clock.
-    sightings_.clear();
     left_.clear();
+    seen_s_.setConstant(-kInfinity);
     clutter_.setClock(stamp_s);
   }
   for (const Track& track : tracks) {
@@ -307,7 +287,8 @@ void Identity::step(double stamp_s, const std::vector<Track>& tracks, const Trac
     belief.takeLook(gallery_, look, params_.newsOf(elapsed_s, belief.wayTo(look)));
   }
   weighTogether();
-  remember(tracks, observations, stamp_s);
+  seen_s_ = (away_ < 0.5).select(stamp_s, seen_s_);
+  remember(tracks, observations);
 
   const double time_s = std::clamp(report.dt_s, 0.0, 1.0);
   clutter_.look(viewpoint.position_m, viewpoint.sight_of, time_s);
@@ -340,13 +321,12 @@ void Identity::mixSwaps(const std::vector<Swap>& swaps) {
 /// the odds of each garment. Where bodies may have swapped, the odds of all are less than theirs
 /// together: then only what is over the bound comes off.
 Evidence Identity::logWeight(const BodyBelief& belief) const {
-  const Evidence log_colors = belief.logColors();
-  const Garments garments = belief.logGarments();
-  const double alike = gallery_.logAlike(garments);
-  const double most = garments.col(kOwn).sum() - alike;
-  Evidence log_weight = belief.log_place + belief.log_free + log_colors + belief.log_stature;
-  log_weight[kStranger] +=
-      std::clamp(log_colors[kTarget] - log_colors[kStranger] - most, 0.0, alike);
+  const LookOdds looks = belief.logLooks();
+  const Evidence log_looks = looks.rowwise().sum();
+  const double alike = gallery_.logAlike(looks);
+  const double most = looks.row(kTarget).head<kGarments>().sum() - alike;
+  Evidence log_weight = belief.log_place + belief.log_free + log_looks + belief.log_stature;
+  log_weight[kStranger] += std::clamp(log_looks[kTarget] - log_looks[kStranger] - most, 0.0, alike);
   return log_weight;
 }
 
@@ -384,6 +364,7 @@ void Identity::weighTogether() {
       auto people = belief.probability.tail<kHypotheses - kTarget>();
       people = people.min(away_.tail<kHypotheses - kTarget>());
       away_ = (away_ - belief.probability).max(0.0);
+      if (belief.present == 1.0) belief.seen_as = belief.probability;
     }
   }
 }
@@ -420,8 +401,8 @@ void Identity::part(const BodyBelief& belief, double before, double gone) {
 /// A track ends.
 void Identity::leave(BodyBelief& belief) {
   part(belief, 0.0, 1.0);
-  // It rested nowhere.
-  if (belief.seen_s <= belief.since_s || belief.isOnTheWay(belief.seen_s)) return;
+  const bool is_known = belief.seen_as.tail<kHypotheses - kTarget>().sum() > kMistaken;
+  if (!belief.hasRested() && !is_known) return;
   if (left_.size() == kMostLeft) left_.erase(left_.begin());
   left_.push_back(std::move(belief));
   left_.back().looks = 0.0;  // A portrait takes 60 KB.
@@ -429,7 +410,7 @@ void Identity::leave(BodyBelief& belief) {
 }
 
 void Identity::remember(const std::vector<Track>& tracks,
-                        const std::vector<Observation>& observations, double stamp_s) {
+                        const std::vector<Observation>& observations) {
   std::optional<Eigen::Vector2d> target_sure_m;
   for (const Track& track : tracks) {
     if (track.observation != Track::kUnseen && targetProbability(track.id) > 1.0 - kMistaken) {
@@ -448,9 +429,6 @@ void Identity::remember(const std::vector<Track>& tracks,
     int best = 0;
     const bool is_sure = belief.probability.maxCoeff(&best) > 1.0 - kMistaken;
     if (is_sure && best == kTarget) belief.replaced = 0.0;
-    if (belief.probability.tail<kHypotheses - kTarget>().sum() > kMistaken) {
-      sight(belief, place_m, stamp_s);
-    }
     if (!is_alone || !is_sure) continue;
     if (best == kStranger) {
       const bool is_another = target_sure_m && (*target_sure_m - place_m).norm() > kAlone_m;
@@ -466,22 +444,10 @@ void Identity::remember(const std::vector<Track>& tracks,
 /// A stranger becomes one of the others; where there is no room, in the place of whoever has been
 /// away for longest.
 void Identity::meet(BodyBelief& belief) {
-  int replaced = kStranger;
-  if (gallery_.isFull()) {
-    double oldest_s = kInfinity;
-    for (int h = kFirstOther; h < kHypotheses; ++h) {
-      double seen_s = -kInfinity;
-      for (const Sighting& sighting : sightings_) {
-        if (sighting.probability[h] > 0.5) seen_s = sighting.seen_s;
-      }
-      if (away_[h] > 0.5 && seen_s < oldest_s) {
-        oldest_s = seen_s;
-        replaced = h;
-      }
-    }
-    if (replaced == kStranger) return;
-    for (Sighting& sighting : sightings_) sighting.probability[replaced] = 0.0;
-  }
+  Eigen::Index longest = 0;
+  seen_s_.tail<kMostOthers>().minCoeff(&longest);
+  const int replaced = gallery_.isFull() ? kFirstOther + static_cast<int>(longest) : kStranger;
+  if (replaced != kStranger && away_[replaced] < 0.5) return;
   Eigen::ArrayXXf mean = belief.sum;
   for (Eigen::Index part = 0; part < mean.cols(); ++part) {
     const float total = mean.col(part).sum();
@@ -491,10 +457,13 @@ void Identity::meet(BodyBelief& belief) {
   if (h == kStranger) return;
   for (std::vector<BodyBelief>* beliefs : {&beliefs_, &left_}) {
     for (BodyBelief& other : *beliefs) {
-      for (Evidence* evidence : {&other.log_place, &other.log_free, &other.log_views,
-                                 &other.view.mean, &other.log_stature}) {
+      for (Evidence* evidence : {&other.log_place, &other.log_free, &other.log_stature}) {
         (*evidence)[h] = (*evidence)[kStranger];
       }
+      for (LookOdds* odds : {&other.log_views, &other.view.mean}) {
+        odds->row(h) = odds->row(kStranger);
+      }
+      other.seen_as[h] = 0.0;
       other.log_place[h] += kLogMistaken;
       if (other.known_parts.size() > 0) other.known_parts.row(h) = 0.0;
     }
@@ -502,7 +471,7 @@ void Identity::meet(BodyBelief& belief) {
   belief.log_place[h] = belief.log_place[kStranger];
   belief.log_place[kStranger] += kLogMistaken;
   std::swap(belief.probability[h], belief.probability[kStranger]);
-  sight(belief, belief.place_m, belief.seen_s);
+  belief.seen_as = belief.probability;
   away_[h] = 0.0;
 }
 
@@ -510,20 +479,19 @@ void Identity::makeTarget(int track_id, const Eigen::Vector2d& place_m, double s
   BodyBelief* belief = find(track_id);
   if (belief == nullptr) belief = &begin(track_id, place_m, stamp_s);
   for (int h = kThing; h < kHypotheses; ++h) {
-    belief->log_place[h] = h < kTarget || gallery_.isKnown(h) ? kLogMistaken : -kInfinity;
+    belief->log_place[h] = h < kTarget || gallery_.isKnown(h) ? kLogMistaken : -kSurest;
   }
   belief->log_place[kTarget] = 0.0;
-  belief->log_views = belief->log_free = belief->log_stature = Evidence::Zero();
-  belief->log_garments.setZero();
+  belief->log_free = belief->log_stature = Evidence::Zero();
+  belief->log_views.setZero();
   belief->log_tallness.setZero();
   left_.clear();
   belief->view = {};
   belief->known_looks.resize(0);
   belief->looks = 0.0;
   belief->sum.setZero();
-  belief->see(stamp_s);
+  belief->see(place_m, stamp_s);
   weighTogether();
-  sight(*belief, place_m, stamp_s);
 }
 
 }  // namespace heel

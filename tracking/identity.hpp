@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -44,14 +45,6 @@ struct IdentityParams {
 /// Probability density [1/m²] of where the target is while nobody sees them, by whoever looks for
 /// them; absent: not known. Then they may have walked anywhere from where they were seen last.
 using TargetDensity = std::function<std::optional<double>(const Eigen::Vector2d& place_m)>;
-
-/// Where somebody was seen last, and who they may be.
-struct Sighting {
-  int track_id = 0;
-  Eigen::Vector2d place_m = Eigen::Vector2d::Zero();
-  double seen_s = 0.0;
-  Evidence probability = Evidence::Zero();
-};
 
 /// Believes of each track of a Tracker that it is a thing, a stranger, the target or one of the
 /// others who were met. Looks, places and ways are evidence; of several tracks at one time only one
@@ -98,8 +91,6 @@ class Identity {
   BodyBelief& begin(int track_id, const Eigen::Vector2d& place_m, double stamp_s);
   Evidence densities(const Eigen::Vector2d& place_m, double stamp_s) const;
   std::optional<double> searchDensity(const Eigen::Vector2d& place_m) const;
-  Sighting* findSighting(int track_id);
-  void sight(const BodyBelief& belief, const Eigen::Vector2d& place_m, double stamp_s);
   Evidence priorOf(const Eigen::Vector2d& place_m, double stamp_s,
                    const BodyBelief* but = nullptr) const;
   void count(BodyBelief& belief, double time_s, double stamp_s);
@@ -113,8 +104,7 @@ class Identity {
   Evidence logWeight(const BodyBelief& belief) const;
   void part(const BodyBelief& belief, double before, double gone);
   void leave(BodyBelief& belief);
-  void remember(const std::vector<Track>& tracks, const std::vector<Observation>& observations,
-                double stamp_s);
+  void remember(const std::vector<Track>& tracks, const std::vector<Observation>& observations);
   void meet(BodyBelief& belief);
 
   IdentityParams params_;
@@ -122,12 +112,14 @@ class Identity {
   Gallery gallery_;
   ClutterMap clutter_;
   std::vector<BodyBelief> beliefs_;
-  std::vector<BodyBelief> left_;      // of tracks that have ended, the last one last
-  std::vector<LookOdds> looks_;       // of the step's observations, alone,
+  std::vector<BodyBelief>
+      left_;                     // of tracks that have ended, the last one last: who was seen where
+  std::vector<LookOdds> looks_;  // of the step's observations, alone,
   std::vector<LookEvidence> parts_;   // and part by part,
   std::vector<Tallness> statures_;    // and of these
-  Evidence away_ = Evidence::Ones();  // of each person, that they are none of the tracks
-  std::vector<Sighting> sightings_;   // the last one last
+  Evidence away_ = Evidence::Ones();  // of each person, that they are none of the tracks,
+  Evidence seen_s_ =
+      Evidence::Constant(-std::numeric_limits<double>::infinity());  // and since when
   std::vector<BodyWeights> weights_;
   JointMarginals together_, after_;  // see weighTogether()
 };

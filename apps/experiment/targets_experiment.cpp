@@ -34,9 +34,10 @@ TargetResult lookFor(const std::string& person, const AppearanceModel& model,
       best_frames.push_back(target);
       started_frames.push_back(target);
       const std::vector<LookOdds>& looks = started.identity().looks();
-      const auto best = std::max_element(
-          looks.begin(), looks.end(),
-          [](const LookOdds& a, const LookOdds& b) { return a.all[kTarget] < b.all[kTarget]; });
+      const auto best =
+          std::max_element(looks.begin(), looks.end(), [](const LookOdds& a, const LookOdds& b) {
+            return a.row(kTarget).sum() < b.row(kTarget).sum();
+          });
       if (best != looks.end()) {
         const auto i = static_cast<std::size_t>(best - looks.begin());
         best_frames.back().estimate_m = seen.observations[i].position_m;

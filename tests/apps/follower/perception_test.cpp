@@ -57,7 +57,7 @@ TEST(Perception, FindsTheTargetAtItsPlace) {
     EXPECT_GE(step.color_pixels, step.color_points);
     EXPECT_GE(step.color_points, static_cast<int>(step.standing.size()));
     ASSERT_EQ(step.observations.size(), 1U);
-    EXPECT_GT(perception.identity().looks()[0].all[kTarget], 0.0);
+    EXPECT_GT(perception.identity().looks()[0].row(kTarget).sum(), 0.0);
     if (i > 1) expectFollowedAt(step, {x, -0.4});
   }
 }
