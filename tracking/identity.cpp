@@ -25,7 +25,7 @@ constexpr double kUnexpected = 0.02;   // Share of targets who are not where the
 constexpr double kMetLooks = 1.5;      // A stranger is met after so many independent looks.
 constexpr double kSurest = 12.0;       // Logarithm of the greatest odds of places and ways.
 constexpr double kAlone_m = 1.0;       // Nobody nearer: then a look is theirs alone.
-constexpr std::size_t kMostLeft = 32;  // Ended tracks that are remembered.
+constexpr std::size_t kMostLeft = 32;  // Ended tracks that are remembered: who was seen where.
 
 /// Weights of which the greatest is 1.
 Evidence relative(const Evidence& log_weight) { return (log_weight - log_weight.maxCoeff()).exp(); }
@@ -262,7 +262,7 @@ void Identity::step(double stamp_s, const std::vector<Track>& tracks, const Trac
   endBeliefs(tracks);
   if (report.dt_s < 0.0) {  // Of another clock.
     left_.clear();
-    seen_s_.setConstant(-kInfinity);
+    seen_s_.setConstant(stamp_s);
     clutter_.setClock(stamp_s);
   }
   for (const Track& track : tracks) {

@@ -15,7 +15,6 @@
 #include <Eigen/Core>
 
 #include <functional>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -112,14 +111,12 @@ class Identity {
   Gallery gallery_;
   ClutterMap clutter_;
   std::vector<BodyBelief> beliefs_;
-  std::vector<BodyBelief>
-      left_;                     // of tracks that have ended, the last one last: who was seen where
-  std::vector<LookOdds> looks_;  // of the step's observations, alone,
-  std::vector<LookEvidence> parts_;   // and part by part,
-  std::vector<Tallness> statures_;    // and of these
-  Evidence away_ = Evidence::Ones();  // of each person, that they are none of the tracks,
-  Evidence seen_s_ =
-      Evidence::Constant(-std::numeric_limits<double>::infinity());  // and since when
+  std::vector<BodyBelief> left_;        // of tracks that have ended, the last one last
+  std::vector<LookOdds> looks_;         // of the step's observations, alone,
+  std::vector<LookEvidence> parts_;     // and part by part,
+  std::vector<Tallness> statures_;      // and of these
+  Evidence away_ = Evidence::Ones();    // of each person, that they are none of the tracks,
+  Evidence seen_s_ = Evidence::Zero();  // and when they were seen last
   std::vector<BodyWeights> weights_;
   JointMarginals together_, after_;  // see weighTogether()
 };
